@@ -61,6 +61,9 @@ int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::fu
     }
     const RankNeeds own = needs();
     nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, group.default_idle(options.computer));
+    if (!options.quiet) {
+      links.tell_to([&call](const std::string& text) { std::cerr << call.name + ": " + text + '\n'; });
+    }
     options.computer.ranks = &links;
     RankRounds rounds(links);
     return rounds.is_first() ? lead(links, [&] { return with_usage_told([&] { return act(rounds); }); })

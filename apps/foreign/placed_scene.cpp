@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/lights.h"
 #include "apps/foreign/mesh/round_mesh.h"
+#include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/formats/view_faults.h"
 #include "apps/formats/whole_view.h"
@@ -191,13 +193,14 @@ class PlacedScene {
   void make_materials() {
     TextureReader textures(file_.pictures, result_.scene.name, files_, result_.scene.textures);
     const std::vector<bool> used = used_materials();
-    std::uint64_t black = 0, means = 0;
+    std::uint64_t black = 0, means = 0, too_bright = 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const FileMaterial& known = file_.materials[i];
       core::Material& material = file_.materials[i].material;
       if (!used[i] || known.is_cut_away) {
         continue;
       }
+      too_bright += dim(material.emission) ? 1 : 0;
       if (known.texture) {
         material.texture = textures.find(*known.texture).value_or(core::Material::no_texture);
         black += material.texture != core::Material::no_texture && material.color == Vec3d{} ? 1 : 0;
@@ -213,7 +216,20 @@ class PlacedScene {
         result_.notes,
         "materials whose texture of metal and roughness is shown by its mean, as it does not lie where that of their colour does",
         means);
+    note_count(result_.notes, "materials that shine with more than 1e12, the brightest light there is, brought down to it",
+               too_bright);
     judge_missing(missing, options_, result_.notes);
+  }
+
+  /// Keeps its colour. Returns whether it was too bright.
+  static bool dim(Vec3d& emission) {
+    if (!(largest_component(emission) > light_max)) {
+      return false;
+    }
+    const auto finite = [](double channel) { return std::min(channel, std::numeric_limits<double>::max()); };
+    const Vec3d light{finite(emission.x), finite(emission.y), finite(emission.z)};
+    emission = light * (1 / largest_component(light)) * light_max;
+    return true;
   }
 
   /// Gives a material its texture of metal and roughness, if somebody shows it; returns whether that is shown by its mean, as it
@@ -240,14 +256,24 @@ class PlacedScene {
     for (const PolygonMesh& back : backs_) {
       writer.add(behind(back), file_.materials);
     }
-    if (!writer.has_area()) {
-      refuse_without_area(file_, result_.notes);
-    }
+    settle_empty(writer.has_area());
     note_count(result_.notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());
     note_count(result_.notes, "spheres that are turned inside out, shown as if they were not", inside_out_);
     note_count(result_.notes, "meshes that let all light through, so that nothing of them is seen", writer.unseen());
     note_count(result_.notes, "meshes whose vertex colours are not used, since there is a texture",
                writer.meshes_without_colors());
+    note_count(
+        result_.notes,
+        "vertices that are no numbers or beyond 1e30, left out as no face has them (the first: " + writer.first_stray() + ")",
+        writer.strays());
+  }
+
+  /// A frame of an animation may show nothing; the view of a whole that is but a point is one of unit size.
+  void settle_empty(bool has_area) {
+    if (!has_area && (file_.shapes.empty() || !options_.animation)) {
+      refuse_without_area(file_, result_.notes);
+    }
+    result_.bounds.radius = result_.bounds.radius > 0 ? result_.bounds.radius : 1;
   }
 
   void add_shape(const ShapePlace& place, GeometryWriter& writer) {

@@ -22,6 +22,14 @@ namespace {
 /// The line, the three that each process has, and files that are handed over, one at a time.
 constexpr rlim_t files_max = 64;
 
+/// landlock_ruleset_attr as version 6 has it, which the headers of this system need not know: what is there is forbidden. Earlier
+/// versions know a shorter one.
+struct Ruleset {
+  std::uint64_t files = 0;   ///< a bit for each kind of access
+  std::uint64_t tcp = 3;     ///< to bind and to connect
+  std::uint64_t scopes = 3;  ///< beyond this process: abstract sockets, and signals
+};
+
 /// Never more than before, which only a superuser might set.
 bool limit(__rlimit_resource_t resource, rlim_t most) {
   rlimit limits{};
@@ -96,31 +104,35 @@ bool limit_all(std::uint64_t memory_bytes) {
 
 }  // namespace
 
-void tie_to_parent() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
+bool tie_to_parent() { return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0; }
 
 void be_first_to_end() { std::ofstream("/proc/self/oom_score_adj") << 1000; }
 
-/// By Landlock, of kernel 5.13 and later; its later versions know of more that can be done to a file.
-bool forbid_files() {
+/// Of kernel 5.13 and later. Its later versions know of more that can be done to a file, and of what else can be reached.
+Forbidden forbid_by_landlock() {
   const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (version < 1) {
-    return false;
+    return {};
   }
-  const int kinds = version == 1 ? 13 : version == 2 ? 14 : 15;
-  const landlock_ruleset_attr nothing{.handled_access_fs = (std::uint64_t{1} << kinds) - 1};
-  const long rules = ::syscall(SYS_landlock_create_ruleset, &nothing, sizeof(nothing.handled_access_fs), 0);
+  constexpr long has_tcp = 4, has_devices = 5, has_scopes = 6;
+  const int kinds = version == 1 ? 13 : version == 2 ? 14 : version < has_devices ? 15 : 16;
+  const Ruleset all{.files = (std::uint64_t{1} << kinds) - 1};
+  const std::size_t bytes = sizeof(std::uint64_t) * (version < has_tcp ? 1 : version < has_scopes ? 2 : 3);
+  const long rules = ::syscall(SYS_landlock_create_ruleset, &all, bytes, 0);
   const bool is_forbidden =
       rules >= 0 && ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::syscall(SYS_landlock_restrict_self, rules, 0) == 0;
   if (rules >= 0) {
     ::close(static_cast<int>(rules));
   }
-  return is_forbidden;
+  return {is_forbidden, is_forbidden && version >= has_scopes};
 }
 
 Confinement enter_sandbox(std::uint64_t memory_bytes) {
   Confinement confinement{.are_limits_set = limit_all(memory_bytes)};
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  confinement.are_files_forbidden = forbid_files();  // a second wall
+  const Forbidden forbidden = forbid_by_landlock();  // a second wall
+  confinement.are_files_forbidden = forbidden.are_files;
+  confinement.is_reach_forbidden = forbidden.is_reach;
   confinement.are_calls_filtered = filter_calls();
   return confinement;
 }

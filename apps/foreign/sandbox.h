@@ -7,13 +7,17 @@
 
 namespace dmpc::apps {
 
-/// Before anything else: the process ends with the one that started it.
-void tie_to_parent();
+/// Before anything else: the process ends with the one that started it; whether that is so.
+bool tie_to_parent();
 /// It is the first that the system ends when memory ends.
 void be_first_to_end();
 
-/// From now on this process can open, make or remove no file; whether that is so. Needs Landlock, which not every kernel has.
-bool forbid_files();
+/// What Landlock takes from this process from now on, of which not every kernel has all: opening, making and removing files, and
+/// what else it may reach, Confinement::is_reach_forbidden.
+struct Forbidden {
+  bool are_files = false, is_reach = false;
+};
+Forbidden forbid_by_landlock();
 
 /// From now on this process, which has one thread, can neither open nor write files, reach the network, or start threads and
 /// programs, and may take `memory_bytes` beside what it has. Returns what of that the kernel does; the rest holds nevertheless.

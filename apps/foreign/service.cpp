@@ -30,17 +30,19 @@ Confinement confinement_for([[maybe_unused]] std::uint64_t memory_bytes, [[maybe
 }
 
 void get_ready(Line& line, Matter matter) {
-  tie_to_parent();
+  const bool ends_with_dmpc = tie_to_parent();
   core::use_usual_arithmetic();
   ::dup2(STDOUT_FILENO, STDERR_FILENO);  // what libraries say of a file may be what the file has them say
   const std::optional<Message> message = line.receive(false);
   if (!message || message->saying != Saying::limits) {
     ::_exit(failed_status);
   }
-  const Confinement confinement = confinement_for(Unpacker(message->bytes).take<std::uint64_t>(), matter);
+  Confinement confinement = confinement_for(Unpacker(message->bytes).take<std::uint64_t>(), matter);
+  confinement.ends_with_dmpc = ends_with_dmpc;
   Packer fields;
   fields.add(protocol);
-  for (const bool flag : {confinement.are_calls_filtered, confinement.are_limits_set, confinement.are_files_forbidden}) {
+  for (const bool flag : {confinement.are_calls_filtered, confinement.are_limits_set, confinement.are_files_forbidden,
+                          confinement.is_reach_forbidden, confinement.ends_with_dmpc}) {
     fields.add_flag(flag);
   }
   line.send(Saying::ready, fields);

@@ -120,7 +120,9 @@ void MeshSession::note_alpha() {
                                    [](const core::Material& material) { return material.alpha != core::AlphaUse::none; });
   if (count > 0) {
     result_.notes.push_back(
-        "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth or a bounce: " +
+        "materials that alpha cuts out or blends, each of whose faces takes one of --depth or a bounce; they cast whole shadows "
+        "of lights "
+        "that are points, while by paths what skies and lamps send comes through, with more noise: " +
         grouped(static_cast<std::uint64_t>(count)));
   }
   if (pictures_.hidden_alphas() > 0) {
@@ -210,8 +212,9 @@ void MeshSession::answer_open(const std::string& path) {
   refuse_if_missing([&] {
     const auto [file, is_new] = open(path);
     current_ = path;
-    pictures_.add_bytes(is_new ? file.bytes : 0);
-    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
+    const std::uint64_t there = is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0;
+    pictures_.add_bytes(there);
+    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, there);
   });
 }
 
@@ -259,7 +262,7 @@ core::Texture MeshSession::texture_of_file(Unpacker fields) {
   const std::string path = fields.take_text();
   const TextureEdges edges = take_edges(fields);
   const PictureFile file = open_picture(path);
-  budget_.add_bytes(file.is_new ? file.bytes : 0);
+  budget_.add_bytes(file.is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0);
   return pictures_.read_texture(file, edges);
 }
 

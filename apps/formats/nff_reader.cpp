@@ -313,7 +313,7 @@ std::unique_ptr<TextInput> open(const std::string& path) {
   try {
     return std::make_unique<TextInput>(path);
   } catch (const core::InputError& error) {
-    throw core::InputError(path + ": " + error.what() + "; an NFF scene was expected");
+    throw core::InputError(std::string(error.what()) + "; an NFF scene was expected");
   }
 }
 

@@ -92,11 +92,7 @@ std::size_t NffTokens::get_line() {
 }
 
 std::size_t NffTokens::get_part(std::size_t size) {
-  try {
-    input_.getline(room_.get() + size, static_cast<std::streamsize>(room_bytes_ - size));
-  } catch (const core::InputError& error) {
-    throw core::InputError(name_ + ": " + error.what());
-  }
+  input_.getline(room_.get() + size, static_cast<std::streamsize>(room_bytes_ - size));
   if (input_.bad()) {
     throw core::InputError(name_ + ": reading failed after line " + std::to_string(line_));
   }

@@ -32,6 +32,8 @@ std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
   return std::min(spare_bytes + 2 * decoded_bytes_max(file_bytes) + file_bytes, reader_memory_bytes_max());
 }
 
+std::string size_text(std::uint32_t width, std::uint32_t height) { return std::to_string(width) + "x" + std::to_string(height); }
+
 std::string format_text(const PictureFile& file) {
   const auto format = picture_format(file.descriptor, file.ending);
   if (!format) {
@@ -144,7 +146,7 @@ void PictureReader::read(const PictureFile& file, const Request& request, const 
 
 /// What the one program leaves to the other has been looked at once in vain, which is on the budget.
 PictureReader::Head PictureReader::ask(const PictureFile& file, const std::string& format, const Request& request) {
-  budget_.add_bytes(file.is_new ? file.bytes : 0);
+  budget_.add_bytes(file.is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0);
   check_time();
   const bool is_any_there = process_ && program_ == Program::any,
              may_be_plain = std::ranges::find(plain_formats, format) != plain_formats.end();
@@ -182,12 +184,14 @@ void PictureReader::check_time() const {
   }
 }
 
+/// Of a texel, and with all levels, which are a third more: once as it is read, and once more when records are made of it.
 void PictureReader::take_room(const Head& head) {
   const std::uint64_t most = memory_bytes_max();
-  texture_bytes_ += std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3;
+  texture_bytes_ += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);
   if (texture_bytes_ > most) {
-    throw ComputerRoomError("with it the scene's textures take " + mebibytes_text(texture_bytes_) + ", and there is room for " +
-                            mebibytes_text(most) + ": make them smaller");
+    throw ComputerRoomError("with its " + size_text(head.width, head.height) + " texels the scene's textures take " +
+                            mebibytes_text(texture_bytes_) + ", and there is room for " + mebibytes_text(most) +
+                            ": make them smaller");
   }
 }
 
@@ -198,7 +202,7 @@ std::uint64_t PictureReader::memory_bytes_max() const {
 /// A texel is three floats, then four bytes, then up to three times that in tiles that are made, and laid out as records.
 void PictureReader::check_sky(const Head& head) const {
   constexpr std::uint64_t texel_bytes = 3 * sizeof(float) + 4 * sizeof(std::uint32_t);
-  const std::string size = std::to_string(head.width) + "x" + std::to_string(head.height);
+  const std::string size = size_text(head.width, head.height);
   if (std::max(head.width, head.height) > core::SkyTexels::size_max) {
     throw core::InputError("a sky of " + size + " texels; there may be " + std::to_string(core::SkyTexels::size_max) +
                            " along a side: make it smaller");

@@ -15,7 +15,11 @@ struct Confinement {
   bool are_limits_set = false;       ///< of memory, files and processes
   bool are_files_forbidden = false;  ///< Landlock lets it open none, whatever calls it may make
 
-  bool is_full() const { return are_calls_filtered && are_limits_set && are_files_forbidden; }
+  bool is_reach_forbidden = false;  ///< and by Landlock's later versions TCP, devices, others' signals and abstract sockets
+  bool ends_with_dmpc = false;      ///< however that ends
+
+  /// A filter of calls takes what is reached, too, so Landlock need not.
+  bool is_full() const { return are_calls_filtered && are_limits_set && are_files_forbidden && ends_with_dmpc; }
 };
 
 /// What is asked of this computer before a reader gets a byte of a foreign file.

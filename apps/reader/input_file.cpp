@@ -2,7 +2,9 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -48,6 +50,9 @@ InputFile find_input_file(const fs::path& path) {
   }
   std::error_code error;
   file.resolved = fs::read_symlink(link_of(file.descriptor), error);
+  if (std::error_code none; error && !fs::exists("/proc/self/fd", none)) {
+    throw core::InputError("cannot be opened, as there is no /proc here, which says what its name leads to: mount it");
+  }
   if (error) {
     throw core::InputError("lies so deep in folders that its name cannot be told; move it");
   }
@@ -61,6 +66,25 @@ void open_input_file(InputFile& file) {
     fail_to_open();
   }
   file.descriptor = std::move(opened);
+}
+
+std::uint64_t bytes_without_holes(const Descriptor& file, std::uint64_t bytes) {
+  constexpr int pieces_max = 1000;  // of a file that is more of a sieve the rest counts as it is
+  std::uint64_t count = 0, at = 0;
+  for (int piece = 0; piece < pieces_max && at < bytes; ++piece) {
+    const off_t begin = ::lseek(file.number(), static_cast<off_t>(at), SEEK_DATA);
+    if (begin < 0) {
+      return errno == ENXIO ? count : bytes;
+    }
+    const off_t end = ::lseek(file.number(), begin, SEEK_HOLE);
+    if (end < 0) {
+      return bytes;
+    }
+    count += static_cast<std::uint64_t>(end - begin);
+    at = static_cast<std::uint64_t>(end);
+  }
+  ::lseek(file.number(), 0, SEEK_SET);
+  return count + (bytes - std::min(at, bytes));
 }
 
 }  // namespace dmpc::apps

@@ -129,8 +129,12 @@ Confinement ReaderProcess::hear_that_it_is_ready() {
   const Message message = receive();
   Unpacker fields(message.bytes);
   Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
-  const bool are_calls_filtered = fields.take_flag(), are_limits_set = fields.take_flag();
-  return {are_calls_filtered, are_limits_set, fields.take_flag()};
+  Confinement confinement;
+  for (bool* const flag : {&confinement.are_calls_filtered, &confinement.are_limits_set, &confinement.are_files_forbidden,
+                           &confinement.is_reach_forbidden, &confinement.ends_with_dmpc}) {
+    *flag = fields.take_flag();
+  }
+  return confinement;
 }
 
 void ReaderProcess::check(const Confinement& confinement) {

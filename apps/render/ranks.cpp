@@ -1,7 +1,10 @@
 #include "apps/render/ranks.h"
 
 #include <algorithm>
+#include <chrono>
+#include <iostream>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "apps/edge/ranks/parts.h"
@@ -62,7 +65,10 @@ void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
                    const std::stop_token& stop) {
-  nodes::RankLinks links(fabric, {}, options.runner.idle);
+  nodes::RankLinks links(fabric, {.longest = std::chrono::seconds(options.runner.patience_seconds)}, options.runner.idle);
+  if (!options.quiet) {
+    links.tell_to([](const std::string& text) { std::cerr << "dmpc: " + text + '\n'; });
+  }
   return links.rank() == 0 ? lead(links, [&] { return render(links); })
                            : follow(links, [&] { take_part(links, options.strategy, stop); });
 }

@@ -40,6 +40,10 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
       "all the processes that mpirun or srun has started; the first of them reads, prints and writes");
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
                      "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
+  options.add_number(
+      "--patience", render.runner.patience_seconds, 1, 86400, "600",
+      "Seconds that ranks wait for one of which they hear nothing, as it stands still; said every 30 (mpi). A process "
+      "that ends takes all with it at once");
   add_machine_option(options, render.runner.machine_name, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
@@ -140,6 +144,9 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_tracer(render);
   check_runner(options, render.runner.kind);
   check_tracer_and_runner(render);
+  if (options.is_given("--patience") && render.runner.kind != RunnerKind::mpi) {
+    throw UsageError("--patience goes with --runner=mpi");
+  }
   check_heat(render.heat_maps, render.strategy);
   check_trace(render.trace);
   check_references(render);

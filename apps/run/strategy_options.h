@@ -39,6 +39,7 @@ enum class TracerChoice : std::uint8_t { grid, embree };
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::threads;
   std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
+  std::uint32_t patience_seconds = 600;   ///< with ranks of which nothing is heard
   nodes::Idle idle = nodes::Idle::sleep;  ///< what ranks' communicating threads do meanwhile, as their processors have it
 };
 

@@ -83,6 +83,31 @@ std::string bare(std::string line) {
   return begin == std::string::npos ? std::string() : line.substr(begin, end + 1 - begin);
 }
 
+std::vector<Keyframe> keyframes_in(std::istream& input, const std::filesystem::path& file) {
+  std::vector<Keyframe> keyframes;
+  std::string line;
+  for (std::uint64_t number = 1; std::getline(input, line); ++number) {
+    const std::string place = file.string() + ":" + std::to_string(number);
+    if (line.size() > line_bytes_max) {
+      refuse(place, "this line has " + grouped(line.size()) + " bytes: expected FRAME CAMERA");
+    }
+    const std::string words = bare(line);
+    if (words.empty()) {
+      continue;
+    }
+    const Keyframe keyframe = keyframe_in(words, place);
+    if (!keyframes.empty() && keyframe.frame <= keyframes.back().frame) {
+      refuse(place, "frame " + grouped(keyframe.frame) + " does not follow frame " + grouped(keyframes.back().frame) +
+                        ", the keyframe before it");
+    }
+    keyframes.push_back(keyframe);
+  }
+  if (keyframes.empty()) {
+    refuse(file.string(), "expected a keyframe, a line such as 1 4,3,5/0,0,0/0,1,0/45");
+  }
+  return keyframes;
+}
+
 }  // namespace
 
 CameraPath CameraPath::turntable(double degrees) {
@@ -155,29 +180,12 @@ void CameraPath::check(std::uint64_t first, std::uint64_t last) const {
 }
 
 CameraPath read_camera_path(const std::filesystem::path& file) {
-  TextInput input(file);
-  std::vector<Keyframe> keyframes;
-  std::string line;
-  for (std::uint64_t number = 1; std::getline(input, line); ++number) {
-    const std::string place = file.string() + ":" + std::to_string(number);
-    if (line.size() > line_bytes_max) {
-      refuse(place, "this line has " + grouped(line.size()) + " bytes: expected FRAME CAMERA");
-    }
-    const std::string words = bare(line);
-    if (words.empty()) {
-      continue;
-    }
-    const Keyframe keyframe = keyframe_in(words, place);
-    if (!keyframes.empty() && keyframe.frame <= keyframes.back().frame) {
-      refuse(place, "frame " + grouped(keyframe.frame) + " does not follow frame " + grouped(keyframes.back().frame) +
-                        ", the keyframe before it");
-    }
-    keyframes.push_back(keyframe);
+  try {
+    TextInput input(file);
+    return CameraPath(keyframes_in(input, file));
+  } catch (const core::InputError& error) {
+    throw core::InputError(std::string("--camera-path=") + error.what());
   }
-  if (keyframes.empty()) {
-    refuse(file.string(), "expected a keyframe, a line such as 1 4,3,5/0,0,0/0,1,0/45");
-  }
-  return CameraPath(std::move(keyframes));
 }
 
 }  // namespace dmpc::apps

@@ -48,21 +48,23 @@ bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
          (transport.is_by_paths() && has_what_shines(scene));
 }
 
-/// Of a scene that is not lit.
-std::string dark_text(const core::Scene& scene, const TransportOptions& transport) {
+/// Of a scene that is not lit, and may have a sky of its own.
+std::string dark_text(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (has_what_shines(scene)) {
     return "no light is in it but what shines by itself, which lights other things by --transport=paths alone";
   }
   return std::string("no light is in it: what reflects none is black; --light=X,Y,Z adds one") +
-         (transport.is_by_paths() ? ", --sky=1 a sky" : "");
+         (transport.is_by_paths() ? ", --sky=1 a sky"
+          : has_sky               ? ", --transport=paths the sky that its file may have"
+                                  : "");
 }
 
 /// Warns of pictures that are black, or nothing but background, because the scene is.
-void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport) {
+void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (object_count(scene) == 0) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
   } else if (!is_lit(scene, transport)) {
-    say_once({scene.name + ": " + dark_text(scene, transport)});
+    say_once({scene.name + ": " + dark_text(scene, transport, has_sky)});
   }
 }
 
@@ -218,9 +220,10 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, sky_note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
+    say_once({note, sky_note, contrast_text(scene.sky), may_be_black ? shadow_note(picture.staging) : "",
+              picture.is_one_path_unasked ? one_path_note : "",
               picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left)});
-    say_what_is_missing(scene, picture.transport);
+    say_what_is_missing(scene, picture.transport, is_below_own_sky(picture.scene));
   }
   return scene;
 }

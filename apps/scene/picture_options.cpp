@@ -52,10 +52,15 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// What says how a picture is lit or how well it is rendered, in words that are not those of paths alone. Who says any of it
-/// gets that, and nothing else that was not asked for.
-constexpr std::array said_otherwise{"--transport", "--samples", "--quality", "--light",  "--background",
-                                    "--fill",      "--ambient", "--depth",   "--cutoff", "--convention"};
+/// What says how a picture is lit, in words that are not those of paths alone. Who says any of it gets that; how well it is
+/// rendered, and what is seen behind it, are other questions.
+constexpr std::array said_of_light{"--transport", "--light", "--fill", "--ambient", "--convention"};
+
+/// The first of these words that is given, or nothing.
+const char* light_said(const OptionSet& options) {
+  const auto* const said = std::ranges::find_if(said_of_light, [&](const char* name) { return options.is_given(name); });
+  return said == said_of_light.end() ? nullptr : *said;
+}
 
 /// A whole scene's own is what it is shown by, unless another is asked for.
 std::optional<SkyChoice> sky_of(const PictureOptions& picture) {
@@ -66,8 +71,7 @@ void present_mesh(const OptionSet& options, PictureOptions& picture) {
   if (!picture.presents_meshes || !is_mesh(picture.scene)) {
     return;
   }
-  const bool is_said =
-      std::any_of(said_otherwise.begin(), said_otherwise.end(), [&](const char* name) { return options.is_given(name); });
+  const bool is_said = light_said(options) != nullptr;
   if (!is_said) {
     picture.is_by_paths_unasked = true;
     picture.transport.kind = core::TransportKind::paths;
@@ -94,24 +98,21 @@ void refine_paths(PictureOptions& picture) {
   }
 }
 
-/// A mesh that is shown by paths unless something else is said, below a sky that is asked for: what has been said names itself.
+/// A mesh that is shown by paths unless other light is asked for, below a sky that is asked for: what asks for it is named.
 void check_presented(const OptionSet& options, const PictureOptions& picture) {
   if (!picture.presents_meshes || !is_mesh(picture.scene) || !picture.transport.sky || picture.transport.is_by_paths() ||
       options.is_given("--transport") || options.is_given("--background")) {
     return;
   }
-  for (const char* const name : said_otherwise) {
-    if (options.is_given(name)) {
-      throw core::UsageError(std::string("--sky goes with --transport=paths, which a mesh has by itself only where ") + name +
-                             " is not given: say --transport=paths, too");
-    }
+  if (const char* const said = light_said(options)) {
+    throw core::UsageError(std::string("--sky goes with --transport=paths, which a mesh has by itself only where ") + said +
+                           " is not given: say --transport=paths, too");
   }
 }
 
 /// Of paths one number says how deep rays get, and what is seen behind everything is the sky's horizon.
 void settle_transport(const OptionSet& options, PictureOptions& picture) {
-  const bool are_paths_its_own =
-      picture.transport.is_by_paths() && is_below_own_sky(picture.scene) && !options.is_given("--background");
+  const bool are_paths_its_own = picture.transport.is_by_paths() && is_below_own_sky(picture.scene);
   picture.transport.sky = are_paths_its_own ? sky_of(picture) : picture.transport.sky;
   check_presented(options, picture);
   check(options, picture.transport);

@@ -63,8 +63,8 @@ struct PictureOptions {
 };
 
 /// Declares them. What presents_meshes is now decides of what they say, and of what a mesh file shows by default. Where no option
-/// says how it is lit, by what transport, or how well: paths under mesh_sky(), or the sky that is asked for, to an error. Else
-/// Whitted's transport, to an error unless samples or a quality are asked for.
+/// says how it is lit or by what transport: paths under mesh_sky(), or the sky that is asked for; else Whitted's transport. Both
+/// to an error unless samples or a quality are asked for, which, as all that says how well it is rendered, change no light.
 void add_options(OptionSet options, PictureOptions& picture);
 /// Declares those of how light gets about, for commands that know of it. Behind the others.
 void add_transport_options(OptionSet options, PictureOptions& picture);

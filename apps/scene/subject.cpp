@@ -62,7 +62,9 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
   core::Database database = core::build_database(std::move(scene), build, copy_limits(picture, chose_copies));
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
-  const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
+  const core::RecordCounts& records = database.records();
+  const std::string emitters =
+      emitters_text({database.header().emitter_count, records.emitters_met, records.emitters_covered}, picture.transport);
   const bool has_copies = database.primitives().size() == database.header().primitive_count;
   const std::string kept =
       instances_text(options, build.keeps_instances, database.records(), share) +

@@ -19,7 +19,9 @@ using core::UsageError;
 
 /// One fewer than below other skies.
 constexpr int bounces_below_picture_max = 253;
-constexpr const char* beside_sky = " does not go with --sky, which is what no ray meets";
+constexpr const char* beside_sky =
+    " does not go with --sky, nor with the sky below which a mesh is shown that nothing else lights, since a sky is what no ray "
+    "meets: say --sky alone, or --transport=whitted";
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
@@ -36,7 +38,9 @@ void refuse_each(const OptionSet& options, std::initializer_list<const char*> na
 }
 
 void check_paths(const OptionSet& options, const TransportOptions& transport) {
-  const std::string by_paths = " does not go with --transport=paths: ";
+  const std::string by_paths = options.is_given("--transport")
+                                   ? " does not go with --transport=paths: "
+                                   : " does not go with paths, by which a mesh is shown unless --transport=whitted is given: ";
   refuse_each(options, {"--depth"}, by_paths + "say --bounces");
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
   refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
@@ -154,15 +158,23 @@ core::Transport transport_of(const TransportOptions& options, const core::Vec3d&
   return transport;
 }
 
-std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const TransportOptions& options) {
-  return others == 0 || options.emitters_max() == 0
-             ? ""
-             : counted(others, "primitive") + (others == 1 ? " shines" : " shine") + " and " + (others == 1 ? "is" : "are") +
-                   " met by chance alone, which is noisy: " +
-                   (emitters == options.emitters
-                        ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
-                        : "cones, what is a millionth as strong as others, and what alpha or other faces in its plane leave a "
-                          "part of");
+std::string emitters_text(const EmitterCounts& counts, const TransportOptions& options) {
+  if (options.emitters_max() == 0) {
+    return "";
+  }
+  const auto shine = [](std::uint64_t count) { return counted(count, "primitive") + (count == 1 ? " shines" : " shine"); };
+  const std::string others = counts.others == 0
+                                 ? ""
+                                 : shine(counts.others) + " and " + (counts.others == 1 ? "is" : "are") +
+                                       " met by chance alone, which is noisy: " +
+                                       (counts.emitters == options.emitters
+                                            ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
+                                            : "cones, what is a millionth as strong as others, and what alpha leaves a part of");
+  const std::string covered = counts.covered == 0 ? ""
+                                                  : shine(counts.covered) +
+                                                        " in the plane of faces that show before: what these leave of that, if "
+                                                        "anything, is met by chance alone";
+  return others + (others.empty() || covered.empty() ? "" : "; ") + covered;
 }
 
 std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options) {

@@ -60,9 +60,12 @@ const char* name_of(core::TransportKind kind);
 /// As the nodes have it. `zenith`: of unit length, in the world.
 core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith);
 
-/// A sentence about what shines by itself and is met by chance alone, as `emitters` of a database are aimed at and `others` are
-/// not; empty if that is nothing, or nobody aims at anything.
-std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const TransportOptions& options);
+/// Of a database: what shines by itself and is aimed at, what is not, and what faces in its plane may hide (core/database).
+struct EmitterCounts {
+  std::uint64_t emitters = 0, others = 0, covered = 0;
+};
+/// A sentence about what shines by itself and is not aimed at; empty if that is nothing, or nobody aims at anything.
+std::string emitters_text(const EmitterCounts& counts, const TransportOptions& options);
 
 /// A sentence about materials that give more light than they get, of which a picture by paths shows more than there is; empty if
 /// there is none, or nothing scatters.

@@ -126,7 +126,7 @@ std::string picture_text(const PictureOptions& picture) {
   const std::string error =
       std::string(", refined to the default error of ") + default_error(picture.transport.is_by_paths()).text;
   return transport + (picture.is_refined_unasked ? error : "") +
-         (picture.is_by_paths_unasked  ? " (--transport=whitted for hard light, --samples=1 for one ray of it a pixel)"
+         (picture.is_by_paths_unasked  ? " (--transport=whitted for hard light)"
           : picture.is_refined_unasked ? " (--samples=1 for one ray a pixel)"
                                        : "");
 }

@@ -550,6 +550,7 @@ void rearrange(Conversion& conversion, const std::vector<std::uint32_t>& from) {
   };
   follow(conversion.smooth);
   follow(conversion.textured);
+  follow(conversion.whole_lamps);
 }
 
 }  // namespace dmpc::core

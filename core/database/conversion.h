@@ -61,8 +61,12 @@ struct Conversion {
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // What places of meshes bring along, and settle_coplanar() and drop_twins() add:
-  std::vector<KeptPlane> planes;    ///< by PrimitiveValues::plane() - 1
-  std::int32_t place_layers = 0;    ///< the highest layer of a plane of places whose copies are left out
+  std::vector<KeptPlane> planes;  ///< by PrimitiveValues::plane() - 1
+  std::int32_t place_layers = 0;  ///< the highest layer of a plane of places whose copies are left out
+  struct Lamp {
+    std::uint32_t primitive;
+  };
+  std::vector<Lamp> whole_lamps;    ///< of triangles that share a plane those that shine and that no other covers
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells
   std::uint32_t duplicates = 0;     ///< triangles left out
   std::vector<CloseFaces> close_faces;

@@ -333,10 +333,28 @@ class Planes {
   std::uint32_t level_count_ = 0, count_ = 0;
 };
 
-/// By who shows where triangles cover each other: what transmits comes after what does not.
+/// By who shows where triangles cover each other.
 void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const Material> materials) {
-  std::stable_partition(set.begin(), set.end(),
-                        [&](std::uint32_t id) { return !materials[conversion.shading[id].material()].lets_through(); });
+  const auto rank = [&](std::uint32_t id) { return materials[conversion.shading[id].material()].rank_in_plane(); };
+  std::stable_sort(set.begin(), set.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+}
+
+/// Adds what shines and shows whole in a set of one plane, which comes by precedence: of more than a few nothing is known.
+void add_whole_lamps(const Ids& set, std::span<const Material> materials, Conversion& conversion) {
+  constexpr std::size_t lamps_max = 1024;
+  const auto lamps_end = std::find_if(
+      set.begin(), set.end(), [&](std::uint32_t id) { return materials[conversion.shading[id].material()].rank_in_plane() > 0; });
+  const auto count = static_cast<std::size_t>(lamps_end - set.begin());
+  std::vector<Face> lamps;
+  for (std::size_t i = 0; i < count && count <= lamps_max; ++i) {
+    const Face& lamp = lamps.emplace_back(conversion.primitives[set[i]], set[i], conversion.sources[set[i]].object);
+    const bool is_covered = std::any_of(lamps.begin(), lamps.end() - 1, [&](const Face& before) {
+      return before.object != lamp.object && cover(before, lamp, before.main_axis());
+    });
+    if (!is_covered) {
+      conversion.whole_lamps.push_back({set[i]});
+    }
+  }
 }
 
 /// Takes out of a set, which comes by precedence, what has the corners of one before it.
@@ -368,6 +386,7 @@ class Settler {
   /// Of a set that lies in one plane, for doubles as for floats.
   void share(Ids set) {
     settle(set);
+    add_whole_lamps(set, materials_, conversion_);
     planes_.share(set);
   }
   void stack(FaceStack stack) {

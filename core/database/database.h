@@ -100,6 +100,7 @@ struct RecordCounts {
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
   std::uint64_t materials = 0;         ///< without the finishes that stand behind them
   std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters
+  std::uint64_t emitters_covered = 0;  ///< likewise, of which others in their plane may leave nothing to be met
   std::uint64_t instance_blocks = 0, instances = 0;
   std::uint64_t kept_meshes = 0;                              ///< that instances are of
   std::uint64_t kept_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
@@ -116,7 +117,7 @@ class Database {
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
   /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which
-  /// share a plane those come last that let light through (core/database/coplanar.h).
+  /// share a plane those come first that shine, and last that let light through (core/database/coplanar.h).
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
   /// By PrimitiveValues::plane() - 1.

@@ -211,6 +211,7 @@ void DatabaseBuilder::write_materials() {
 
 void DatabaseBuilder::write_emitters() {
   counts().emitters_met = emitters_.others;
+  counts().emitters_covered = emitters_.covered;
   if (emitters_.records.empty()) {
     return;
   }

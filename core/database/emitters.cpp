@@ -18,13 +18,13 @@ struct Candidate {
   std::uint32_t primitive;
 };
 
-/// 0 of what cannot be aimed at.
+/// 0 of what is never aimed at.
 double area_of(const PrimitiveValues& primitive) {
   if (primitive.kind == PrimitiveKind::sphere) {
     const double radius = primitive.curved().value(3);
     return radius > 0.0 ? 4.0 * std::numbers::pi * radius * radius : 0.0;
   }
-  if (primitive.kind == PrimitiveKind::cone || primitive.plane() != 0) {
+  if (primitive.kind == PrimitiveKind::cone) {
     return 0.0;
   }
   const Vec3d corner = primitive.vector(0);
@@ -51,13 +51,27 @@ class Chooser {
     return scene_.materials[conversion_.shading[primitive].material()];
   }
 
+  /// What other faces in its plane may leave nothing of.
+  std::vector<bool> find_covered() const {
+    std::vector<bool> is_covered(conversion_.primitives.size());
+    for (std::uint32_t primitive = 0; primitive < is_covered.size(); ++primitive) {
+      is_covered[primitive] = conversion_.primitives[primitive].plane() != 0;
+    }
+    for (const Conversion::Lamp& lamp : conversion_.whole_lamps) {
+      is_covered[lamp.primitive] = false;
+    }
+    return is_covered;
+  }
+
   void find_candidates() {
+    const std::vector<bool> is_covered = find_covered();
     for (std::uint32_t primitive = 0; primitive < conversion_.primitives.size(); ++primitive) {
       const Material& material = material_of(primitive);
       const double strength = strength_of(Color(material.emission));
-      result_.others += material.emission == Vec3d{} ? 0 : 1;
-      const double power =
-          material.alpha == AlphaUse::none && strength > 0.0 ? strength * area_of(conversion_.primitives[primitive]) : 0.0;
+      result_.others += material.shines() && !is_covered[primitive] ? 1 : 0;
+      result_.covered += material.shines() && is_covered[primitive] ? 1 : 0;
+      const bool is_whole = material.alpha == AlphaUse::none && !is_covered[primitive];
+      const double power = is_whole && strength > 0.0 ? strength * area_of(conversion_.primitives[primitive]) : 0.0;
       if (power > 0.0 && power < std::numeric_limits<double>::infinity()) {
         drawn_.push_back({power, primitive});
       }

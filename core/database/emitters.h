@@ -16,11 +16,12 @@ struct Emitters {
   std::vector<Material> materials;     ///< theirs, which stand behind the scene's
   float density = 0;                   ///< DatabaseHeader::emitter_density
   std::uint64_t others = 0;            ///< primitives that shine and are met by chance alone
+  std::uint64_t covered = 0;           ///< and what others in their plane leave of these
 };
 
 /// Chooses up to `count_max` triangles and spheres of the greatest power, each to be drawn in proportion to that, and gives them
 /// materials of their own, which only say that. Met by chance alone are all others: cones, spheres seen from inside, what alpha
-/// leaves a part of, triangles that others cover in their plane, and what has less than a millionth of the mean power.
+/// leaves a part of, triangles that others may cover in their plane, and what has less than a millionth of the mean power.
 Emitters choose_emitters(Conversion& conversion, const Scene& scene, std::uint32_t count_max);
 
 }  // namespace dmpc::core

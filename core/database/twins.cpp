@@ -15,10 +15,10 @@ namespace {
 
 struct Twin {
   SortedCorners corners;
-  bool transmits;
+  int rank;
   std::uint32_t id;
 
-  bool is_like(const Twin& other) const { return transmits == other.transmits && corners == other.corners; }
+  bool is_like(const Twin& other) const { return rank == other.rank && corners == other.corners; }
   auto operator<=>(const Twin&) const = default;
 };
 
@@ -89,8 +89,8 @@ bool drop_twins(Conversion& conversion, const Scene& scene, const GridFrame& fra
   std::vector<Twin> triangles;
   for (std::uint32_t id = 0; id < conversion.primitives.size(); ++id) {
     if (conversion.primitives[id].kind == PrimitiveKind::triangle && place_of(scene, conversion.sources[id].object) == nullptr) {
-      const bool transmits = scene.materials[conversion.shading[id].material()].lets_through();
-      triangles.push_back({sorted_corners(conversion.primitives[id]), transmits, id});
+      const int rank = scene.materials[conversion.shading[id].material()].rank_in_plane();
+      triangles.push_back({sorted_corners(conversion.primitives[id]), rank, id});
     }
   }
   std::sort(triangles.begin(), triangles.end());

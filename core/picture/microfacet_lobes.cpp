@@ -56,7 +56,9 @@ MicrofacetBound bound_of_one(const Material& material, double texture_max) {
   constexpr int cosines = 64;
   const Surface surface(material, texture_max);
   const double alpha = surface.alpha();
-  MicrofacetBound bound{.direct = surface.scattered * over_mean_unreflected};
+  const double index = material.refraction_index;
+  const double crowding = material.transmittance > 0 && index > 1.0 ? index * index * spare : 1.0;
+  MicrofacetBound bound{.direct = surface.scattered * over_mean_unreflected * crowding};
   if (alpha >= sharpest_alpha) {
     bound.direct += surface.reflected(0.0) / (2.0 * alpha * alpha * alpha);
   }
@@ -97,6 +99,23 @@ double MicrofacetLobes::share_at(double cosine) const {
   return schlick_share(cosine);
 }
 
+/// From within, what the matt layer scatters, which lies outside, is bent towards the normal, into the cone of the critical
+/// angle: as much light, in less of the directions.
+double MicrofacetLobes::crowding_at(double cosine) const {
+  const double crowding = std::max(1.0, index_ * index_);
+  return crowding * (1.0 - cosine * cosine) < 1.0 ? crowding : 0.0;
+}
+
+Vec3d MicrofacetLobes::matt_direction(const SamplePair& direction) const {
+  const Vec3d& normal = state_.normal;
+  const Vec3d outside = cosine_direction(direction, normal);
+  if (!(index_ > 1.0)) {
+    return outside;
+  }
+  const Vec3d across = (outside - normal * dot(outside, normal)) * (1.0 / index_);
+  return across + normal * std::sqrt(std::max(0.0, 1.0 - dot(across, across)));
+}
+
 /// By mirrors at this cosine.
 Vec3d MicrofacetLobes::reflected_share(double cosine) const {
   return straight_ + (white(double{facets_.there}) - straight_) * share_at(cosine);
@@ -107,7 +126,8 @@ Vec3d MicrofacetLobes::response(const Vec3d& in) const {
     return {};
   }
   const double cosine = std::min(dot(in, state_.normal), 1.0);
-  const Vec3d scattered = scattered_ * (unreflected_ * (1.0 - share_at(cosine)) * over_mean_unreflected * std::numbers::inv_pi);
+  const double coupling = unreflected_ * (1.0 - share_at(cosine)) * crowding_at(cosine);
+  const Vec3d scattered = scattered_ * (coupling * over_mean_unreflected * std::numbers::inv_pi);
   if (is_mirror()) {
     return scattered * cosine;
   }
@@ -122,7 +142,8 @@ double MicrofacetLobes::density(const Vec3d& in) const {
   if (!is_above(state_, in) || !(chances_.all() > 0.0)) {
     return 0.0;
   }
-  const double scattered = chances_.scattered * dot(in, state_.normal) * std::numbers::inv_pi;
+  const double cosine = dot(in, state_.normal);
+  const double scattered = chances_.scattered * crowding_at(cosine) * cosine * std::numbers::inv_pi;
   const double half = std::min(dot(normalize(in + out_), state_.normal), 1.0);
   const double reflected = is_mirror() ? 0.0 : chances_.reflected * reflected_density(double{facets_.alpha}, cosine_, half);
   return (scattered + reflected) / chances_.all();
@@ -131,7 +152,7 @@ double MicrofacetLobes::density(const Vec3d& in) const {
 std::optional<PathStep> MicrofacetLobes::step(const SamplePair& choice, const SamplePair& direction) const {
   const double place = choice.x * chances_.all();
   if (place < chances_.scattered) {
-    return spread_step(cosine_direction(direction, state_.normal));
+    return spread_step(matt_direction(direction));
   }
   if (place < chances_.scattered + chances_.reflected) {
     return is_mirror() ? std::optional(mirror_step()) : spread_step(reflected_direction(direction));

@@ -42,6 +42,9 @@ class MicrofacetLobes {
 
   bool is_mirror() const;
   double share_at(double cosine) const;
+  /// How many times as dense the matt layer's directions are as above a surface that bends nothing, where there are any.
+  double crowding_at(double cosine) const;
+  Vec3d matt_direction(const SamplePair& direction) const;
   Vec3d reflected_share(double cosine) const;
   std::optional<PathStep> spread_step(const Vec3d& in) const;
   PathStep mirror_step() const;

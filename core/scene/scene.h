@@ -72,6 +72,9 @@ struct Material {
   bool shines() const { return emission != Vec3d{}; }
   /// Whether light may come through it somewhere.
   bool lets_through() const { return transmittance > 0 || alpha != AlphaUse::none; }
+  /// Of faces that cover each other in one plane the least shows: what shines before what does not, and before both what lets no
+  /// light through, so that a lamp lights in its ceiling's plane, and a glass box shows the floor that it stands on.
+  int rank_in_plane() const { return (lets_through() ? 2 : 0) + (shines() ? 0 : 1); }
   /// The most of highlight and mirror in any channel, if `color` is multiplied by no more than `texture_max`.
   double specular_max(double texture_max = 1) const;
 };

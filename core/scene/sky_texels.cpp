@@ -28,6 +28,9 @@ SkyTexels sky_texels(std::uint32_t width, std::uint32_t height, std::span<const 
     sky.texels.push_back(encoded(TexelFormat::shared_exponent, light));
     const Color kept = decoded(TexelFormat::shared_exponent, sky.texels.back());
     sky.brightest = std::max(sky.brightest, double{std::max({kept.x, kept.y, kept.z})} * sky.scale);
+    const Vec3d off = Vec3d(kept) - light;
+    const double most_off = std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)});
+    sky.coarse += most_off > largest_component(light) * 0x1p-7 ? 1 : 0;
   }
   return sky;
 }

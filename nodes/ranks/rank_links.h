@@ -1,12 +1,15 @@
 // One rank's links to all others: what it sends them, what comes from them, and whether they are still there.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nodes/ranks/fabric.h"
@@ -20,9 +23,10 @@ namespace dmpc::nodes {
 /// clusters stop what has to wait for others, nobody was silent.
 struct RankSilence {
   std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long
-  std::chrono::milliseconds longest{30'000};   ///< one that says nothing for so long is lost
+  std::chrono::milliseconds longest{600'000};  ///< one that says nothing for so long is lost: a debugger may hold it, or swapping
+  std::chrono::milliseconds told{30'000};      ///< each time one has said nothing for so long that is told
   /// Who looks up after a longer time than this did not run in between, and counts no more than this.
-  std::chrono::milliseconds look_max() const { return longest / 8; }
+  std::chrono::milliseconds look_max() const { return std::min(longest, told) / 8; }
 };
 
 /// Thread safety: belongs to one thread at a time.
@@ -67,8 +71,10 @@ class RankLinks {
     return taken > 0;
   }
 
-  /// Shows others that this rank lives; throws LostRank if one has been silent for too long.
+  /// Shows others that this rank lives, and tells whom it waits for; throws LostRank if one has been silent for too long.
   void look_after();
+  /// Who is told "rank 1 on host b: ..." of a rank that is waited for: on rank 0, and where that is the one on rank 1.
+  void tell_to(std::function<void(const std::string&)> listener) { listener_ = std::move(listener); }
 
   struct Sent {
     std::uint64_t frames = 0, bytes = 0;
@@ -87,6 +93,7 @@ class RankLinks {
   struct Peer {
     FrameNumber frames_taken = 0;
     Clock::duration heard{};  ///< by the time in which this rank ran
+    std::int64_t told = 0;    ///< how often its silence has been since
     Clock::time_point spoken_to;
   };
 
@@ -97,6 +104,7 @@ class RankLinks {
   /// Returns the number that it should have.
   FrameNumber note(const Arrival& arrival);
   void expect_number(FrameNumber expected, const Arrival& arrival) const;
+  void tell_of_silence(std::uint32_t rank, Clock::duration silence);
 
   Fabric* fabric_;
   RankSilence silence_;
@@ -106,6 +114,7 @@ class RankLinks {
   Clock::time_point last_look_ = Clock::now();
   Clock::duration time_run_{};
   Sent taken_;
+  std::function<void(const std::string&)> listener_;
 };
 
 }  // namespace dmpc::nodes

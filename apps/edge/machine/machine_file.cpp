@@ -280,7 +280,7 @@ std::string read_text(const std::string& path) {
   } catch (const core::InputError& error) {
     const std::string meant = name_meant(path);
     throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
-                           ") nor a file that can be read: it " + error.what() + (meant.empty() ? "" : ".") + meant);
+                           ") nor a file that can be read: " + error.what() + (meant.empty() ? "" : ".") + meant);
   }
   if (text.size() > file_bytes_max) {
     throw core::InputError(path + ": a machine file has 1 MiB at most");

@@ -8,9 +8,8 @@
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
-namespace {
 
-std::string read(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected) {
+std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected) {
   TextInput stream(file);
   std::string text;
   std::array<char, 65536> part;
@@ -20,20 +19,9 @@ std::string read(const std::filesystem::path& file, std::uint64_t bytes_max, con
     bytes = std::max<std::uint64_t>(bytes, text.size());
   }
   if (bytes > bytes_max) {
-    throw core::InputError("has more than " + mebibytes_text(bytes_max) + ", expected " + expected);
+    throw core::InputError(file.string() + ": has more than " + mebibytes_text(bytes_max) + ", expected " + expected);
   }
   return text;
-}
-
-}  // namespace
-
-std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected) {
-  try {
-    return read(file, bytes_max, expected);
-  } catch (const core::InputError& error) {
-    const std::string sentence = error.what();
-    throw core::InputError(sentence.starts_with(file.string()) ? sentence : file.string() + ": " + sentence);
-  }
 }
 
 }  // namespace dmpc::apps

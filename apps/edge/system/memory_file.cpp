@@ -16,7 +16,8 @@ MemoryFile::MemoryFile() : file_(::memfd_create("dmpc", MFD_CLOEXEC)) {
   if (!file_.is_open()) {
     const int error = errno;
     throw_if_short(error, "no file in memory can be made");
-    throw core::InternalError(std::string("no file in memory can be made: ") + std::strerror(error));
+    throw core::InputError(std::string("this computer lets no file in memory be made (memfd_create): ") + std::strerror(error) +
+                           ": other programs are started with one, so let dmpc make that call, as a container's profile may say");
   }
 }
 

@@ -24,34 +24,21 @@ constexpr std::chrono::milliseconds pause{10};
 /// What text becomes takes more than the text: a scene in memory some ten times as much.
 std::uint64_t pipe_bytes_max() { return reader_memory_bytes_max() / 16; }
 
-[[noreturn]] void fail_with(const std::string& words) { throw core::InputError(words + ": " + std::strerror(errno)); }
-
-std::size_t read_some(const Descriptor& descriptor, std::vector<char>& buffer) {
-  ssize_t count = 0;
-  do {
-    count = ::read(descriptor.number(), buffer.data(), buffer.size());
-  } while (count < 0 && errno == EINTR);
-  if (count < 0 && errno != EAGAIN) {
-    fail_with("cannot be read");
-  }
-  return static_cast<std::size_t>(count < 0 ? 0 : count);
-}
-
 }  // namespace
 
 TextInput::TextInput(const std::filesystem::path& path, const PipePatience& patience)
-    : std::istream(this), patience_(patience), buffer_(buffer_bytes) {
+    : std::istream(this), name_(path.string()), patience_(patience), buffer_(buffer_bytes) {
   // A device may do things when it is opened, and a pipe may wait: so what it is is seen before.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     fail_with("cannot be opened");
   }
   if (S_ISDIR(status.st_mode)) {
-    throw core::InputError("is a folder, expected a file");
+    fail("is a folder, expected a file");
   }
   is_pipe_ = S_ISFIFO(status.st_mode);
   if (!is_pipe_ && !S_ISREG(status.st_mode)) {
-    throw core::InputError("is a device or the like, expected a file or a pipe");
+    fail("is a device or the like, expected a file or a pipe");
   }
   descriptor_ = Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!descriptor_.is_open()) {
@@ -61,12 +48,27 @@ TextInput::TextInput(const std::filesystem::path& path, const PipePatience& pati
   exceptions(std::ios::badbit);  // so that what underflow() throws is not lost
 }
 
+void TextInput::fail(const std::string& sentence) const { throw core::InputError(name_ + ": " + sentence); }
+
+void TextInput::fail_with(const std::string& words) const { fail(words + ": " + std::strerror(errno)); }
+
+std::size_t TextInput::read_some() {
+  ssize_t count = 0;
+  do {
+    count = ::read(descriptor_.number(), buffer_.data(), buffer_.size());
+  } while (count < 0 && errno == EINTR);
+  if (count < 0 && errno != EAGAIN) {
+    fail_with("cannot be read");
+  }
+  return static_cast<std::size_t>(count < 0 ? 0 : count);
+}
+
 std::streambuf::int_type TextInput::underflow() {
-  const std::size_t count = is_pipe_ ? read_pipe() : read_some(descriptor_, buffer_);
+  const std::size_t count = is_pipe_ ? read_pipe() : read_some();
   bytes_read_ += count;
   if (is_pipe_ && bytes_read_ > pipe_bytes_max()) {
-    throw core::InputError("this pipe has given " + mebibytes_text(bytes_read_) +
-                           " and does not end, more than there is memory for; write it into a file");
+    fail("this pipe has given " + mebibytes_text(bytes_read_) +
+         " and does not end, more than there is memory for; write it into a file");
   }
   setg(buffer_.data(), buffer_.data(), buffer_.data() + count);
   return count == 0 ? Traits::eof() : Traits::to_int_type(*gptr());
@@ -78,14 +80,14 @@ std::size_t TextInput::read_pipe() {
   const Clock::time_point start = Clock::now();
   while (true) {
     errno = 0;
-    const std::size_t count = read_some(descriptor_, buffer_);
+    const std::size_t count = read_some();
     if (count > 0 || (errno != EAGAIN && bytes_read_ > 0)) {
       return count;
     }
     if (errno == EAGAIN) {
       wait_for_byte();
     } else if (Clock::now() - start > patience_.writer) {
-      throw core::InputError("is a pipe that nobody writes to; expected text");
+      fail("is a pipe that nobody writes to; expected text");
     } else {
       ::poll(nullptr, 0, static_cast<int>(pause.count()));
     }
@@ -95,8 +97,8 @@ std::size_t TextInput::read_pipe() {
 void TextInput::wait_for_byte() {
   pollfd entry{.fd = descriptor_.number(), .events = POLLIN, .revents = 0};
   if (::poll(&entry, 1, static_cast<int>(patience_.byte.count())) == 0) {
-    throw core::InputError("is a pipe that has given nothing for " + std::to_string(patience_.byte.count() / 1000) +
-                           " seconds; write it into a file first");
+    fail("is a pipe that has given nothing for " + std::to_string(patience_.byte.count() / 1000) +
+         " seconds; write it into a file first");
   }
 }
 

@@ -17,7 +17,7 @@ struct PipePatience {
   std::chrono::milliseconds writer{1000}, byte{60'000};
 };
 
-/// Throws core::InputError, a sentence that goes on "PATH: ...": from the constructor, if there is no file, or if it is a device
+/// Throws core::InputError, "PATH: ...": from the constructor, if there is no file, or if it is a device
 /// or a folder; from reading, if a pipe makes it wait too long, or gives more than the scene of it had room for in memory.
 class TextInput final : private std::streambuf, public std::istream {
  public:
@@ -28,10 +28,15 @@ class TextInput final : private std::streambuf, public std::istream {
 
  private:
   std::streambuf::int_type underflow() override;
+  [[noreturn]] void fail(const std::string& sentence) const;
+  /// By what errno says.
+  [[noreturn]] void fail_with(const std::string& words) const;
+  std::size_t read_some();
   /// The bytes read; 0 at the end.
   std::size_t read_pipe();
   void wait_for_byte();
 
+  std::string name_;
   PipePatience patience_;
   Descriptor descriptor_;
   bool is_pipe_ = false;

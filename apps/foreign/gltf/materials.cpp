@@ -236,7 +236,8 @@ core::Material MaterialReader::surface_of(const Part& source, const Base& base, 
   }
   Factors factors;
   const double opacity = factors.share(color[3]);
-  MetallicSurface surface{.base = factors.color(color), .emission = factors.color(light, light_max), .metallic = 0};
+  MetallicSurface surface{
+      .base = factors.color(color), .emission = factors.color(light, std::numeric_limits<double>::max()), .metallic = 0};
   if (base.is_glossy) {
     surface.roughness = factors.share(1 - base.roughness.number("glossinessFactor", 1));
   } else {

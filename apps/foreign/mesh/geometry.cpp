@@ -34,15 +34,6 @@ Vec3d clamped(const Vec3d& color) {
   return {channel(color.x), channel(color.y), channel(color.z)};
 }
 
-void check_vertices(const PolygonMesh& mesh) {
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!is_in_reach(mesh.vertices[i])) {
-      throw core::InputError(mesh.name + ": vertex " + std::to_string(i) +
-                             " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
-    }
-  }
-}
-
 void check_faces(const FaceList& faces, const std::string& name) {
   for (std::size_t i = 0; i < faces.ends.size(); ++i) {
     if (faces.ends[i] - faces.begin_of(i) > polygon_vertices_max) {
@@ -149,10 +140,32 @@ bool GeometryWriter::has_area_in(const core::SharedMesh& mesh, const core::Trans
   return false;
 }
 
+/// Vertices may be anything where no face has them: they become one that a face has.
+void GeometryWriter::settle_vertices(PolygonMesh& mesh) {
+  if (std::ranges::all_of(mesh.vertices, is_usable)) {
+    return;
+  }
+  std::vector<bool> is_seen(mesh.vertices.size());
+  for (const std::uint32_t corner : mesh.faces.corners) {
+    is_seen[corner] = true;
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (is_usable(mesh.vertices[i])) {
+      continue;
+    }
+    const std::string name = mesh.name + ": vertex " + std::to_string(i);
+    if (is_seen[i]) {
+      throw core::InputError(name + " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
+    }
+    first_stray_ = strays_++ == 0 ? name : first_stray_;
+    mesh.vertices[i] = mesh.vertices[mesh.faces.corners.front()];
+  }
+}
+
 /// A mesh that has faces.
 void GeometryWriter::add_objects(PolygonMesh mesh, std::span<const FileMaterial> materials) {
   check_faces(mesh.faces, mesh.name);
-  check_vertices(mesh);
+  settle_vertices(mesh);
   if (mesh.runs.empty()) {
     mesh.runs = {{.end = mesh.faces.ends.size(), .material = mesh.material}};
   }

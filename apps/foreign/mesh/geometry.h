@@ -47,7 +47,7 @@ class GeometryWriter {
       : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
   /// `materials`: of which its faces name some; one without places loses its texture. Throws core::InputError with the mesh's
-  /// name for a coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too
+  /// name for a corner's coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too
   /// many corners.
   void add(PolygonMesh mesh, std::span<const FileMaterial> materials);
 
@@ -72,6 +72,9 @@ class GeometryWriter {
   std::uint64_t unplaced() const { return unplaced_; }
   /// Meshes whose material lets all light through as it comes, and so shows nothing.
   std::uint64_t unseen() const { return unseen_; }
+  /// Vertices that no face has, of coordinates that are not finite or beyond 1e30, and the first of them.
+  std::uint64_t strays() const { return strays_; }
+  const std::string& first_stray() const { return first_stray_; }
   /// Meshes some of whose faces show a texture, and not the colours that their corners have, too.
   std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
@@ -86,6 +89,7 @@ class GeometryWriter {
   void add_objects(PolygonMesh mesh, std::span<const FileMaterial> materials);
   /// Its faces from this one on.
   void add_run(const PolygonMesh& mesh, const FaceRun& run, std::size_t first_face, core::Material material);
+  void settle_vertices(PolygonMesh& mesh);
   bool has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const;
   /// The face of these corners.
   void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
@@ -103,7 +107,8 @@ class GeometryWriter {
   bool is_shared_ = false;      ///< what is being added
   bool has_area_ = false;
   bool has_places_ = false, hides_colors_ = false;  ///< of the run that is being added
-  std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
+  std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0, strays_ = 0;
+  std::string first_stray_;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::Vec3d> smooth_;  ///< normals that were reckoned anew, a corner of the mesh each

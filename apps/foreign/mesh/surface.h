@@ -12,7 +12,7 @@ namespace dmpc::apps {
 /// What each channel of a surface has of which a file says no colour.
 inline constexpr double plain_grey = 0.6;
 
-/// The brightest light that a surface shines with by itself; more is as much.
+/// The brightest light that a surface shines with by itself, in any channel; placed_scene() brings more down to it.
 inline constexpr double light_max = 1e12;
 
 /// The largest exponent of a highlight; more is as much.

@@ -86,6 +86,9 @@ class Resolver {
  private:
   std::uint32_t add(const MtlMaterial& source);
   MtlMaterial colored(MtlMaterial material) const;
+  const MtlMaterial* source_of(std::uint32_t name) const;
+  /// MeshLab (until 2023) and OpenMVS write a Tr of 1 for what is opaque: what every face has is not meant to be unseen.
+  bool is_tr_of_what_is_opaque() const;
   std::uint32_t index_of(std::uint32_t name);
   /// Leaves textures out that lie on no face.
   void judge_textures();
@@ -96,7 +99,21 @@ class Resolver {
   std::vector<MtlMaterial> used_;
   std::map<const MtlMaterial*, std::uint32_t> known_;
   std::vector<std::string> unknown_;
+  bool is_tr_opaque_ = false;  ///< that of every material
 };
+
+bool is_unseen_by_tr(const MtlMaterial& material) { return !material.d && material.transparency == 1; }
+
+const MtlMaterial* Resolver::source_of(std::uint32_t name) const {
+  return name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
+}
+
+bool Resolver::is_tr_of_what_is_opaque() const {
+  return !geometry_.runs.empty() && std::ranges::all_of(geometry_.runs, [this](const Run& run) {
+    const MtlMaterial* const source = source_of(run.name);
+    return source != nullptr && is_unseen_by_tr(*source);
+  });
+}
 
 /// What names no colour is white below colours of vertices.
 MtlMaterial Resolver::colored(MtlMaterial material) const {
@@ -119,14 +136,18 @@ std::uint32_t Resolver::add(const MtlMaterial& source) {
 
 /// Of the run's name. All without a material share one, whose key is null.
 std::uint32_t Resolver::index_of(std::uint32_t name) {
-  const MtlMaterial* const source = name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
+  const MtlMaterial* const source = source_of(name);
   if (name != none && source == nullptr) {
     unknown_.push_back(geometry_.material_names[name]);
   }
   const auto [known, is_new] = known_.try_emplace(source, 0);
   if (is_new) {
-    used_.push_back(source == nullptr ? MtlMaterial{} : *source);
-    known->second = add(used_.back());
+    MtlMaterial shown = source == nullptr ? MtlMaterial{} : *source;
+    if (is_tr_opaque_) {
+      shown.transparency.reset();
+    }
+    known->second = add(shown);
+    used_.push_back(std::move(shown));
   }
   return known->second;
 }
@@ -154,6 +175,7 @@ void Resolver::judge_textures() {
 }
 
 Materials Resolver::resolve() {
+  is_tr_opaque_ = is_tr_of_what_is_opaque();
   std::map<std::uint32_t, std::uint32_t> of_names;
   for (const Run& run : geometry_.runs) {
     const auto [known, is_new] = of_names.try_emplace(run.name, 0);
@@ -162,6 +184,9 @@ Materials Resolver::resolve() {
     }
     result_.of_runs.push_back(known->second);
   }
+  note_count(result_.notes,
+             "materials with a Tr of 1 and no d, as all are, shown as opaque: some programs write it so (a d of 0 hides them)",
+             is_tr_opaque_ ? known_.size() : 0);
   note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
   judge_textures();
   note_losses(used_, result_.notes);

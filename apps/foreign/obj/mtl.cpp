@@ -193,7 +193,7 @@ bool contradicts_itself(const MtlMaterial& material) {
 }
 
 Vec3d emission_of(const MtlMaterial& material) {
-  const auto clamped = [](double channel) { return std::clamp(channel, 0.0, light_max); };
+  const auto clamped = [](double channel) { return std::max(channel, 0.0); };
   const Vec3d& light = material.emission;
   return material.has_light_texture ? Vec3d{} : Vec3d{clamped(light.x), clamped(light.y), clamped(light.z)};
 }

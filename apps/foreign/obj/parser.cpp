@@ -92,6 +92,12 @@ class Parser {
   void library(LineWords& words);
   void other(std::string_view keyword, const LineWords& words);
 
+  /// 0 for what is none, which makes the vertex, place or normal a stray.
+  double number(LineWords& words);
+  /// Of the last vertex, place or normal, if a number of it was none.
+  void keep_stray(Named what, std::size_t count, const LineWords& words);
+  /// Throws if a face has a stray; notes the others.
+  void judge_strays();
   Vec3d coordinates(LineWords& words);
   void color(const Vec3d& color);
   void add_face(const LineWords& words);
@@ -112,6 +118,12 @@ class Parser {
   Tally tally_;
   std::uint64_t colored_ = 0;  ///< vertices
   UnknownWords unknown_;
+  /// What has no number where one is expected, by Named.
+  struct Stray {
+    std::size_t index, line;
+  };
+  std::array<std::vector<Stray>, named_count> strays_;
+  bool is_stray_ = false;  ///< what is being read
 };
 
 Geometry Parser::read(std::string_view file, const std::function<void(float)>& passed) {
@@ -121,6 +133,7 @@ Geometry Parser::read(std::string_view file, const std::function<void(float)>& p
     passed(static_cast<float>(static_cast<double>(lines.bytes_passed()) / static_cast<double>(file.size())));
   }
   corner_reader_.check_named(counts());
+  judge_strays();
   tally_.note(result_.notes);
   note_count(result_.notes, "vertices without a colour beside others that have one, shown white",
              result_.colors.empty() ? 0 : result_.vertices.size() - colored_);
@@ -149,10 +162,53 @@ void Parser::statement(LineWords& words) {
   }
 }
 
+double Parser::number(LineWords& words) {
+  LineWords ahead = words;
+  if (!is_no_number(ahead.next())) {
+    return words.number();
+  }
+  words = ahead;
+  is_stray_ = true;
+  return 0;
+}
+
+void Parser::keep_stray(Named what, std::size_t count, const LineWords& words) {
+  if (std::exchange(is_stray_, false)) {
+    strays_[static_cast<std::size_t>(what)].push_back({count - 1, words.line()});
+  }
+}
+
+void Parser::judge_strays() {
+  const std::array<const std::vector<std::uint32_t>*, named_count> lists{&result_.faces.vertices, &result_.faces.places,
+                                                                         &result_.faces.normals};
+  const std::array<const char*, named_count> names{"vertices", "texture coordinates", "normals"};
+  for (std::size_t kind = 0; kind < named_count; ++kind) {
+    const std::vector<Stray>& strays = strays_[kind];
+    if (strays.empty()) {
+      continue;
+    }
+    std::vector<bool> is_seen(counts()[kind]);
+    for (const std::uint32_t index : *lists[kind]) {
+      if (index != none) {
+        is_seen[index] = true;
+      }
+    }
+    for (const auto& [index, line] : strays) {
+      if (is_seen[index]) {
+        throw core::InputError("line " + std::to_string(line) + ": expected a number, found what is none, and a face has it; " +
+                               "correct the file");
+      }
+    }
+    tally_.add(std::string(names[kind]) + " of what is no number, left out as no face has them (the first in line " +
+                   std::to_string(strays.front().line) + ")",
+               strays.size());
+  }
+}
+
 Vec3d Parser::coordinates(LineWords& words) {
   Vec3d v;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    v[axis] = words.number();
+    v[axis] = number(words);
   }
   if (!is_in_reach(v)) {
     words.fail("a coordinate is beyond 1e30; correct the file");
@@ -164,11 +220,11 @@ Vec3d Parser::coordinates(LineWords& words) {
 void Parser::vertex(LineWords& words) {
   Vec3d position = coordinates(words);
   if (words.has_next()) {
-    const double fourth = words.number();
+    const double fourth = number(words);
     if (words.has_next()) {
-      const double green = words.number(), blue = words.number();
+      const double green = number(words), blue = number(words);
       color({fourth, green, blue});
-    } else if (fourth != 1) {
+    } else if (fourth != 1 && !is_stray_) {
       position = position * (1 / fourth);
     }
     if (!is_in_reach(position)) {
@@ -177,6 +233,7 @@ void Parser::vertex(LineWords& words) {
     words.expect_end();
   }
   result_.vertices.push_back(position);
+  keep_stray(Named::vertex, result_.vertices.size(), words);
   if (!result_.colors.empty()) {
     result_.colors.resize(result_.vertices.size(), {1, 1, 1});
   }
@@ -200,22 +257,24 @@ void Parser::color(const Vec3d& color) {
 
 /// "u", "u v" or "u v w", of which w is of no use for a picture.
 void Parser::place(LineWords& words) {
-  std::array<double, 2> place{words.number(), 0};
+  std::array<double, 2> place{number(words), 0};
   if (words.has_next()) {
-    place[1] = words.number();
+    place[1] = number(words);
   }
   if (words.has_next()) {
-    words.number();
+    number(words);
     words.expect_end();
   }
   if (!is_in_reach({place[0], place[1], 0})) {
     words.fail("a texture coordinate is beyond 1e30; correct the file");
   }
   result_.places.push_back(place);
+  keep_stray(Named::place, result_.places.size(), words);
 }
 
 void Parser::normal(LineWords& words) {
   result_.normals.push_back(coordinates(words));
+  keep_stray(Named::normal, result_.normals.size(), words);
   words.expect_end();
 }
 

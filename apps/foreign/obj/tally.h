@@ -15,14 +15,14 @@ namespace dmpc::apps::obj {
 /// Few kinds, each counted.
 class Tally {
  public:
-  void add(const std::string& kind) {
+  void add(const std::string& kind, std::uint64_t more = 1) {
     for (auto& [known, count] : counts_) {
       if (known == kind) {
-        ++count;
+        count += more;
         return;
       }
     }
-    counts_.emplace_back(kind, 1);
+    counts_.emplace_back(kind, more);
   }
   /// Appends "KIND: COUNT" for each, in the order in which they were met.
   void note(std::vector<std::string>& notes) const {

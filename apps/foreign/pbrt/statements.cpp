@@ -534,8 +534,7 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
     notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
     return;
   }
-  const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
-  look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
+  look.emission = radiance_of(*state_.light, shape, state_.ctm);
   shape.mesh.material = look_number(look);
   if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
     shape.back = dark;

@@ -151,10 +151,11 @@ Token Tokens::read_text(Source& source) {
 }
 
 Token Tokens::read_word(Source& source) const {
-  const std::size_t end = std::min(source.rest.find_first_of(word_ends), source.rest.size());
+  const auto ends = [](char letter) { return word_ends.find(letter) != std::string_view::npos || is_of_no_text(letter); };
+  const auto end = static_cast<std::size_t>(std::ranges::find_if(source.rest, ends) - source.rest.begin());
   Token token{.kind = TokenKind::word, .text = std::string(source.rest.substr(0, end)), .place = source.place};
-  if (const auto bad = std::find_if(token.text.begin(), token.text.end(), is_of_no_text); bad != token.text.end()) {
-    fail(token.place, "has a byte that no text has, " + std::to_string(static_cast<unsigned char>(*bad)));
+  if (end < source.rest.size() && is_of_no_text(source.rest[end])) {
+    fail(token.place, "has a byte that no text has, " + std::to_string(static_cast<unsigned char>(source.rest[end])));
   }
   advance(source, end);
   return token;

@@ -162,7 +162,8 @@ void OffReader::read_vertex(std::uint64_t number) {
     if (word.empty()) {
       words_.fail("the file is cut short: it ends within vertex " + std::to_string(number) + " of " + std::to_string(vertices_));
     }
-    numbers_.push_back(number_of(word, "a coordinate"));
+    const bool is_none = is_no_number(word);
+    numbers_.push_back(is_none ? std::numeric_limits<double>::quiet_NaN() : number_of(word, "a coordinate"));
   }
   mesh_.vertices.push_back({numbers_[0], numbers_[1], numbers_[2]});
   if (has_normals_) {

@@ -43,7 +43,8 @@ bool is_see_through(const PlyRow& row) {
 
 std::uint64_t count_beyond(const std::vector<Color>& colors, double full) {
   return static_cast<std::uint64_t>(std::count_if(colors.begin(), colors.end(), [full](const Color& color) {
-    return color != not_yet && (std::min({color.x, color.y, color.z}) < 0 || largest_component(color) > full);
+    const auto is_within = [full](double channel) { return channel >= 0 && channel <= full; };
+    return color != not_yet && !(is_within(color.x) && is_within(color.y) && is_within(color.z));
   }));
 }
 

@@ -50,10 +50,14 @@ class PlyHeaderReader {
 };
 
 std::string_view PlyHeaderReader::next_line() {
-  const std::size_t end = file_.find_first_of("\r\n", at_);
+  constexpr std::string_view ends("\r\n\0", 3);  // the last is of a hole in a file, whose end may be far
+  const std::size_t end = file_.find_first_of(ends, at_);
   ++line_;
   if (end == std::string_view::npos) {
     fail("the file ends within its header; expected 'end_header' at its end");
+  }
+  if (file_[end] == '\0') {
+    fail("expected text, found byte 0; write the file anew");
   }
   const std::string_view text = file_.substr(at_, end - at_);
   const bool ends_by_both = file_.substr(end, 2) == "\r\n";

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
@@ -67,6 +68,9 @@ double TextValues::next(PlyType type) {
   const std::string_view found = word();
   if (found.empty()) {
     throw PlyIsShort{};
+  }
+  if (!is_whole(type) && is_no_number(found)) {
+    return std::numeric_limits<double>::quiet_NaN();  // as the same file in binary has it
   }
   const auto value = decimal_number(found);
   if (!value) {

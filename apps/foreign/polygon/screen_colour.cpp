@@ -23,7 +23,9 @@ constexpr auto light_of_bytes = [] {
 float light_of(double channel, double most) {
   const double byte = channel / most * byte_max;
   const bool is_byte = byte >= 0 && byte <= byte_max && std::floor(byte) >= byte;
-  return is_byte ? light_of_bytes[static_cast<std::size_t>(byte)] : static_cast<float>(core::linear_from_srgb(channel / most));
+  return is_byte               ? light_of_bytes[static_cast<std::size_t>(byte)]
+         : std::isnan(channel) ? 0
+                               : static_cast<float>(core::linear_from_srgb(channel / most));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -52,6 +53,12 @@ std::optional<double> decimal_number(std::string_view word) {
   return error == std::errc{} ? std::optional(value) : extreme_number(plain);
 }
 
+bool is_no_number(std::string_view word) {
+  word.remove_prefix(word.starts_with('-') || word.starts_with('+') ? 1 : 0);
+  const std::string small = in_small_letters(word);
+  return small.starts_with("nan") || small == "inf" || small == "infinity" || small.starts_with("1.#");
+}
+
 bool LineWords::is_at_join() const {
   return rules_.are_one && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]);
 }
@@ -89,6 +96,9 @@ std::string_view LineWords::next_in_line() {
   skip_to_word();
   const std::size_t begin = at_;
   while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_]) && !is_at_remark() && !is_at_join()) {
+    if (text_[at_] == '\0' && !rules_.are_one) {  // of a hole in a file, whose end may be far
+      fail("expected text, found byte 0; write the file anew");
+    }
     ++at_;
   }
   return text_.substr(begin, at_ - begin);

@@ -13,6 +13,9 @@ namespace dmpc::apps {
 /// `nan`, `inf`, hexadecimal digits, or a number beyond what a double holds. One below that is 0.
 std::optional<double> decimal_number(std::string_view word);
 
+/// Whether programs write it for what is no finite number: `nan`, `-nan(ind)`, `inf`, `-1.#IND`, `1.#QNAN`.
+bool is_no_number(std::string_view word);
+
 /// What parts words beside blanks and ends of lines, which are \n, \r or both.
 struct WordRules {
   char remark = '#';     ///< begins one that goes to the line's end, but behind a point, as in `1.#INF`; 0: there are none
@@ -27,7 +30,7 @@ class LineWords {
   explicit LineWords(std::string_view text, std::size_t first_line = 1, const WordRules& rules = one_line)
       : text_(text), line_(first_line), rules_(rules) {}
 
-  /// The next word; empty at the end of the text.
+  /// The next word; empty at the end of the text. Throws core::InputError for a byte 0, unless the text is one line.
   std::string_view next();
   /// The next word, if it stands in the line of the last one; else empty.
   std::string_view next_in_line();

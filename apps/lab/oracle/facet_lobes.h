@@ -76,8 +76,8 @@ class FacetLobes {
       return {};
     }
     const Real lambert = cosine * std::numbers::inv_pi_v<Real>;
-    FacetedResponse<Real> found{matt_ * (unreflected(cosine) * lambert * 21 / 20),
-                                scattered_ * lambert};  // Schlick's mean is 1/21
+    const Real matt = lambert * crowding(cosine);
+    FacetedResponse<Real> found{matt_ * (unreflected(cosine) * matt * 21 / 20), scattered_ * matt};  // Schlick's mean is 1/21
     if (is_spread()) {
       const Vec half = normalize(in + out_);
       const Real mirrors = mirrors_at(std::min(dot(half, place_.normal), Real{1}));
@@ -94,7 +94,7 @@ class FacetLobes {
   std::optional<FacetedStep<Real>> step(const core::SamplePair& choice, const core::SamplePair& direction) const {
     const Real place = static_cast<Real>(choice.x) * all_;
     if (place < scattered_) {
-      return spread(Vec(core::cosine_direction(direction, core::Vec3d(place_.normal))));
+      return spread(below_surface(Vec(core::cosine_direction(direction, core::Vec3d(place_.normal)))));
     }
     if (place < scattered_ + reflected_) {
       return is_spread()
@@ -126,6 +126,19 @@ class FacetLobes {
     const Real squared = 1 - place_.index * place_.index * (1 - cosine * cosine);
     const Real less = 1 - (place_.index > 1 ? std::sqrt(std::max(Real{0}, squared)) : cosine), square = less * less;
     return 1 - square * square * less;
+  }
+  /// Of light that the matt layer sends inwards: by refraction its directions crowd in a cone.
+  Real crowding(Real cosine) const {
+    const Real square = std::max(Real{1}, place_.index * place_.index);
+    return square * (1 - cosine * cosine) < 1 ? square : Real{0};
+  }
+  /// Where a direction outside leads, by Snell.
+  Vec below_surface(const Vec& outside) const {
+    if (!(place_.index > 1)) {
+      return outside;
+    }
+    const Vec beside = (outside - place_.normal * dot(outside, place_.normal)) * (1 / place_.index);
+    return beside + place_.normal * std::sqrt(std::max(Real{0}, 1 - dot(beside, beside)));
   }
   Vec tinted(Real cosine) const { return straight_ + (grey(place_.there) - straight_) * (1 - unreflected(cosine)); }
   Vec mirrored() const { return place_.direction - place_.normal * (2 * dot(place_.direction, place_.normal)); }

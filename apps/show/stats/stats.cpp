@@ -273,7 +273,9 @@ Json sandbox_json() {
   const std::optional<Confinement> confinement = confinement_of_readers();
   return confinement ? Json{{"calls_filtered", confinement->are_calls_filtered},
                             {"limits_set", confinement->are_limits_set},
-                            {"files_forbidden", confinement->are_files_forbidden}}
+                            {"files_forbidden", confinement->are_files_forbidden},
+                            {"reach_forbidden", confinement->is_reach_forbidden},
+                            {"end_with_dmpc", confinement->ends_with_dmpc}}
                      : Json();
 }
 

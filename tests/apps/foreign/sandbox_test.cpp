@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -60,8 +61,32 @@ TEST_CASE("a reader gets the memory that it may have, and no more") {
 TEST_CASE("without files a process opens none, where the kernel knows how") {
   const pid_t id = ::fork();
   if (id == 0) {
-    const bool opened_before = ::open("/etc/passwd", O_RDONLY) >= 0, is_forbidden = apps::forbid_files();
+    const bool opened_before = ::open("/etc/passwd", O_RDONLY) >= 0, is_forbidden = apps::forbid_by_landlock().are_files;
     ::_exit(!is_forbidden ? 0 : opened_before && ::open("/etc/passwd", O_RDONLY) < 0 ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  CHECK(status == 0);
+}
+
+TEST_CASE("by Landlock alone a process reaches no port, and signals nobody, where the kernel knows how") {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    const int line = ::socket(AF_INET, SOCK_STREAM, 0);
+    const sockaddr_in place{.sin_family = AF_INET, .sin_port = 0, .sin_addr = {htonl(INADDR_LOOPBACK)}, .sin_zero = {}};
+    const bool is_forbidden = apps::forbid_by_landlock().is_reach;
+    const bool binds = ::bind(line, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+    ::_exit(is_forbidden && (binds || ::kill(::getppid(), 0) == 0) ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  CHECK(status == 0);
+}
+
+TEST_CASE("a process that nothing hinders ends with its parent") {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    ::_exit(apps::tie_to_parent() ? 0 : 1);
   }
   int status = 0;
   ::waitpid(id, &status, 0);

@@ -25,6 +25,7 @@
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
+#include "apps/reader/input_file.h"
 #include "apps/reader/process.h"
 #include "tests/support/complaint.h"
 #include "tests/support/forked_process.h"
@@ -373,10 +374,13 @@ TEST_CASE("a crash of the reader of pictures is an error of the picture, which i
 #if !defined(__SANITIZE_ADDRESS__)  // under which nothing is confined
 namespace {
 
-/// Stands in for a kernel without these calls; with "seccomp" goes the older way to it.
+/// Stands in for a kernel without these calls; with "seccomp" goes the older way to it. "end with the parent" is one of prctl's.
 bool forget_call(const std::string& call) {
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
-  const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
+  const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0}, end{0, SCMP_CMP_EQ, PR_SET_PDEATHSIG, 0};
+  if (call == "end with the parent") {
+    return ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &end) == 0 && ::seccomp_load(filter) == 0;
+  }
   const bool is_made =
       ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), ::seccomp_syscall_resolve_name(call.c_str()), 0) == 0 &&
       (call != "seccomp" || ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &mode) == 0);
@@ -412,7 +416,8 @@ Reading reading_without(const std::string& call, apps::Sandbox sandbox) {
 
 TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landlock, that is said, once, and what is missing") {
   for (const auto& [call, missing] : {std::pair<std::string, std::string>("seccomp", "no filter of system calls (seccomp)"),
-                                      {"landlock_create_ruleset", "files not forbidden (Landlock)"}}) {
+                                      {"landlock_create_ruleset", "files not forbidden (Landlock)"},
+                                      {"end with the parent", "no end with dmpc's own (PR_SET_PDEATHSIG)"}}) {
     CAPTURE(call);
     const Reading reading = reading_without(call, apps::Sandbox::available);
     CHECK(reading.status == 0);
@@ -421,6 +426,12 @@ TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landl
     CHECK(says(reading.said, sentence));
     CHECK(reading.said.find(sentence) == reading.said.rfind(sentence));
   }
+}
+
+TEST_CASE("a computer that makes no file in memory is told of as one, and not as a bug") {
+  const Reading reading = reading_without("memfd_create", apps::Sandbox::available);
+  CHECK(reading.status == 2);
+  CHECK(says(reading.said, "this computer lets no file in memory be made (memfd_create)"));
 }
 
 TEST_CASE("where the whole sandbox is required, nothing is read behind half of one") {
@@ -443,11 +454,11 @@ TEST_CASE("a whole sandbox is there, is read in, and is told of all readers toge
 TEST_CASE("textures have a budget of memory that is all of theirs, and the one that is too much is named") {
   const TemporaryFolder folder;
   apps::write_image(folder / "a.png", apps::Image(100, 10));
-  apps::PictureReader reader({.texture_bytes_max = 12'000});  // of 1000 texels and a third more
+  apps::PictureReader reader({.texture_bytes_max = 24'000});  // of 1000 texels and a third more, twice
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),
-                       doctest::Contains("a.png: with it the scene's textures take"), core::RoomError);
+                       doctest::Contains("a.png: with its 100x10 texels the scene's textures take"), core::RoomError);
 }
 
 TEST_CASE("a texture without a name and one with an endless one are said") {
@@ -482,13 +493,29 @@ TEST_CASE("a picture that says to be larger than its file can hold is refused") 
   CHECK(says(text, "it is damaged"));
 }
 
+TEST_CASE("what is a hole in a file gives its reader no time") {
+  const TemporaryFolder folder;
+  const auto bytes_in = [&](const std::string& text, std::uint64_t length) {
+    write_text(folder / "a.obj", text);
+    fs::resize_file(folder / "a.obj", length);
+    apps::InputFile file = apps::find_input_file(folder / "a.obj");
+    apps::open_input_file(file);
+    CHECK(file.bytes == length);
+    return apps::bytes_without_holes(file.descriptor, file.bytes);
+  };
+  CHECK(bytes_in("v 0 0 0\n", 8) == 8);
+  CHECK(bytes_in("", 1 << 30) == 0);
+  CHECK(bytes_in(std::string(10'000, 'v'), 1 << 30) < 1'000'000);
+  CHECK(bytes_in(std::string(10'000, 'v'), 1 << 30) >= 10'000);
+}
+
 TEST_CASE("a device is no scene, and neither is a pipe that nobody writes to") {
   const TemporaryFolder folder;
   for (const std::string device : {"/dev/zero", "/dev/urandom", "/dev/null"}) {
     CHECK(says(nff_complaint(device), device + ": is a device or the like"));
   }
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK(says(nff_complaint(folder / "pipe"), "nobody writes to"));
+  CHECK(says(nff_complaint(folder / "pipe"), folder / "pipe: is a pipe that nobody writes to"));
 }
 
 TEST_CASE("a line that does not end, and endless comments, are refused") {

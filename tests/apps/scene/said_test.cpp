@@ -69,6 +69,14 @@ TEST_CASE("of a scene that has no light but what shines by itself it is said whi
   CHECK(!tests::contains(said_of(picture), "no light"));
 }
 
+TEST_CASE("of a whole scene in the dark by Whitted's transport it is said which transport shows its own sky") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.pbrt",
+                    "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\nWorldBegin\n"
+                    "LightSource \"infinite\" \"rgb L\" [1 1 1]\nShape \"sphere\"\n");
+  CHECK(tests::contains(said_of(PictureOptions{.scene = folder / "a.pbrt"}), "--transport=paths the sky that its file may have"));
+}
+
 TEST_CASE("lights that no radius makes larger are said") {
   const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0.5 1\n";
   const TransportOptions balls{.kind = core::TransportKind::paths, .light_radius = 0.1};

@@ -70,21 +70,45 @@ TEST_CASE("a picture whose texels are all alike is a background of that colour, 
   CHECK(scene.background == core::Vec3d{1, 2, 3});
 }
 
-TEST_CASE("a picture that is not twice as wide as high is said to be stretched") {
+TEST_CASE("a picture that is not twice as wide as high, but for a pixel, is refused with what was expected") {
+  const auto of_size = [](int width, int height) {
+    std::vector<float> rgb(static_cast<std::size_t>(width * height) * 3, 0.5F);
+    rgb[0] = 1;
+    return File("a.exr", width, height, rgb).complaint();
+  };
+  CHECK(contains(of_size(4, 4),
+                 "a.exr: 4x4 pixels; expected a picture of all directions that is twice as wide as high, such as 8x4"));
+  CHECK(contains(of_size(6, 4), "6x4 pixels"));
+  CHECK(of_size(7, 4).empty());
+  CHECK(of_size(9, 4).empty());
+}
+
+TEST_CASE("what is below 0 in a sky is black, and said with its place") {
   core::Scene scene;
-  CHECK(contains(read_sky(File("square.exr", 2, 2, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}).path, Sandbox::available, scene),
-                 "square.exr: 2x2 pixels are taken for all directions, which a picture shows that is twice as wide as high"));
+  std::vector<float> rgb = with(-0.25F, (2 * 8 + 3) * 3 + 1);
+  rgb[90] = -1;
+  CHECK(contains(read_sky(File("a.exr", 8, 4, rgb).path, Sandbox::available, scene),
+                 "a.exr: numbers below 0, which count as 0 (the first in pixel 3,2): 2"));
+  rgb[90] = rgb[(2 * 8 + 3) * 3 + 1] = 0;
+  CHECK(scene.sky.texels == core::sky_texels(8, 4, rgb).texels);
+}
+
+TEST_CASE("a sky of too much contrast for its texels is said to be") {
+  core::Scene scene;
+  read_sky(File("a.exr", 8, 4, with(1e9F, 0)).path, Sandbox::available, scene);
+  CHECK(contrast_text(scene.sky).empty());
+  read_sky(File("a.exr", 8, 4, with(1e12F, 0)).path, Sandbox::available, scene);
+  CHECK(contains(contrast_text(scene.sky), "a.exr: 31 texels of 32 are too faint beside the brightest, which is "));
 }
 
 TEST_CASE("numbers that are no light are told with file, pixel, channel and value, and what to do") {
-  CHECK(contains(File("a.exr", 8, 4, with(-0.25F, 0)).complaint(),
-                 "a.exr: pixel 0,0 has red that is -0.25; expected light from 0"));
+  CHECK(contains(File("a.exr", 8, 4, with(2e30F, 0)).complaint(), "a.exr: pixel 0,0 has red that is 2.0000"));
   CHECK(contains(File("a.exr", 8, 4, with(std::nanf(""), (2 * 8 + 3) * 3 + 1)).complaint(),
                  "pixel 3,2 has green that is not a number"));
   CHECK(contains(File("a.exr", 8, 4, with(std::numeric_limits<float>::infinity(), 31 * 3 + 2)).complaint(),
                  "pixel 7,3 has blue that is infinite"));
   std::vector<float> two = with(2e30F, 5);
-  two[7] = -1;
+  two[7] = std::nanf("");
   const std::string complaint = File("a.exr", 8, 4, two).complaint();
   CHECK(contains(complaint, "--sky="));
   CHECK(contains(complaint, "one of 2 such numbers"));

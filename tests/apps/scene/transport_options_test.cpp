@@ -56,10 +56,14 @@ TEST_CASE("lights that are balls are told with the radius, and only paths aim at
 
 TEST_CASE("what shines and is met by chance alone is told of, with why") {
   const TransportOptions paths{.kind = core::TransportKind::paths, .emitters = 100};
-  CHECK(emitters_text(7, 0, paths).empty());
-  CHECK(emitters_text(0, 3, {}).empty());
-  CHECK(contains(emitters_text(100, 3, paths), "3 primitives shine and are met by chance alone, which is noisy: --emitters=100"));
-  CHECK(contains(emitters_text(7, 1, paths), "1 primitive shines and is met by chance alone, which is noisy: cones"));
+  CHECK(emitters_text({7, 0, 0}, paths).empty());
+  CHECK(emitters_text({0, 3, 1}, {}).empty());
+  CHECK(contains(emitters_text({100, 3, 0}, paths),
+                 "3 primitives shine and are met by chance alone, which is noisy: --emitters=100"));
+  CHECK(contains(emitters_text({7, 1, 0}, paths), "1 primitive shines and is met by chance alone, which is noisy: cones"));
+  CHECK(
+      emitters_text({7, 0, 2}, paths) ==
+      "2 primitives shine in the plane of faces that show before: what these leave of that, if anything, is met by chance alone");
 }
 
 TEST_CASE("materials that give more light than they get are told of, where something scatters it") {

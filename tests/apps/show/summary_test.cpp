@@ -44,9 +44,7 @@ TEST_CASE("the last closing line says how light got about, and what nobody asked
   options.picture.is_refined_unasked = true;
   CHECK(contains(summary(options), ", refined to the default error of 1/100 (--samples=1 for one ray a pixel)\n"));
   options.picture.is_by_paths_unasked = true;
-  CHECK(contains(summary(options),
-                 "sky 1,1,1, refined to the default error of 1/100 (--transport=whitted for hard light, "
-                 "--samples=1 for one ray of it a pixel)\n"));
+  CHECK(contains(summary(options), "sky 1,1,1, refined to the default error of 1/100 (--transport=whitted for hard light)\n"));
   options.picture = small().picture;
   options.picture.is_refined_unasked = true;
   CHECK(contains(summary(options), ", refined to the default error of 1/255 (--samples=1"));

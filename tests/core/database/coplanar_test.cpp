@@ -107,6 +107,29 @@ TEST_CASE("what lets light through comes after what it lies on, wherever it stan
   }
 }
 
+TEST_CASE("what shines comes before what it lies on, wherever it stands in the file, and of twins it is the one that is kept") {
+  for (const bool is_tilted : {false, true}) {
+    for (const bool is_first : {false, true}) {
+      CAPTURE(is_tilted);
+      CAPTURE(is_first);
+      Scene scene = lit_scene();
+      SceneBuilder builder(scene);
+      const auto quad = [&](double size, const Vec3d& emission) {
+        builder.material({.emission = emission});
+        const auto at = [&](double x, double y) { return is_tilted ? tilted({x, y, 0}) : Vec3d{x, y, 0}; };
+        builder.polygon({at(-size, -size), at(size, -size), at(size, size), at(-size, size)});
+      };
+      quad(is_first ? 1.1 : 2, is_first ? Vec3d{1, 1, 1} : Vec3d{});
+      quad(is_first ? 2 : 1.1, is_first ? Vec3d{} : Vec3d{1, 1, 1});
+      const Strays strays = shoot_at(scene, is_tilted, {-1, -1, 0}, {1, 1, 0}, is_first ? 0 : 1, is_first ? 0 : 1);
+      CHECK(strays.elsewhere == 0);
+      CHECK(strays.from_brute_force == 0);
+      quad(1.1, {});
+      CHECK(database_of(scene).duplicates() == 2);
+    }
+  }
+}
+
 TEST_CASE("faces side by side share no plane, and nor does what is above another") {
   Scene scene = lit_scene();
   add_rug(scene, true, 16);

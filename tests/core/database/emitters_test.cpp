@@ -88,16 +88,30 @@ TEST_CASE("of many the most powerful are drawn, and those alone have materials t
   CHECK(some.records().materials == 7);
 }
 
-TEST_CASE("a triangle that others cover in its plane is met by chance, since one of them shows") {
-  Scene scene;
-  SceneBuilder builder(scene);
-  builder.material({.color = {1, 1, 1}});
-  builder.polygon({{-1, -1, 0}, {3, -1, 0}, {3, 3, 0}, {-1, 3, 0}});
-  builder.material(shining(1));
-  builder.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  const Database database = build_database(scene, {.emitters_max = 10});
-  CHECK(database.header().emitter_count == 0);
-  CHECK(database.records().emitters_met == 1);
+TEST_CASE("what shines in the plane of others shows, and is drawn but for what something else that shines may cover") {
+  for (const double tilt : {0.0, 0.3}) {
+    CAPTURE(tilt);
+    const auto at = [tilt](double x, double y) { return Vec3d{x, y, tilt * x}; };
+    Scene scene;
+    SceneBuilder builder(scene);
+    builder.material({.color = {1, 1, 1}});
+    builder.polygon({at(-1, -1), at(3, -1), at(3, 3), at(-1, 3)});
+    builder.material(shining(1));
+    builder.polygon({at(0, 0), at(1, 0), at(0, 1)});
+    builder.polygon({at(2, 2), at(1, 2), at(2, 1)});  // beside it
+    const Database database = build_database(scene, {.emitters_max = 10});
+    CHECK(database.header().emitter_count == 2);
+    CHECK(database.records().emitters_met == 0);
+    CHECK(database.records().emitters_covered == 0);
+    CHECK(database.sources()[0].object == 1);
+    builder.polygon({at(0, 0), at(0.5, 0), at(0, 0.5)});
+    builder.material({.transmittance = 0.5, .emission = {1, 1, 1}});
+    builder.polygon({at(-0.9, -0.9), at(-0.5, -0.9), at(-0.9, -0.5)});
+    const Database more = build_database(scene, {.emitters_max = 10});
+    CHECK(more.header().emitter_count == 2);
+    CHECK(more.records().emitters_met == 0);
+    CHECK(more.records().emitters_covered == 2);
+  }
 }
 
 TEST_CASE("a database for nobody who aims is, to the byte, what it was before there were emitters") {

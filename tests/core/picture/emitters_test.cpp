@@ -141,6 +141,47 @@ TEST_CASE("a floor below the middle of a square that shines, one above, shows 0.
   CHECK(studio.mean(1, 1024, aiming_alone, 0) == doctest::Approx(0.8 * 0.239456).epsilon(0.001).scale(0));
 }
 
+TEST_CASE("a lamp lights in its ceiling's plane, whichever comes first, as it does without the ceiling") {
+  for (const double tilt : {0.0, 0.2}) {
+    CAPTURE(tilt);
+    const auto square = [tilt](SceneBuilder& builder, double half, double shine) {
+      builder.material(grey(0, shine));
+      const auto at = [tilt](double x, double y) { return Vec3d{x, y, 1 + tilt * x}; };
+      builder.polygon({at(-half, -half), at(half, -half), at(half, half), at(-half, half)});
+    };
+    const auto mean_of = [&](std::initializer_list<double> halves, const Transport& transport) {
+      Scene scene = floor_of(grey(0.8));
+      SceneBuilder builder(scene);
+      for (const double half : halves) {
+        square(builder, half, half < 1 ? 1 : 0);
+      }
+      return Studio(seen_at_origin(scene, {-0.5, 0, 0.5}), many).mean(1, 1024, transport, 1);
+    };
+    const double alone = mean_of({0.5}, paths);
+    for (const std::initializer_list<double> halves : {std::initializer_list<double>{0.5, 2}, {2, 0.5}}) {
+      CHECK(mean_of(halves, paths) == doctest::Approx(alone).epsilon(0.002).scale(0));
+      CHECK(mean_of(halves, aiming_alone) == doctest::Approx(alone).epsilon(0.002).scale(0));
+    }
+  }
+}
+
+TEST_CASE("a coarse smooth matt surface gets nothing of what shines behind its true one, though its blended normal sees that") {
+  const auto lit_from = [](const Vec3d& center) {
+    Scene scene;
+    SceneBuilder builder(scene);
+    builder.material(grey(0.8));
+    const Vec3d leaning = normalize(Vec3d{1, 0, 0.5});
+    builder.patch({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {leaning, leaning, leaning});
+    builder.material(grey(0, 1));
+    builder.sphere(center, 0.3);
+    return Studio(seen_at_origin(scene, {0.5, 0, 1}), many);
+  };
+  CHECK(lit_from({2, 0, 1}).mean(1, 256, paths, 0) > 0.005);
+  for (const Transport& transport : {paths, aiming_alone}) {
+    CHECK(lit_from({2, 0, -0.5}).mean(1, 256, transport, 0) == 0);
+  }
+}
+
 TEST_CASE("a floor below a ball that shines shows the cosine times the square of its radius over its distance") {
   for (const Vec3d& center : {Vec3d{0, 0, 2}, Vec3d{0.6, 0, 1.8}, Vec3d{3, 2, 1}}) {
     const double square = dot(center, center), exact = 0.8 * center.z / std::sqrt(square) * 0.25 / square;

@@ -136,6 +136,20 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a ball of half-transparent rough plastic that absorbs nothing cannot be told from the white around it") {
+  Material plastic = microfacets(white, 0, 0.25);
+  plastic.microfacets.transmission = plastic.transmittance = 0.5;
+  plastic.refraction_index = 1.5;
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.background({1, 1, 1});
+  builder.material(plastic);
+  builder.sphere({0, 0, 0}, 1);
+  scene.view = {.from = {0, 0, 4}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 1e-3};
+  const int samples = 16384 / static_cast<int>(slowness);
+  CHECK(mean_of(film_of(scene, 1, samples, white_sky, 60)).x == doctest::Approx(1).epsilon(0.02).scale(0));
+}
+
 TEST_CASE("a smooth metal aims at nothing: what shines is met in its mirror") {
   Scene scene = floor_of(microfacets(gold, 1, 0), 0.8);
   SceneBuilder builder(scene);

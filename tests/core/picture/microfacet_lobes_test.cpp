@@ -248,6 +248,30 @@ TEST_CASE(
   CHECK(mirrored(within) == doctest::Approx(expected).epsilon(0.01).scale(0));
 }
 
+TEST_CASE("a half-transparent white lacquer sends on all that comes from within, in no more than the bound says") {
+  Material plastic = microfacets(white, 0, 0);
+  plastic.microfacets.transmission = plastic.transmittance = 0.5;
+  plastic.refraction_index = 1.5;
+  const MicrofacetBound bound = bound_of(plastic);
+  for (const double cosine : {1.0, 0.9, 0.8}) {  // of the critical angle: 0.745
+    CAPTURE(cosine);
+    HitState within = hit_on(plastic, eye_at(cosine));
+    within.leaving = true;
+    within.geometric_normal = {0, 0, -1};
+    const MicrofacetLobes lobes(within);
+    double sum = 0;
+    constexpr std::uint32_t draws = 16384;
+    for (std::uint32_t sample = 0; sample < draws; ++sample) {
+      if (const auto step = lobes.step(sample_pair(7, sample, 1), sample_pair(7, sample, 2))) {
+        sum += double{step->weight.x} / draws;
+        REQUIRE(double{step->weight.x} <= bound.passed_on);
+        REQUIRE(pi * largest_component(lobes.response(step->towards)) <= bound.direct);
+      }
+    }
+    CHECK(sum == doctest::Approx(1).epsilon(0.01).scale(0));
+  }
+}
+
 TEST_CASE("no step weighs more than the bound, and no point light shows more of itself") {
   for (const double metallic : {0.0, 0.3, 1.0}) {
     for (const double alpha : {0.003, 0.05, 0.4, 1.0}) {

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/support/loopback_ranks.h"
 
@@ -26,6 +28,26 @@ TEST_CASE("who was stopped himself takes nobody for silent, and who runs finds o
     }
   };
   CHECK_THROWS_AS(look_long(), LostRank);
+}
+
+TEST_CASE("a rank that is waited for is told of again and again, by rank 0 alone, until it is lost") {
+  Loopback loopback(3);
+  const RankSilence silence{.life_sign = 20ms, .longest = 350ms, .told = 100ms};
+  RankLinks first(loopback.rank(0), silence), second(loopback.rank(1), silence);
+  std::vector<std::string> told, by_second;
+  first.tell_to([&](const std::string& text) { told.push_back(text); });
+  second.tell_to([&](const std::string& text) { by_second.push_back(text); });
+  const auto look_long = [](RankLinks& links) {
+    for (;;) {
+      std::this_thread::sleep_for(1ms);
+      links.look_after();
+    }
+  };
+  CHECK_THROWS_AS(look_long(first), LostRank);
+  CHECK(told.size() == 6);  // three times each of two
+  CHECK(told.at(0).ends_with(": nothing has been heard of it for 0 s; it is waited for until that is 0 s"));
+  CHECK_THROWS_AS(look_long(second), LostRank);
+  CHECK(by_second.size() == 3);  // of rank 0
 }
 
 }  // namespace dmpc::nodes::rank_links_test

@@ -20,7 +20,7 @@ constexpr const char* chart_style =
     "[fill='rgb(  0,   0,   0)']{fill:#fff}[stroke='rgb(  0,   0,   0)']{stroke:#fff}[color='rgb(  0,   0,   0)']{color:#fff}"
     "[stroke='rgb(221, 221, 221)']{stroke:#444}}</style>\n";
 
-/// Empty if there is none.
+/// Empty if there is none, or it cannot be read.
 std::string bytes_of(const std::filesystem::path& path) {
   std::ostringstream bytes;
   bytes << std::ifstream(path, std::ios::binary).rdbuf();
@@ -44,12 +44,21 @@ std::string Charts::draw(Plot plot, const Table& table) {
     const std::string sentence = outcome->is_program_missing
                                      ? "the page has no plots: " + outcome->complaint + " (package gnuplot-nox)"
                                      : outcome->complaint;
-    if (told_.insert(sentence).second) {
-      complaints_ << speaker_ << ": " << sentence << std::endl;
-    }
+    tell(sentence);
     return "";
   }
-  return data_url("image/svg+xml", themed(bytes_of(folder_ / (plot.name + ".svg"))));
+  const std::string picture = plot.name + ".svg", bytes = bytes_of(folder_ / picture);
+  if (bytes.empty()) {
+    tell("the page lacks a plot: " + picture + " is drawn, and cannot be read back");
+    return "";
+  }
+  return data_url("image/svg+xml", themed(bytes));
+}
+
+void Charts::tell(const std::string& sentence) {
+  if (told_.insert(sentence).second) {
+    complaints_ << speaker_ << ": " << sentence << std::endl;
+  }
 }
 
 std::string themed(std::string svg) {

@@ -23,6 +23,8 @@ class Charts {
   std::string draw(Plot plot, const Table& table);
 
  private:
+  void tell(const std::string& sentence);
+
   std::ostream& complaints_;
   std::string speaker_, program_;
   std::set<std::string> told_;

@@ -28,7 +28,50 @@ constexpr std::int64_t last_second = 253'402'300'799;
 
 constexpr std::string_view plain_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
 
+bool steers(unsigned char letter) { return letter < ' ' || letter == 0x7f; }
+
+/// What would steer a terminal, or end a line, as the shells' $'...' has it (POSIX.1-2024).
+std::string dollar_word(const std::string& word) {
+  std::string quoted = "$'";
+  for (const char letter : word) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (letter == '\'' || letter == '\\') {
+      quoted += '\\';
+    }
+    if (steers(code)) {
+      quoted += '\\';
+      for (const unsigned shift : {6U, 3U, 0U}) {
+        quoted += static_cast<char>('0' + (code >> shift & 7U));
+      }
+    } else {
+      quoted += letter;
+    }
+  }
+  return quoted + "'";
+}
+
+/// What it was made of; something else of what it does not make.
+std::string word_of_dollar(std::string_view text) {
+  std::string word;
+  for (std::size_t i = 2; i + 1 < text.size(); ++i) {
+    unsigned code = 0;
+    if (text[i] != '\\') {
+      word += text[i];
+    } else if (const char* const digits = text.data() + i + 1;
+               i + 4 < text.size() && std::from_chars(digits, digits + 3, code, 8).ptr == digits + 3) {
+      word += static_cast<char>(code);
+      i += 3;
+    } else {
+      word += text[++i];
+    }
+  }
+  return word;
+}
+
 std::string shell_word(const std::string& word) {
+  if (std::any_of(word.begin(), word.end(), steers)) {
+    return dollar_word(word);
+  }
   if (!word.empty() && word.find_first_not_of(plain_letters) == std::string::npos) {
     return word;
   }
@@ -92,6 +135,10 @@ Origin this_origin(std::optional<std::uint64_t> scene_digest) {
 std::string command_text(std::span<const std::string> words) { return joined(shell_words(words), " "); }
 
 bool is_shell_word(std::string_view text) {
+  if (text.starts_with("$'")) {
+    const std::string word = word_of_dollar(text);
+    return word.find('\0') == std::string::npos && dollar_word(word) == text && shell_word(word) == text;
+  }
   constexpr std::string_view quote = "'\\''";
   const bool is_quoted = text.size() >= 2 && text.front() == '\'' && text.back() == '\'';
   std::string word;
@@ -101,9 +148,7 @@ bool is_shell_word(std::string_view text) {
     word += rest.front();
     rest.remove_prefix(is_quote ? quote.size() : 1);
   }
-  const bool is_printed =
-      std::none_of(text.begin(), text.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; });
-  return is_printed && shell_word(word) == text;
+  return shell_word(word) == text;
 }
 
 std::string date_text(const char* epoch, std::int64_t now_seconds) {

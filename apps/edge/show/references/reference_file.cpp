@@ -44,6 +44,12 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   }
 }
 
+/// A file's own errors have its name, those of what is packed in it have none.
+core::InputError named(const std::string& name, const core::InputError& error) {
+  const std::string text = error.what();
+  return core::InputError(text.starts_with(name + ": ") ? text : name + ": " + text);
+}
+
 class ReferenceReader {
  public:
   ReferenceReader(std::istream& input, std::string name, const ReferenceColumns& wanted)
@@ -99,7 +105,7 @@ class ReferenceReader {
     try {
       return look();
     } catch (const core::InputError& error) {  // of a pipe that gives nothing, or too much
-      throw core::InputError(name_ + ": " + error.what());
+      throw named(name_, error);
     }
   }
 
@@ -191,7 +197,7 @@ void check_rest(std::istream& text, const std::string& name) {
       text.ignore(text_behind_fault_max);
     }
   } catch (const core::InputError& error) {
-    throw core::InputError(name + ": " + error.what());
+    throw named(name, error);
   }
 }
 
@@ -210,7 +216,7 @@ bool is_packed(std::istream& input, const std::string& name) {
   try {
     return input.peek() == first_of_gzip;
   } catch (const core::InputError& error) {  // of a pipe that gives nothing
-    throw core::InputError(name + ": " + error.what());
+    throw named(name, error);
   }
 }
 
@@ -237,7 +243,7 @@ ReferenceTrace read_references(const std::filesystem::path& path, const Referenc
   try {
     input = std::make_unique<TextInput>(is_standard ? "/dev/stdin" : path);
   } catch (const core::InputError& error) {
-    throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
+    throw core::InputError(std::string(error.what()) + "; a CSV file of page references was expected");
   }
   if (unpack && is_packed(*input, name)) {
     return read_packed(*unpack(*input), name, columns);

@@ -90,7 +90,11 @@ struct PrecisionRow {
     return static_cast<double>(precision.differing_pixels) <= std::ceil(may_differ - 1e-9);
   }
   const char* verdict() const {
-    return !is_explained() ? "unexplained" : !is_expected() ? "too few" : is_warned() ? "warned" : "explained";
+    return !is_explained()         ? (precision.is_by_paths ? "other mean" : "unexplained")
+           : !is_expected()        ? "too few"
+           : precision.is_by_paths ? "same mean"
+           : is_warned()           ? "warned"
+                                   : "explained";
   }
 };
 
@@ -115,10 +119,17 @@ FilledColumns<PrecisionRow> precision_columns() {
 
 Table empty_table(const PrecisionOptions& options) {
   Table table("Precision of the picture in float against double precision: " + std::to_string(options.resolution.width) + "x" +
-                  std::to_string(options.resolution.height) + " pixels, one sample a pixel, depth " +
-                  std::to_string(options.depth) + ", convention haines",
+                  std::to_string(options.resolution.height) + " pixels, one sample a pixel, " +
+                  (options.transport.is_by_paths() ? text_of(options.transport)
+                                                   : "depth " + std::to_string(options.depth) + ", convention haines"),
               heads_of(precision_columns()));
   table.add_note("Pixels are compared in 8 bits with the sRGB curve; RMSE and largest are of linear light.");
+  if (options.transport.is_by_paths()) {
+    table.add_note(
+        "Both take the same chances, so that nearly all pixels have the same light; where rounding leads a path elsewhere, which "
+        "nobody explains, it has another by chance, and all pixels together the same mean, within four standard errors.");
+    return table;
+  }
   table.add_note(
       "The pixels that differ stand under what comes first where the two renderers follow the same pixel: two surfaces that "
       "all but touch, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its "
@@ -136,7 +147,7 @@ Table empty_table(const PrecisionOptions& options) {
 void describe_errors(const PrecisionRow& row, Table& table) {
   const std::vector<std::string>& errors = row.precision.errors;
   for (std::size_t index = 0; index < std::min(errors_shown, errors.size()); ++index) {
-    table.add_note("UNEXPLAINED in " + row.scene + ", " + errors[index] + ".");
+    table.add_note((row.precision.is_by_paths ? "ANOTHER MEAN of " : "UNEXPLAINED in ") + row.scene + ", " + errors[index] + ".");
   }
   if (!row.is_expected()) {
     table.add_note("TOO FEW pixels of " + row.scene + " have the same 8 bits: " + fixed(percent_equal(row.precision), 4) +
@@ -145,7 +156,16 @@ void describe_errors(const PrecisionRow& row, Table& table) {
 }
 
 Precision measure(const PrecisionOptions& options, const std::string& name, const TableFiles& files, Interrupt& interrupt) {
-  PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth, .staging = options.staging};
+  PictureOptions picture{.scene = name,
+                         .resolution = options.resolution,
+                         .depth = options.depth,
+                         .staging = options.staging,
+                         .transport = options.transport};
+  if (options.transport.is_by_paths()) {
+    picture.depth = options.transport.depth();
+    picture.staging.background =
+        options.transport.sky ? std::optional(options.transport.sky->horizon) : options.staging.background;
+  }
   const core::Scene scene = load_scene_beside(picture, files.names());
   Progress progress(std::cerr, stderr_is_terminal(), name + " ", "rows");
   return measure_precision(
@@ -168,7 +188,8 @@ struct Outcome {
 /// Pictures that are larger, smaller or deeper than measured, or seen or lit otherwise, are as any other.
 Expectation expected_of(const std::string& scene, const PrecisionOptions& options) {
   const bool is_as_measured = options.resolution.width == measured_side && options.resolution.height == measured_side &&
-                              options.depth == measured_depth && options.staging.is_as_scene();
+                              options.depth == measured_depth && options.staging.is_as_scene() &&
+                              !options.transport.is_by_paths();
   return options.expected ? Expectation{*options.expected, "by --expect"}
          : is_as_measured ? expectation_of(scene)
                           : usual_expectation();
@@ -187,7 +208,10 @@ void measure_all(const PrecisionOptions& options, const std::vector<std::string>
   }
 }
 
-const char* verdict_of(bool is_complete, const Outcome& outcome) {
+const char* verdict_of(bool is_complete, bool is_by_paths, const Outcome& outcome) {
+  if (is_by_paths && is_complete && outcome.is_expected) {
+    return outcome.is_explained ? "No picture has another mean." : "ANOTHER MEAN: one of the renderers has an error.";
+  }
   return !outcome.is_explained  ? "UNEXPLAINED pixels: one of the renderers has an error."
          : !outcome.is_expected ? "TOO FEW pixels have the same 8 bits in float and in double."
          : !is_complete         ? "Ended before its time: scenes are missing."
@@ -215,6 +239,13 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "--expect", "PERCENT", [&options](const std::string& text) { options.expected = parse_expectation(text); },
       "End with status 3 if fewer pixels have the same 8 bits; without it 99, and of families' own pictures what was measured");
   add_options(set, options.staging);
+  add_options(set, options.transport);
+  set.check_in_the_end([set, &options] {
+    check(set, options.transport);
+    if (options.transport.occlusion || (options.transport.sky && options.transport.sky->is_picture())) {
+      throw core::UsageError("--occlusion and a picture for --sky are not there in double: expected a sky of colours");
+    }
+  });
   add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -224,6 +255,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "  dmpc bench precision mine.nff --format=csv -o mine.csv\n"
       "  dmpc bench precision model.glb --camera=4,3,5/0,0,0 --light=10,20,10\n"
       "  dmpc bench precision hall.nff --expect=98.5\n"
+      "  dmpc bench precision balls-4 --transport=paths --sky=1 --bounces=3\n"
       "Exit status 3 says that a pixel differs for no reason that rounding gives, or that fewer pixels than expected have the\n"
       "same 8 bits.");
 }
@@ -236,7 +268,7 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   Outcome outcome;
   const auto result = [&](bool is_whole) -> TableResult {
-    table.add_note(verdict_of(is_whole, outcome));
+    table.add_note(verdict_of(is_whole, options.transport.is_by_paths(), outcome));
     return {.text = text_of(table, options.table.format)};
   };
   const int status = run_tabled({.measure = [&] { measure_all(options, scenes, files, interrupt, table, outcome); },

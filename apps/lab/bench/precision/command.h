@@ -16,7 +16,8 @@ namespace dmpc::apps {
 struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
-  int depth = 5;
+  int depth = 5;  ///< by paths the transport's
+  TransportOptions transport;
   /// Percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured. How many pixels may differ is
   /// rounded up.
   std::optional<double> expected;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/interrupt.h"
 #include "apps/lab/crowd/side_by_side.h"
+#include "apps/lab/oracle/accurate/emitters.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
@@ -69,6 +71,24 @@ std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std:
   return differing;
 }
 
+/// Of pixels that differ by chance the mean differs by no more than a few of its standard errors.
+void judge_mean(const std::vector<Vec3d>& product, const std::vector<Vec3d>& accurate, Precision& precision) {
+  constexpr double errors_allowed = 4, rounding = 1e-6;
+  double sum = 0, squares = 0;
+  for (std::size_t pixel = 0; pixel < product.size(); ++pixel) {
+    const Vec3d off = product[pixel] - accurate[pixel];
+    const double light = off.x + off.y + off.z;
+    sum += light;
+    squares += light * light;
+  }
+  const auto pixels = static_cast<double>(product.size());
+  const double mean = sum / pixels, error = std::sqrt(squares) / pixels;
+  if (std::fabs(mean) > errors_allowed * error + rounding) {
+    precision.errors.push_back("the mean of all pixels is " + rounded(mean) + " more than in double, of a standard error of " +
+                               rounded(error));
+  }
+}
+
 void count(const Judgement& judgement, std::uint32_t pixel, std::uint32_t width, Precision& precision) {
   ++precision.causes[static_cast<std::size_t>(judgement.cause)];
   precision.largest_step = std::max(precision.largest_step, judgement.largest_step);
@@ -89,7 +109,10 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
                            "renderer in double does not: expected a depth of at most " + std::to_string(core::crowd_depth));
   }
   const core::Camera& product_camera = subject.settings.camera;
-  const AccurateScene accurate = accurate_scene(scene);
+  AccurateScene accurate = accurate_scene(scene);
+  if (picture.transport.is_by_paths()) {
+    aim_as_product(accurate, subject.database);
+  }
   const AccurateCamera camera(scene.view, product_camera.width(), product_camera.height(), accurate.bounds);
   const AccurateFinder finder(accurate, camera.start());
   const AccuratePicture right =
@@ -97,6 +120,11 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
   Precision precision{.primitives = subject.database.primitives().size(), .rays = right.rays};
   const std::vector<Vec3d> product = product_radiance(subject);
   const std::vector<std::uint32_t> differing = compare(product, right.radiance, precision);
+  if (picture.transport.is_by_paths()) {
+    precision.is_by_paths = true;
+    judge_mean(product, right.radiance, precision);
+    return precision;
+  }
   const PixelJudge judge(subject.database, subject.settings, accurate, finder, camera, subject.loss);
   side_by_side(differing.size(), [&](std::size_t index) {
     if (attendance.stop.stop_requested()) {

@@ -24,10 +24,11 @@ struct Precision {
   std::array<std::uint64_t, pixel_cause_count> causes{};  ///< of the pixels that differ
   double largest_step = 0;                                ///< of any audit of them
   std::vector<std::string> errors;                        ///< "pixel (3, 4): ..." for each unexplained one, row by row
+  bool is_by_paths = false;                               ///< pixels that differ have no causes, but one error if their mean does
 };
 
 /// Renders `scene` in float, as every strategy does to the last bit, and in double with the same samples; judges every pixel that
-/// differs in 8 bits. Uses all cores; the same for every number of them. `picture` asks for one sample a pixel. Progress counts
+/// differs in 8 bits; by paths, which rounding leads elsewhere, all of them by their mean. Uses all cores; the same for every number of them. `picture` asks for one sample a pixel. Progress counts
 /// rows of the accurate picture. Throws Interrupted when a stop is requested.
 Precision measure_precision(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance = {});
 

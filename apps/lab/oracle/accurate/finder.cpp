@@ -162,13 +162,13 @@ void AccurateFinder::Parts::note_level(const AccurateHit& hit, Query& query) con
 
 AccurateHit AccurateFinder::Parts::shown(const Query& query) const {
   AccurateHit shown = query.best;
-  const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].lets_through(); };
+  const auto rank = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].rank_in_plane(); };
   for (std::size_t i = 0; i < query.level_count; ++i) {
     const std::uint32_t body = query.level[i].body;
     if (scene->bodies[body].object == scene->bodies[query.best.body].object) {
       continue;  // a polygon's triangles lie side by side
     }
-    const bool comes_before = std::pair(transmits(body), body) < std::pair(transmits(shown.body), shown.body);
+    const bool comes_before = std::pair(rank(body), body) < std::pair(rank(shown.body), shown.body);
     if (comes_before && query.level[i].t <= query.best.t + reach() && share_plane(*scene, query.best.body, body)) {
       shown.body = body;
     }

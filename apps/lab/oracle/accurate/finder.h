@@ -21,8 +21,8 @@ class AccurateFinder {
   AccurateFinder& operator=(const AccurateFinder&) = delete;
 
   /// The hit with the least (t, body) in (0, ray.t_max); the triangle ray.ignored_body is left out, and at the ray's start what
-  /// lies in its plane. Of triangles of one plane (share_plane()) that are hit there together, the first counts that lets no
-  /// light through, or the first of all; it is asked at each hit.
+  /// lies in its plane. Of triangles of one plane (share_plane()) that are hit there together, that of the least
+  /// core::Material::rank_in_plane() counts, the first of those; it is asked at each hit.
   AccurateHit closest(const AccurateRay& ray) const;
   /// Some hit, or none.
   AccurateHit any(const AccurateRay& ray) const;

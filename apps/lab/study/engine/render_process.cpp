@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/edge/line/exit_status.h"
+#include "apps/edge/system/bounded_text.h"
 #include "apps/edge/system/watched_process.h"
 #include "core/base/expect.h"
 
@@ -40,9 +41,11 @@ std::optional<std::string> misfit_of(const WatchedProcess& process) {
                             sentence_of(process.complaint));
 }
 
+/// That the disk gives them back is the computer's to do, that they hold together ours.
 std::vector<Figure> figures_in(const std::filesystem::path& stats) {
+  const std::string text = bounded_text(stats, figures_bytes_max, "what dmpc render --stats writes");
   try {
-    return read_figures(stats);
+    return parse_figures(text, stats.string());
   } catch (const core::InputError& error) {
     throw core::InternalError(std::string("the statistics of a render cannot be read: ") + error.what());
   }

@@ -109,8 +109,18 @@ TEST_CASE("a spline goes through its values by its slopes, which are those of a 
 }
 
 TEST_CASE("a scale of 0 hides what it is of") {
-  CHECK(contains(Film{.values = {0, 0, 0, 0, 0, 0}, .path = "scale"}.complaint(), "no triangle in it that has an area"));
+  CHECK(contains(mesh_refusal("a.gltf", Film{.node = R"({"mesh":0,"scale":[0,0,0]})"}.text()), "no triangle in it that has an"));
   check_at(Film{.values = {1, 1, 1, 3, 1, 1}, .path = "scale"}.at(1)[1], {4, 0, 0});
+}
+
+TEST_CASE("a frame of an animation may show nothing, and a whole that is but a point is seen as one of unit size") {
+  const Film film{.values = {0, 0, 0, 1, 1, 1}, .path = "scale"};
+  const MeshFile nothing = film.read(0);
+  CHECK(nothing.scene.objects.empty());
+  CHECK(nothing.bounds.radius == 1);
+  CHECK(length(nothing.scene.view.from - nothing.scene.view.at) > 1);
+  const AnimationMoment later{"", 2, 24, apps::StillScene{nothing.bounds, nothing.scene.view}};
+  check_at(read_mesh("a.gltf", film.text(), {.animation = later}).scene.vertices.at(1), {2, 0, 0});
 }
 
 TEST_CASE("values in normalised bytes are those that they stand for") {

@@ -157,4 +157,26 @@ TEST_CASE("of several cameras the first that makes a picture is taken, and which
   CHECK(tests::notes(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
 }
 
+TEST_CASE("what shines with more than 1e12 is brought down to that in all formats, in its colour, and said") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.mtl", "newmtl a\nKe 4e14 2e14 0\n");
+  tests::write_text(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  tests::Gltf gltf;
+  gltf.materials = R"([{"emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":1e30}}}])";
+  tests::write_text(folder / "a.gltf", gltf.text());
+  tests::write_text(
+      folder / "a.pbrt",
+      "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"rgb L\" "
+      "[2e11 1e11 0] \"float scale\" 100\nShape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 0]\n");
+  for (const char* const name : {"a.obj", "a.gltf", "a.pbrt"}) {
+    CAPTURE(name);
+    const MeshFile file = read_mesh_file(folder / name, {.is_by_paths = true});
+    CHECK(says(file, "materials that shine with more than 1e12, the brightest light there is, brought down to it: 1"));
+    const Vec3d light = file.scene.materials.at(file.scene.objects.at(0).material).emission;
+    CHECK(light.x == Approx(1e12).epsilon(1e-12));
+    CHECK(light.y == Approx(5e11).epsilon(1e-12));
+    CHECK(light.z == 0);
+  }
+}
+
 }  // namespace dmpc::apps::lights_test

@@ -52,7 +52,9 @@ TEST_CASE("a vertex has three coordinates as doubles, a weight by which they are
   CHECK(refusal("v 1 2 3 4 5") == "line 1: found the end of the line, expected a number");
   CHECK(refusal("v 1 2 3 1 1 1 1") == "line 1: found '1', expected the end of the line");
   CHECK(refusal("\nv 0 10.0D-01 0") == "line 2: found '10.0D-01', expected a number");
-  CHECK(refusal("v 0 0 -1.#IND") == "line 1: found '-1.#IND', expected a number");
+  CHECK(refusal("v 0 0 -1.#IND").empty());
+  CHECK(refusal("v 0 0 -1.#IND\nf 1 1 1") ==
+        "line 1: expected a number, found what is none, and a face has it; correct the file");
   CHECK(refusal("v 0 0 1.1e30") == "line 1: a coordinate is beyond 1e30; correct the file");
   CHECK(refusal("v 1 0 0 0") == "line 1: divided by its weight a coordinate is beyond 1e30; correct the file");
 }

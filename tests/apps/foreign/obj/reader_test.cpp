@@ -51,6 +51,10 @@ Vec3d color_of(const MeshFile& file, std::size_t object = 0) {
   return file.scene.materials[file.scene.objects.at(object).material].color;
 }
 
+bool says(const MeshFile& file, const std::string& part) {
+  return std::ranges::any_of(file.notes, [&](const std::string& note) { return tests::contains(note, part); });
+}
+
 bool notes(const MeshFile& file, const std::string& note) {
   return std::find(file.notes.begin(), file.notes.end(), note) != file.notes.end();
 }
@@ -229,6 +233,33 @@ TEST_CASE("faces stay in the file's order, whatever their materials") {
   CHECK(color_of(file, 0) == red);
   CHECK(color_of(file, 1) == blue);
   CHECK(color_of(file, 2) == red);
+}
+
+TEST_CASE("a Tr of 1 alone on all materials is of what is opaque, as MeshLab and OpenMVS wrote it, and said") {
+  const std::string opaque = "newmtl a\nKd 1 0 0\nTr 1.000000\n";
+  const MeshFile file = read("mtllib a.mtl\n" + square + "usemtl a\n" + face, opaque);
+  CHECK(file.scene.materials.at(0).transmittance == 0);
+  CHECK(color_of(file) == red);
+  CHECK(says(file, "materials with a Tr of 1 and no d, as all are, shown as opaque"));
+  const auto transmittance_of_first = [&](const std::string& mtl, const std::string& more) {
+    return read("mtllib a.mtl\n" + square + "usemtl a\n" + face + more, mtl).scene.materials.at(0).transmittance;
+  };
+  CHECK(transmittance_of_first(opaque + "d 0\n", "") == 1);
+  CHECK(transmittance_of_first(opaque + "newmtl b\nTr 1\n", "usemtl b\n" + face) == 0);
+  CHECK(transmittance_of_first(opaque + "newmtl b\nTr 0.5\n", "usemtl b\n" + face) == 1);
+  CHECK(transmittance_of_first(opaque + "newmtl b\n", "") == 0);  // on no face
+}
+
+TEST_CASE("what is no number is left out and said where no face has it, and else refused with its line") {
+  const std::string coloured = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\n";
+  const MeshFile file = read(coloured + "v 1 2 0 nan nan nan\nv -nan(ind) 1.#QNAN inf\nvn nan 0 0\nvt nan 0\n" + face);
+  CHECK(color_of(file) == red);
+  CHECK(notes(file, "vertices of what is no number, left out as no face has them (the first in line 5): 2"));
+  CHECK(notes(file, "normals of what is no number, left out as no face has them (the first in line 7): 1"));
+  CHECK(notes(file, "texture coordinates of what is no number, left out as no face has them (the first in line 8): 1"));
+  CHECK(tests::contains(refusal(coloured + "v 1 2 0 nan nan nan\nf 1 2 5\n"), "line 5: expected a number"));
+  CHECK(tests::contains(refusal(square + "vn 0 0 nan\nf 1//1 2//1 3//1\n"), "line 5: expected a number"));
+  CHECK(tests::contains(refusal(square + "v 1 2 0x\n" + face), "line 5: expected a number, found '0x'"));
 }
 
 }  // namespace dmpc::apps::obj_reader_test

@@ -93,4 +93,26 @@ TEST_CASE("points and lines of OFF, and what stands behind its last face, are sa
   CHECK(notes(file, "bytes behind the last face, which are not looked at: 4"));
 }
 
+TEST_CASE("what is no number in OFF and PLY is left out and said where no face has it, else refused with its vertex") {
+  const std::string more = "nan nan nan\n", face = "3 0 1 2\n";
+  const MeshFile off = read_mesh("a.off", "OFF\n4 1 0\n" + vertices + more + face);
+  CHECK(off.scene.vertices == triangle);
+  const std::string note =
+      "vertices that are no numbers or beyond 1e30, left out as no face has them (the first: the mesh: vertex 3): 1";
+  CHECK(notes(off, note));
+  CHECK(contains(mesh_refusal("a.off", "OFF\n4 1 0\n" + vertices + more + "3 0 1 3\n"), "the mesh: vertex 3 has a coordinate"));
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(notes(read_mesh("a.ply", header + vertices + more + face), note));
+  CHECK(contains(mesh_refusal("a.ply", header + vertices + more + "3 0 1 3\n"), "the mesh: vertex 3 has a coordinate"));
+}
+
+TEST_CASE("a hole in OFF or PLY is refused where it begins, however long it is") {
+  const std::string hole(1000, '\0');
+  CHECK(contains(mesh_refusal("a.off", hole), "line 1: found '\\x00', expected OFF"));
+  CHECK(contains(mesh_refusal("a.off", "OFF\n3 1 0\n0 0 " + hole), "line 3: found '\\x00', expected a coordinate"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nformat" + hole), "line 2: expected text, found byte 0"));
+}
+
 }  // namespace dmpc::apps::off_test

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <sstream>
+#include <string>
 
+#include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::html::charts_test {
@@ -38,6 +41,16 @@ TEST_CASE("without the program there is no plot, and one complaint") {
   CHECK(charts.draw(line(), numbers()).empty());
   CHECK(complaints.str().starts_with("asker: the page has no plots: /none/gnuplot cannot be started"));
   CHECK(complaints.str().find('\n') == complaints.str().size() - 1);
+}
+
+TEST_CASE("a plot that is drawn and cannot be read back is missed, and told") {
+  const tests::TemporaryFolder folder;
+  const std::string program = folder / "draws-nothing";
+  tests::write_text(program, "#!/bin/sh\n: > \"${1%.gnuplot}.svg\"\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  std::ostringstream complaints;
+  CHECK(Charts(complaints, "asker", program).draw(line(), numbers()).empty());
+  CHECK(complaints.str() == "asker: the page lacks a plot: numbers.svg is drawn, and cannot be read back\n");
 }
 
 TEST_CASE("a plot without a number is left out without complaint") {

@@ -15,14 +15,18 @@ TEST_CASE("a command is as a shell takes it, without the program's folder") {
   CHECK(command_text(std::vector<std::string>{"/usr/bin/dmpc", "render", "my scene.nff", "--nodes=8", "it's", "", "$(x)"}) ==
         "dmpc render 'my scene.nff' --nodes=8 'it'\\''s' '' '$(x)'");
   CHECK(command_text({}).empty());
+  CHECK(command_text(std::vector<std::string>{"dmpc", "a\nb\t'\\\x1b"}) == "dmpc $'a\\012b\\011\\'\\\\\\033'");
 }
 
 TEST_CASE("a word that a shell takes as one, and as it stands, is told from what it would take apart or run") {
-  for (const std::string word : {"render", "--nodes=8", "'my scene.nff'", "'it'\\''s'", "''", "'$(x)'", "'`x`'", "'\\'"}) {
+  for (const std::string word : {"render", "--nodes=8", "'my scene.nff'", "'it'\\''s'", "''", "'$(x)'", "'`x`'", "'\\'",
+                                 "$'a\\012b\\011\\033[0m'", "$'it\\'s \\\\\\001'"}) {
     CHECK_MESSAGE(is_shell_word(word), word);
   }
-  for (const std::string word : {"", "my scene", "$(x)", "`x`", "a;b", "a&", "'", "'a'b'", "a'b'", "'a' 'b'", "'a\n'",
-                                 "'\x1b[0m'", "'render'", "#", "~", "*"}) {
+  for (const std::string word :
+       {"",        "my scene", "$(x)",      "`x`",        "a;b",        "a&",     "'",       "'a'b'", "a'b'",
+        "'a' 'b'", "'a\n'",    "'\x1b[0m'", "'render'",   "#",          "~",      "*",       "$'",    "$''",
+        "$'a'",    "$'\\000'", "$'a\n'",    "$'\\012' b", "$'\\012'b'", "$'\\n'", "$'\\777'"}) {
     CHECK_FALSE_MESSAGE(is_shell_word(word), word);
   }
 }
