@@ -10,7 +10,7 @@ namespace dmpc::apps {
 namespace {
 
 Packer& add_edges(Packer& fields, const TextureEdges& edges) {
-  return fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff);
+  return fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff).add(edges.coat);
 }
 
 std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }

@@ -19,7 +19,15 @@ struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
   TextureAlpha alpha = TextureAlpha::ignored;
   double cutoff = 0;  ///< of alpha that cuts out what is less, up to 1; 0: it cuts nothing out
+  /// Of a smooth coat over what has these colours: what it sends back inwards of the light of white, up to coat_max.
+  double coat = 0;
 };
+inline constexpr double coat_max = 0.99;
+
+/// What comes out through such a coat of a channel.
+constexpr double below_coat(double channel, double coat) { return channel * (1 - coat) / (1 - channel * coat); }
+/// That for all texels of `texture`, which has no smaller levels yet.
+void put_below_coat(core::Texture& texture, double coat);
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
 /// levels. Alpha is left out, and the colours are as they are without it; where it counts, and some of it is not 1, texels have 8

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/edge/line/shown_text.h"
+#include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -20,6 +21,21 @@ double mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
 Vec3d clamped(const Vec3d& color) {
   return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
+}
+
+/// Of diffuse light within what has this index its smooth surface sends so much back inwards: all but 1/n^2 of what it lets in (S.
+/// Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection outside).
+double inner_reflection(double index) {
+  constexpr double index_min = 1.001;  // below which there is no telling
+  if (!(index > index_min)) {
+    return 0;
+  }
+  const double n = index, square = n * n, sum = square + 1, difference = square - 1, fourth = square * square;
+  const double outside = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+                         square * difference * difference / (sum * sum * sum) * core::natural_log((n - 1) / (n + 1)) -
+                         2 * n * square * (square + 2 * n - 1) / (sum * (fourth - 1)) +
+                         8 * fourth * (fourth + 1) / (sum * (fourth - 1) * (fourth - 1)) * core::natural_log(n);
+  return 1 - (1 - outside) / square;
 }
 
 /// What a pane reflects of both its faces together, of what one face reflects.
@@ -137,12 +153,23 @@ Surface Surfaces::conductor(const Parameters& parameters, const std::string& pre
   return surface;
 }
 
+/// Light that is within goes back and forth between what is diffuse and the coat: of reflectance R comes out R (1 - f) / (1 - R f).
 Surface Surfaces::coated(const Parameters& parameters) const {
   Surface surface = diffuse(parameters, "reflectance", 0.5);
   surface.has_facets = true;
   surface.facets.metallic = 0;
   surface.facets.roughness = roughness(parameters, "", 0);
   surface.facets.refraction_index = index(parameters, "eta", 1.5);
+  Vec3d& color = surface.color.color;
+  const double f = inner_reflection(surface.facets.refraction_index);
+  if (surface.color.picture) {
+    const double held = std::min(f * mean(color), coat_max);
+    surface.color.picture->edges.coat = held;
+    color = color * ((1 - f) / (1 - held));
+  } else {
+    color = clamped(color);
+    color = {color.x * (1 - f) / (1 - color.x * f), color.y * (1 - f) / (1 - color.y * f), color.z * (1 - f) / (1 - color.z * f)};
+  }
   for (const char* const inside : {"thickness", "g", "albedo", "maxdepth", "nsamples"}) {
     parameters.find(inside, {number, integer, rgb, spectrum, texture});
   }

@@ -7,6 +7,7 @@
 #include "apps/foreign/mesh/surface.h"
 #include "apps/formats/mesh_sky.h"
 #include "apps/picture/image_file.h"
+#include "core/scene/texel.h"
 #include "tests/support/pbrt_scenes.h"
 
 namespace dmpc::apps::pbrt_looks_test {
@@ -54,12 +55,36 @@ TEST_CASE("a metal is one, with what it reflects straight ahead as its colour, a
   CHECK(is_near(gold.color, {1, 0.77, 0.34}, 0.06));
 }
 
-TEST_CASE("a coat over what is diffuse is a plastic's") {
-  const Material plastic = material_of("Material \"coateddiffuse\" \"rgb reflectance\" [0.2 0.3 0.4] \"float roughness\" 0\n");
+// F + (1 - F) R (1 - f) / (1 - R f) straight ahead, F = 0.04 and f = 0.5963 being what a surface of index 1.5 sends back of what
+// comes along its normal, and of diffuse light from within.
+TEST_CASE("a coat over what is diffuse sends part of its light back in, so that it is darker than without") {
+  const auto plastic_of = [](const std::string& more) {
+    return material_of("Material \"coateddiffuse\" \"float roughness\" 0 " + more + "\n");
+  };
+  const Material plastic = plastic_of("\"rgb reflectance\" [0.2 0.5 0.8]");
   CHECK(plastic.microfacets.metallic == 0);
   CHECK(plastic.microfacets.roughness == 0);
   CHECK(plastic.microfacets.reflectance == doctest::Approx(0.04));
-  CHECK(plastic.color == Vec3d{0.2, 0.3, 0.4});
+  CHECK(is_near(Vec3d{0.04, 0.04, 0.04} + plastic.color * 0.96, {0.1280, 0.3160, 0.6332}, 1e-4));
+  CHECK(is_near(plastic_of("\"rgb reflectance\" [1 1 1]").color, {1, 1, 1}));
+  CHECK(is_near(plastic_of("\"rgb reflectance\" [0.2 0.5 0.8] \"float eta\" 1").color, {0.2, 0.5, 0.8}));
+}
+
+TEST_CASE("so is a picture below a coat, texel by texel") {
+  const tests::TemporaryFolder folder;
+  Image grey(1, 1);
+  grey.rgb = {0.5, 0.2, 0.8};
+  write_image(folder / "grey.exr", grey);
+  tests::write_text(folder / "a.pbrt", tests::pbrt_camera +
+                                           "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.exr\"\n"
+                                           "Material \"coateddiffuse\" \"texture reflectance\" \"w\"\n"
+                                           "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+  const MeshFile file = read_mesh_file(folder / "a.pbrt");
+  REQUIRE(file.scene.textures.size() == 1);
+  const core::Texture& texture = file.scene.textures[0];
+  const Vec3d shown(core::decoded(texture.format, texture.levels[0].texels[0]));
+  CHECK(is_near(shown, {0.2875, 0.0917, 0.6179}, 2e-3));
+  CHECK(is_near(file.scene.materials[file.scene.objects[0].material].color, {1, 1, 1}));
 }
 
 TEST_CASE("glass bends light by its index, and a pane lets it through straight") {
