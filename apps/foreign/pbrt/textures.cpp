@@ -123,23 +123,17 @@ TextureValue Textures::checkered(const Parameters& parameters, bool is_number) {
   TextureValue value;
   value.picture = TextureUse{.path = "*" + std::to_string(pictures_.size()), .edges = {}};
   pictures_.push_back(checks(first.color, second.color));
-  place(parameters, value);
-  for (double& number : value.place.rows[0]) {
-    number /= squares;
-  }
-  for (double& number : value.place.rows[1]) {
-    number /= squares;
-  }
+  place(parameters, value, squares);
   return value;
 }
 
-/// u and v as pbrt has them, v upwards, are scaled and moved; a picture's t goes downwards.
-void Textures::place(const Parameters& parameters, TextureValue& value) {
+/// u and v as pbrt has them, v upwards, are scaled and moved, `span` of that lies across the picture; its t goes downwards.
+void Textures::place(const Parameters& parameters, TextureValue& value, double span) {
   const std::string mapping = parameters.text("mapping", "uv");
   notes_.count("textures that lie by a mapping of their own, shown by u and v", mapping == "uv" ? 0 : 1);
   const double su = parameters.number("uscale", 1), sv = parameters.number("vscale", 1), du = parameters.number("udelta", 0),
                dv = parameters.number("vdelta", 0);
-  value.place.rows = {{{su, 0, du}, {0, sv, 1 - sv - dv}}};
+  value.place.rows = {{{su / span, 0, du / span}, {0, sv / span, 1 - (sv + dv) / span}}};
 }
 
 TextureValue Textures::pictured(const Parameters& parameters) {

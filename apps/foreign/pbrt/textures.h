@@ -43,7 +43,7 @@ class Textures {
   TextureValue mixed(const Parameters& parameters, bool is_number);
   TextureValue checkered(const Parameters& parameters, bool is_number);
   TextureValue pictured(const Parameters& parameters);
-  void place(const Parameters& parameters, TextureValue& value);
+  void place(const Parameters& parameters, TextureValue& value, double span = 1);
   const TextureValue& find(const Parameter& parameter, const Parameters& owner, bool is_number) const;
 
   Notes& notes_;

@@ -117,23 +117,40 @@ TEST_CASE("named materials may come later, and mixtures are of their numbers") {
   CHECK(tests::contains(pbrt_refusal("Material \"velvet\""), "no material of kind 'velvet'"));
 }
 
-TEST_CASE("textures of constants are reckoned, and checkerboards are pictures") {
+TEST_CASE("textures of constants are reckoned") {
   const std::string two =
       "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [1 0.5 0]\n"
       "Texture \"s\" \"spectrum\" \"scale\" \"texture tex\" \"a\" \"float scale\" 0.5\n"
       "Texture \"m\" \"spectrum\" \"mix\" \"texture tex1\" \"a\" \"rgb tex2\" [0 0 1] \"float amount\" 0.5\n";
   CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"s\"\n").color == Vec3d{0.5, 0.25, 0});
   CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"m\"\n").color == Vec3d{0.5, 0.25, 0.5});
-  const MeshFile checks = read_pbrt(
-      "Texture \"c\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0 0]\n"
-      "Material \"diffuse\" \"texture reflectance\" \"c\"\n"
-      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
-  REQUIRE(checks.scene.textures.size() == 1);
-  REQUIRE(checks.scene.corners.size() == 3);
-  CHECK(checks.scene.textures[0].levels[0].texels[127 * 128] == 0xffffff);  // the lower left square is the first
-  CHECK(checks.scene.textures[0].levels[0].texels[0] == 0);
-  CHECK(checks.scene.corners[1].place[0] - checks.scene.corners[0].place[0] == 2);  // four squares, two a picture
   CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" \"texture reflectance\" \"x\""), "the texture \"x\" is not there"));
+}
+
+TEST_CASE("a checkerboard has its first colour where whole numbers of squares to the right and upwards add up to an even one") {
+  for (const std::string where : {"\"float uscale\" 4", "\"float vscale\" 2 \"float vdelta\" 1", "\"float udelta\" 3 \"float vscale\" 3"}) {
+    CAPTURE(where);
+    const MeshFile checks = read_pbrt("Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0 0] " + where +
+                                      "\nMaterial \"diffuse\" \"texture reflectance\" \"c\"\n"
+                                      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+    REQUIRE(checks.scene.textures.size() == 1);
+    REQUIRE(checks.scene.corners.size() == 3);
+    const auto value = [&](const char* name, double fallback) {
+      const std::size_t at = where.find(name);
+      return at == std::string::npos ? fallback : std::stod(where.substr(at + 7));
+    };
+    for (const auto& [u, v] : {std::pair{0.1, 0.1}, {0.1, 0.6}, {0.3, 0.1}, {0.3, 0.6}, {0.8, 0.1}}) {
+      const auto wrapped = [&, u = u, v = v](std::size_t axis) {
+        const auto corner = [&](std::size_t i) { return double{checks.scene.corners[i].place[axis]}; };
+        const double place = corner(0) + (corner(1) - corner(0)) * u + (corner(2) - corner(0)) * v;
+        return static_cast<std::size_t>((place - std::floor(place)) * 128);
+      };
+      const double squares =
+          std::floor(u * value("uscale", 1) + value("udelta", 0)) + std::floor(v * value("vscale", 1) + value("vdelta", 0));
+      const bool is_first = std::fmod(squares, 2) == 0;
+      CHECK(checks.scene.textures[0].levels[0].texels[wrapped(1) * 128 + wrapped(0)] == (is_first ? 0xffffffU : 0U));
+    }
+  }
 }
 
 TEST_CASE("pictures lie by u and v, v upwards, scaled and moved") {
