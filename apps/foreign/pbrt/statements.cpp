@@ -174,7 +174,7 @@ void Statements::check_map(const Token& name, const Transform& map) const {
 
 /// What is moved at the end of the shutter's time alone does not move here.
 void Statements::apply(const Token& name, const Transform& map) {
-  if (moves_start_) {
+  if (state_.moves_start) {
     const Transform moved = composed(state_.ctm, map);
     check_map(name, moved);
     state_.ctm = moved;
@@ -183,7 +183,7 @@ void Statements::apply(const Token& name, const Transform& map) {
 
 void Statements::transform_statement(const Token& name) {
   if (name.text == "Identity") {
-    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+    state_.ctm = state_.moves_start ? Transform{} : state_.ctm;
   } else if (name.text == "TransformTimes") {
     numbers(name, 2);
   } else if (name.text == "Translate") {
@@ -218,7 +218,7 @@ void Statements::matrix(const Token& name) {
   }
   const Transform map{{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
   if (name.text == "Transform") {
-    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+    state_.ctm = state_.moves_start ? Transform{} : state_.ctm;
   }
   apply(name, map);
 }
@@ -229,7 +229,8 @@ void Statements::coordinates(const Token& name) {
   const std::string system = text(name, "a name");
   const auto found = systems_.find(system);
   if (found == systems_.end()) {
-    tokens_.fail(name.place, "CoordSysTransform: no CoordinateSystem " + quoted(system) + " is there");
+    notes_.count("names of CoordSysTransform that no CoordinateSystem has, which move nothing");
+    return;
   }
   state_.ctm = found->second;
 }
@@ -239,8 +240,8 @@ void Statements::active_transform(const Token& name) {
   if (which.text != "StartTime" && which.text != "EndTime" && which.text != "All") {
     tokens_.fail(which.place, name.text + " has " + quoted(which.text) + ", expected StartTime, EndTime or All");
   }
-  moves_start_ = which.text != "EndTime";
-  notes_.count("what moves while the shutter is open, shown as it stands at first", moves_start_ ? 0 : 1);
+  state_.moves_start = which.text != "EndTime";
+  notes_.count("what moves while the shutter is open, shown as it stands at first", state_.moves_start ? 0 : 1);
 }
 
 void Statements::reverse_orientation(const Token& /*name*/) { state_.is_reversed = !state_.is_reversed; }
@@ -259,22 +260,15 @@ void Statements::restore(Opening opening, const Token& name) {
     tokens_.fail(name.place, name.text + " ends what has not begun" +
                                  (saved_.empty() ? "" : ", within what begins at " + tokens_.text_of(saved_.back().place)));
   }
-  if (opening == Opening::transform) {
-    state_.ctm = saved_.back().state.ctm;
-  } else {
-    state_ = std::move(saved_.back().state);
-  }
+  state_ = std::move(saved_.back().state);
   saved_.pop_back();
 }
 
-void Statements::begin(const Token& name) {
-  save(name.text == "TransformBegin" ? Opening::transform : Opening::attribute, name.place);
-}
+/// In version 4 TransformBegin and TransformEnd are AttributeBegin and AttributeEnd.
+void Statements::begin(const Token& name) { save(Opening::attribute, name.place); }
 
 void Statements::end(const Token& name) {
-  const Opening opening = name.text == "TransformEnd" ? Opening::transform
-                          : name.text == "ObjectEnd"  ? Opening::object
-                                                      : Opening::attribute;
+  const Opening opening = name.text == "ObjectEnd" ? Opening::object : Opening::attribute;
   restore(opening, name);
   if (opening == Opening::object) {
     open_object_ = nullptr;
@@ -441,7 +435,7 @@ void Statements::world_begin(const Token& name) {
     tokens_.fail(name.place, "WorldBegin is there a second time");
   }
   state_.ctm = {};
-  moves_start_ = true;
+  state_.moves_start = true;
   systems_.insert_or_assign("world", state_.ctm);
 }
 

@@ -43,9 +43,10 @@ class Statements {
     std::uint32_t surface = 0;
     std::optional<AreaLight> light;
     bool is_reversed = false;
+    bool moves_start = true;  ///< what moves things holds when the shutter opens
     std::map<std::string, Parameters::Defaults> defaults;  ///< of shapes, lights, materials, ...
   };
-  enum class Opening : std::uint8_t { attribute, transform, object, import };
+  enum class Opening : std::uint8_t { attribute, object, import };
   struct Saved {
     State state;
     Opening opening;
@@ -135,7 +136,7 @@ class Statements {
   GeometrySize made_;  ///< of all shapes, once
   Film film_;
   std::optional<Camera> camera_;
-  bool is_world_ = false, moves_start_ = true;
+  bool is_world_ = false;
 };
 
 }  // namespace dmpc::apps::pbrt

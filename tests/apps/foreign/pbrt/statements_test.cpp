@@ -70,6 +70,19 @@ TEST_CASE("transforms stand before what comes behind them, in double precision")
   CHECK(put("ActiveTransform EndTime Translate 9 9 9 ActiveTransform All Translate 0.1 0.2 0") == Vec3d{1.1, 2.2, 3});
 }
 
+TEST_CASE("what is said between TransformBegin and TransformEnd ends there, as with attributes") {
+  const std::string red = "Material \"diffuse\" \"rgb reflectance\" [1 0 0]\n";
+  for (const std::string name : {"Transform", "Attribute"}) {
+    const MeshFile file = read_pbrt(name + "Begin " + red + "ReverseOrientation AreaLightSource \"diffuse\" ActiveTransform EndTime " +
+                                    name + "End Translate 1 2 3\n" + pbrt_triangle);
+    REQUIRE(file.scene.objects.size() == 1);
+    CHECK(tests::material_of_object(file, 0).color == Vec3d{0.5, 0.5, 0.5});
+    CHECK(!tests::material_of_object(file, 0).shines());
+    CHECK(file.scene.vertices[0] == Vec3d{1, 2, 3});
+    CHECK(file.scene.vertices[1] == Vec3d{2, 2, 3});
+  }
+}
+
 TEST_CASE("coordinates that are left-handed have x turned round, and triangles look to the side that they did") {
   const std::string left = "LookAt 0 0 10  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n";
   const MeshFile file = read_mesh("a.pbrt", left + pbrt_triangle);
@@ -163,7 +176,7 @@ TEST_CASE("errors say file, line and column") {
   CHECK(tests::contains(pbrt_refusal("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]"), "makes lines meet"));
   CHECK(tests::contains(pbrt_refusal("AttributeBegin"), "what begins here is not ended"));
   CHECK(tests::contains(pbrt_refusal("AttributeEnd"), "ends what has not begun"));
-  CHECK(tests::contains(pbrt_refusal("AttributeBegin TransformEnd"), "ends what has not begun, within what begins at"));
+  CHECK(tests::contains(pbrt_refusal("AttributeBegin ObjectEnd"), "ends what has not begun, within what begins at"));
   CHECK(tests::contains(pbrt_refusal(std::string("\x01", 1)), "a byte that no text has, 1"));
   CHECK(tests::contains(pbrt_refusal("NamedMaterial \"m\"\n" + pbrt_triangle), "6:1: the material \"m\" is not there"));
   CHECK(tests::contains(pbrt_refusal("] ["), "\"]\" is no statement"));
