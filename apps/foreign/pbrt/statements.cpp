@@ -298,7 +298,7 @@ void Statements::attribute(const Token& name) {
   Parameters more(tokens_, "Attribute " + quoted(kind), name.place);
   std::vector<Parameter> list = more.take_list();
   if (const auto& known = state_.defaults[kind]) {
-    list.insert(list.end(), known->begin(), known->end());  // what is said last counts
+    list.insert(list.begin(), known->begin(), known->end());  // what is said last counts
   }
   constexpr std::size_t most = 1000;
   if (list.size() > most) {

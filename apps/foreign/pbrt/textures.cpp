@@ -72,13 +72,14 @@ const TextureValue& Textures::find(const Parameter& parameter, const Parameters&
 }
 
 TextureValue Textures::part(const Parameters& parameters, const char* name, double fallback, bool is_number) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    return find(*of_texture, parameters, is_number);
+  if (!is_number) {
+    return color(parameters, name, {fallback, fallback, fallback}, SpectrumUse::reflectance);
   }
-  if (const Parameter* const of_color = parameters.find(name, {rgb, spectrum, blackbody})) {
-    return {.color = color_of(*of_color, parameters, SpectrumUse::reflectance), .picture = {}, .place = {}};
+  const Parameter* const found = parameters.find(name, {texture, ParameterType::number});
+  if (found != nullptr && found->type == texture) {
+    return find(*found, parameters, true);
   }
-  const double value = parameters.number(name, fallback);
+  const double value = found == nullptr ? fallback : parameters.number(name, fallback);
   return {.color = {value, value, value}, .picture = {}, .place = {}};
 }
 
@@ -157,12 +158,12 @@ TextureValue Textures::pictured(const Parameters& parameters) {
 }
 
 std::optional<TextureValue> Textures::color(const Parameters& parameters, const char* name, SpectrumUse use) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    return find(*of_texture, parameters, false);
+  const Parameter* const found = parameters.find(name, {texture, rgb, spectrum, blackbody});
+  if (found == nullptr) {
+    return std::nullopt;
   }
-  const Parameter* const found = parameters.find(name, {rgb, spectrum, blackbody});
-  return found == nullptr ? std::nullopt
-                          : std::optional(TextureValue{.color = color_of(*found, parameters, use), .picture = {}, .place = {}});
+  return found->type == texture ? find(*found, parameters, false)
+                                : TextureValue{.color = color_of(*found, parameters, use), .picture = {}, .place = {}};
 }
 
 TextureValue Textures::color(const Parameters& parameters, const char* name, const Vec3d& fallback, SpectrumUse use) const {
@@ -170,8 +171,9 @@ TextureValue Textures::color(const Parameters& parameters, const char* name, con
 }
 
 std::optional<double> Textures::number(const Parameters& parameters, const char* name) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    const TextureValue& value = find(*of_texture, parameters, true);
+  const Parameter* const found = parameters.find(name, {texture, ParameterType::number});
+  if (found != nullptr && found->type == texture) {
+    const TextureValue& value = find(*found, parameters, true);
     notes_.count("numbers by a picture, shown as if it were half grey all over", value.picture ? 1 : 0);
     return value.color.x * (value.picture ? number_of_picture : 1);
   }

@@ -148,6 +148,24 @@ TEST_CASE("what is said of shapes by Attribute holds for those that do not say i
   CHECK(file.scene.spheres[2].radius == 1);
 }
 
+TEST_CASE("of parameters that are said twice the last counts, whatever says it, and nothing is said of the first") {
+  const MeshFile lamp =
+      read_pbrt("AreaLightSource \"diffuse\" \"rgb L\" [1 0 0] \"bool twosided\" true \"rgb L\" [0 1 0]\n" + pbrt_triangle);
+  CHECK(tests::material_of_object(lamp, 0).emission == Vec3d{0, 1, 0});
+  CHECK(!notes(lamp, "\"L\""));
+  const std::string texture = "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0]\n";
+  const auto color = [&](const std::string& said) {
+    return tests::material_of_object(read_pbrt(texture + "Material \"diffuse\" " + said + "\n" + pbrt_triangle), 0).color;
+  };
+  CHECK(color("\"texture reflectance\" \"t\" \"rgb reflectance\" [0 0 1]") == Vec3d{0, 0, 1});
+  CHECK(color("\"rgb reflectance\" [0 0 1] \"texture reflectance\" \"t\"") == Vec3d{1, 0, 0});
+  const MeshFile attributes = read_pbrt(
+      "Attribute \"material\" \"rgb reflectance\" [1 0 0] \"rgb reflectance\" [0 1 0]\n"
+      "Material \"diffuse\"\n" +
+      pbrt_triangle);
+  CHECK(tests::material_of_object(attributes, 0).color == Vec3d{0, 1, 0});
+}
+
 TEST_CASE("text may have remarks, lines that end by two bytes, a mark in front, and no end of its last line") {
   const std::string text =
       "\xef\xbb\xbf# Stra\xc3\x9f"
