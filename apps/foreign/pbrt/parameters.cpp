@@ -8,6 +8,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/pbrt/spectra.h"
 #include "apps/foreign/text/line_words.h"
 
 namespace dmpc::apps::pbrt {
@@ -91,6 +92,11 @@ Parameter Parameters::read(const Token& declaration) {
     }
   }
   check(parameter);
+  if (parameter.type == spectrum && parameter.texts.size() == 1 && !is_named_spectrum(parameter.texts[0])) {
+    parameter.numbers = tokens_.numbers_of(parameter.texts[0], parameter.place);
+    parameter.texts.clear();
+    check(parameter);
+  }
   return parameter;
 }
 

@@ -41,6 +41,18 @@ double inner_reflection(double index) {
 /// What a pane reflects of both its faces together, of what one face reflects.
 double of_both_faces(double one) { return 2 * one / (1 + one); }
 
+/// What a metal of this index reflects straight ahead, channel by channel.
+Vec3d channels_of(const Vec3d& eta, const Vec3d& k, double below) {
+  const auto channel = [below](double n, double k_of) { return straight_reflection(n / below, k_of / below); };
+  return {channel(eta.x, k.x), channel(eta.y, k.y), channel(eta.z, k.z)};
+}
+
+/// The k of a metal whose eta is 1.
+double k_of_reflectance(double share) {
+  const double most = std::min(share, 0.9999);
+  return 2 * std::sqrt(most / (1 - most));
+}
+
 /// A share of each, of the larger one's kind.
 Surface blended(const Surface& first, const Surface& second, double amount) {
   Surface result = amount < 0.5 ? first : second;
@@ -139,17 +151,46 @@ Surface Surfaces::diffuse(const Parameters& parameters, const char* name, double
   return {.color = textures_.color(parameters, name, {fallback, fallback, fallback}, SpectrumUse::reflectance), .facets = {}};
 }
 
+Vec3d Surfaces::metal(const Parameters& parameters, const std::string& prefix, double below) const {
+  const auto of = [&](const std::string& name) { return parameters.find(prefix + name, {texture, rgb, spectrum}); };
+  const Parameter *const eta = of("eta"), *const k = of("k");
+  const auto color = textures_.color(parameters, "reflectance", SpectrumUse::reflectance);
+  if (color && (eta != nullptr || k != nullptr)) {
+    parameters.fail("a metal has a reflectance, or eta and k, not both");
+  }
+  if (color) {
+    const Vec3d share = clamped(color->color);
+    return below == 1 ? share
+                      : channels_of({1, 1, 1}, {k_of_reflectance(share.x), k_of_reflectance(share.y), k_of_reflectance(share.z)}, below);
+  }
+  const auto is_spectrum = [](const Parameter* one) { return one == nullptr || one->type == spectrum; };
+  if (is_spectrum(eta) && is_spectrum(k)) {
+    return metal_color(eta, k, below);
+  }
+  const auto part = [&](const char* name, double fallback) {
+    return textures_.color(parameters, (prefix + name).c_str(), {fallback, fallback, fallback}, SpectrumUse::index).color;
+  };
+  return channels_of(part("eta", 1), part("k", 2), below);
+}
+
 Surface Surfaces::conductor(const Parameters& parameters, const std::string& prefix) const {
   Surface surface{.has_facets = true, .facets = {.metallic = 1}};
   surface.facets.roughness = roughness(parameters, prefix, 0);
   if (const auto color = textures_.color(parameters, "reflectance", SpectrumUse::reflectance)) {
     surface.color = *color;
-    return surface;
   }
-  const auto part = [&](const char* name, const Vec3d& fallback) {
-    return textures_.color(parameters, (prefix + name).c_str(), fallback, SpectrumUse::index).color;
-  };
-  surface.color.color = straight_reflection(part("eta", copper_eta()), part("k", copper_k()));
+  surface.color.color = metal(parameters, prefix, 1);
+  return surface;
+}
+
+/// A metal whose colour is what comes back through a smooth coat, and of both faces of that.
+Surface Surfaces::coated_conductor(const Parameters& parameters) const {
+  notes_.count("coats of metals, shown in the metal's colour and roughness");
+  Surface surface = conductor(parameters, "conductor.");
+  const double coat = std::max(index(parameters, "interface.eta", 1.5), 1.0), face = straight_reflection(coat, 0);
+  const auto through = [face](double share) { return face + (1 - face) * (1 - face) * share / (1 - share * face); };
+  const Vec3d below = metal(parameters, "conductor.", coat);
+  surface.color.color = {through(below.x), through(below.y), through(below.z)};
   return surface;
 }
 
@@ -197,8 +238,7 @@ Surface Surfaces::surface_of(const std::string& kind, const Parameters& paramete
     return conductor(parameters, "");
   }
   if (kind == "coatedconductor") {
-    notes_.count("coats of metals, which are not shown");
-    return conductor(parameters, "conductor.");
+    return coated_conductor(parameters);
   }
   if (kind == "dielectric" || kind == "thindielectric") {
     return glass(parameters, kind == "thindielectric");

@@ -51,8 +51,49 @@ TEST_CASE("a metal is one, with what it reflects straight ahead as its colour, a
   CHECK(is_near(own.color, {0.5, 0.5, 0.5}));
   CHECK(own.microfacets.roughness == doctest::Approx(0.5));
   CHECK(material_of("Material \"conductor\" \"rgb reflectance\" [1 0 0]\n").color == Vec3d{1, 0, 0});
-  const Material gold = material_of("Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"\n");
-  CHECK(is_near(gold.color, {1, 0.77, 0.34}, 0.06));
+}
+
+// Reckoned beforehand, nanometre by nanometre, of what was measured: Fresnel's reflection, by daylight and the observer of 1931.
+TEST_CASE("named metals reflect straight ahead what their spectra say, wavelength by wavelength") {
+  const auto metal = [](const std::string& name) {
+    return material_of("Material \"conductor\" \"spectrum eta\" \"metal-" + name + "-eta\" \"spectrum k\" \"metal-" + name + "-k\"\n")
+        .color;
+  };
+  CHECK(is_near(material_of("Material \"conductor\"\n").color, {0.955, 0.638, 0.538}, 0.005));
+  CHECK(is_near(metal("Cu"), {0.955, 0.638, 0.538}, 0.005));
+  CHECK(is_near(metal("Au"), {1, 0.783, 0.343}, 0.005));  // whose red is 1.02, beyond what is reflected of white
+  CHECK(is_near(metal("Ag"), {0.972, 0.960, 0.915}, 0.005));
+  CHECK(is_near(metal("Al"), {0.913, 0.922, 0.925}, 0.005));
+  CHECK(is_near(metal("CuZn"), {0.910, 0.778, 0.423}, 0.005));
+  CHECK(is_near(metal("MgO"), {0.072, 0.073, 0.075}, 0.005));
+  CHECK(is_near(metal("TiO2"), {0.232, 0.245, 0.273}, 0.005));
+  const std::string both = "Material \"conductor\" \"rgb reflectance\" [1 0 0] \"spectrum k\" \"metal-Cu-k\"";
+  CHECK(tests::contains(pbrt_refusal(both), "not both"));
+}
+
+// Of index 1, k 2 below a coat of 1.5: R of (1 + 2i) / 1.5, and what comes of both faces.
+TEST_CASE("a metal below a coat has the colour that comes of both") {
+  const double below = ((1 / 1.5 - 1) * (1 / 1.5 - 1) + 4 / 2.25) / ((1 / 1.5 + 1) * (1 / 1.5 + 1) + 4 / 2.25);
+  const double all = 0.04 + 0.96 * 0.96 * below / (1 - 0.04 * below);
+  CHECK(is_near(material_of("Material \"coatedconductor\" \"rgb conductor.eta\" [1 1 1] \"rgb conductor.k\" [2 2 2]\n").color,
+                Vec3d{1, 1, 1} * all));
+  // A reflectance of a half is that of eta 1 and k 2.
+  CHECK(is_near(material_of("Material \"coatedconductor\" \"rgb reflectance\" [0.5 0.5 0.5]\n").color, Vec3d{1, 1, 1} * all));
+}
+
+TEST_CASE("a spectrum of a file is its pairs, with remarks") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "grey.spd", "# measured\n350 0.3\n900 0.3 # to here\n");
+  tests::write_text(folder / "bad.spd", "350 0.3\n900 x\n");
+  const auto read = [&](const std::string& name) {
+    tests::write_text(folder / "a.pbrt",
+                      tests::pbrt_camera + "Material \"diffuse\" \"spectrum reflectance\" \"" + name + "\"\n" + pbrt_triangle);
+    return read_mesh_file(folder / "a.pbrt");
+  };
+  CHECK(is_near(tests::material_of_object(read("grey.spd"), 0).color, {0.3, 0.3, 0.3}));
+  CHECK(tests::contains(tests::error_of<core::InputError>([&] { read("bad.spd"); }), "bad.spd has 'x' in its line 2"));
+  CHECK(tests::contains(tests::error_of<core::InputError>([&] { read("none.spd"); }), "is none that pbrt-v4 names"));
+  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" \"spectrum reflectance\" \"stdillum-A\""), "is a light"));
 }
 
 // F + (1 - F) R (1 - f) / (1 - R f) straight ahead, F = 0.04 and f = 0.5963 being what a surface of index 1.5 sends back of what
@@ -219,6 +260,21 @@ TEST_CASE("light that is no rgb has the luminance 1, and the colour of its tempe
   CHECK(is_near(glow("6504"), {1, 1, 1}, 0.1));  // near daylight
   CHECK(glow("2000").x > 3 * glow("2000").z);
   CHECK(glow("10000").z > glow("10000").x);
+  // What a black body of CIE's temperature for A is, which is defined as one.
+  CHECK(is_near(glow("2855.5"), {1.845, 0.826, 0.2334}, 3e-3));
+}
+
+TEST_CASE("illuminants that scenes name have the luminance 1 and their colour") {
+  const auto lamp = [](const std::string& name) {
+    return tests::material_of_object(
+               read_pbrt("AreaLightSource \"diffuse\" \"spectrum L\" \"" + name + "\"\n" + pbrt_triangle), 0)
+        .emission;
+  };
+  CHECK(is_near(lamp("stdillum-A"), {1.845, 0.826, 0.2334}, 1e-3));
+  CHECK(is_near(lamp("stdillum-D65"), {1, 1, 1}, 1e-3));
+  CHECK(is_near(lamp("stdillum-F2"), {1.340, 0.943, 0.563}, 1e-3));
+  CHECK(is_near(lamp("stdillum-F11"), {1.412, 0.925, 0.532}, 1e-3));
+  CHECK(is_near(lamp("illum-acesD60"), {1.047, 0.995, 0.915}, 1e-3));
 }
 
 TEST_CASE("the film's exposure brightens all light") {
