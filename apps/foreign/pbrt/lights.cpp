@@ -17,18 +17,18 @@ using enum ParameterType;
 
 constexpr double pi = std::numbers::pi;
 
-Vec3d light(const Parameters& parameters, const char* name, double factor) {
+Vec3d light(const Parameters& parameters, const char* name, const Exposure& exposure, double factor) {
   const Parameter* const found = parameters.find(name, {rgb, spectrum, blackbody});
-  return (found == nullptr ? Vec3d{1, 1, 1} : color_of(*found, parameters, SpectrumUse::light)) * factor;
+  return exposure.of(found == nullptr ? Vec3d{1, 1, 1} : color_of(*found, parameters, SpectrumUse::light)) * factor;
 }
 
-double scale_of(const Parameters& parameters, double exposure) {
+double scale_of(const Parameters& parameters) {
   constexpr double most = 1e12;
   const double scale = parameters.number("scale", 1);
   if (!(scale >= 0 && scale <= most)) {
     parameters.fail("its scale is " + rounded(scale) + ", expected 0 to 1e12");
   }
-  return scale * exposure;
+  return scale;
 }
 
 /// What is asked for of the whole, in place of what the light's own numbers make.
@@ -43,11 +43,12 @@ void check_place(const Parameters& parameters, const Vec3d& point) {
   }
 }
 
-void add_point(const Parameters& parameters, const Transform& world, double scale, FileLightKind kind, PlacedFile& file) {
-  const double factor = scale * factor_of(parameters, "power", 4 * pi);
+void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, FileLightKind kind,
+               PlacedFile& file) {
+  const double factor = scale_of(parameters) * factor_of(parameters, "power", 4 * pi);
   FileLight result{.kind = kind,
                    .position = world.point(parameters.point("from").value_or(Vec3d{})),
-                   .intensity = light(parameters, "I", factor)};
+                   .intensity = light(parameters, "I", exposure, factor)};
   check_place(parameters, result.position);
   for (const char* const cone : {"coneangle", "conedeltaangle", "fov"}) {
     parameters.number(cone);
@@ -57,26 +58,27 @@ void add_point(const Parameters& parameters, const Transform& world, double scal
   file.lights.push_back(result);
 }
 
-void add_distant(const Parameters& parameters, const Transform& world, double scale, PlacedFile& file) {
+void add_distant(const Parameters& parameters, const Transform& world, const Exposure& exposure, PlacedFile& file) {
   const Vec3d from = parameters.point("from").value_or(Vec3d{}), to = parameters.point("to").value_or(Vec3d{0, 0, 1});
   const Vec3d way = world.direction(to - from);
   const double distance = length(way);
   if (!(distance > 0 && distance < 1e30)) {
     parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
   }
-  const double factor = scale * factor_of(parameters, "illuminance", 1);
+  const double factor = scale_of(parameters) * factor_of(parameters, "illuminance", 1);
   file.lights.push_back(
-      {.kind = FileLightKind::distant, .position = way * (1 / distance), .intensity = light(parameters, "L", factor)});
+      {.kind = FileLightKind::distant, .position = way * (1 / distance), .intensity = light(parameters, "L", exposure, factor)});
 }
 
-void add_infinite(const Parameters& parameters, const Tokens& tokens, const Transform& world, double scale, PlacedFile& file,
-                  Notes& notes) {
+void add_infinite(const Parameters& parameters, const Tokens& tokens, const Transform& world, const Exposure& exposure,
+                  PlacedFile& file, Notes& notes) {
+  const double scale = scale_of(parameters);
   const std::string name = parameters.text("filename", "");
   notes.count("portals of infinite lights, which change no light, left out",
               parameters.find("portal", {point3}) != nullptr ? 1 : 0);
   if (name.empty()) {
     const double factor = scale * factor_of(parameters, "illuminance", pi);
-    file.background = file.background + light(parameters, "L", factor);
+    file.background = file.background + light(parameters, "L", exposure, factor);
     return;
   }
   const bool is_measured = parameters.number("illuminance", 0) > 0;
@@ -85,7 +87,7 @@ void add_infinite(const Parameters& parameters, const Tokens& tokens, const Tran
   if (!inverse) {
     parameters.fail("has coordinates that are pressed flat, in which no sky has directions");
   }
-  file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = {scale, scale, scale}});
+  file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = exposure.of({scale, scale, scale})});
 }
 
 double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
@@ -109,11 +111,11 @@ double area_of(const PlacedShape& shape, const Transform& world) {
 
 }  // namespace
 
-AreaLight area_light_of(const std::string& kind, const Parameters& parameters, double exposure, Notes& notes) {
+AreaLight area_light_of(const std::string& kind, const Parameters& parameters, const Exposure& exposure, Notes& notes) {
   if (kind != "diffuse") {
     parameters.fail("there is no area light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }
-  AreaLight result{.radiance = light(parameters, "L", scale_of(parameters, exposure)), .power = {}, .is_twosided = false};
+  AreaLight result{.radiance = light(parameters, "L", exposure, scale_of(parameters)), .power = {}, .is_twosided = false};
   const double power = parameters.number("power", 0);
   if (power > 0) {
     result.power = power;
@@ -129,17 +131,16 @@ Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transf
 }
 
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
-               double exposure, PlacedFile& file, Notes& notes) {
-  const double scale = scale_of(parameters, exposure);
+               const Exposure& exposure, PlacedFile& file, Notes& notes) {
   if (kind == "point") {
-    add_point(parameters, world, scale, FileLightKind::point, file);
+    add_point(parameters, world, exposure, FileLightKind::point, file);
   } else if (kind == "spot" || kind == "goniometric" || kind == "projection") {
     notes.count("lights of kind '" + kind + "', which shine all round here");
-    add_point(parameters, world, scale, FileLightKind::spot, file);
+    add_point(parameters, world, exposure, FileLightKind::spot, file);
   } else if (kind == "distant") {
-    add_distant(parameters, world, scale, file);
+    add_distant(parameters, world, exposure, file);
   } else if (kind == "infinite") {
-    add_infinite(parameters, tokens, world, scale, file, notes);
+    add_infinite(parameters, tokens, world, exposure, file, notes);
   } else {
     parameters.fail("there is no light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }

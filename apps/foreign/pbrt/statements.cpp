@@ -409,6 +409,12 @@ void Statements::camera(const Token& name) {
   systems_.insert_or_assign("camera", *inverse_of(state_.ctm));
 }
 
+Exposure Statements::exposure() const {
+  Exposure exposure = film_.exposure;
+  exposure.factor *= camera_.value_or(Camera{}).open_seconds;
+  return exposure;
+}
+
 void Statements::color_space(const Token& name) {
   const std::string space = text(name, "its name");
   notes_.count("colours of the space " + quoted(space) + ", shown as if they were of sRGB", space == "srgb" ? 0 : 1);
@@ -473,14 +479,14 @@ void Statements::named_material(const Token& name) { state_.surface = surfaces_.
 void Statements::area_light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
-  state_.light = area_light_of(kind, all, film_.exposure, notes_);
+  state_.light = area_light_of(kind, all, exposure(), notes_);
   finish(all);
 }
 
 void Statements::light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
-  add_light(kind, all, tokens_, state_.ctm, film_.exposure, file_, notes_);
+  add_light(kind, all, tokens_, state_.ctm, exposure(), file_, notes_);
   finish(all);
 }
 

@@ -108,6 +108,7 @@ class Statements {
   /// With what Attribute has said of such, and what of it nobody knows is counted by finish().
   Parameters parameters(const std::string& owner, const Token& name, const char* kind);
   void finish(const Parameters& parameters);
+  Exposure exposure() const;
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);
   std::size_t look_number(const Look& look);
