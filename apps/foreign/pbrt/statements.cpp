@@ -495,7 +495,7 @@ void Statements::light(const Token& name) {
 void Statements::shape(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "shape");
-  std::optional<PlacedShape> shape = shape_of(kind, all, tokens_, files_, notes_);
+  std::optional<PlacedShape> shape = shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
   if (shape) {
     add_shape(*std::move(shape), all);
     finish(all);

@@ -145,6 +145,7 @@ TextureValue Textures::pictured(const Parameters& parameters) {
   if (path.empty()) {
     parameters.fail("a texture of a picture has no filename");
   }
+  have_files_ = true;
   value.picture = TextureUse{.path = path, .edges = {edges, edges}};
   const double scale = parameters.number("scale", 1);
   value.color = {scale, scale, scale};

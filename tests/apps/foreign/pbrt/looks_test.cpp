@@ -210,6 +210,26 @@ TEST_CASE("pictures lie by u and v, v upwards, scaled and moved") {
   CHECK(file.scene.corners[2].place[1] == doctest::Approx(-1.25));  // v = 1 is 2.25
 }
 
+// Its corners lie at (0, 0), (1, 0) and (1, 1), v upwards; a triangle whose normals look back is turned with its places.
+TEST_CASE("a triangle that does not say where lies on a picture as half a square, each by itself") {
+  const std::string texture =
+      "Texture \"c\" \"spectrum\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2\n"
+      "Material \"diffuse\" \"texture reflectance\" \"c\"\n";
+  const std::string two = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"integer indices\" [0 1 2 2 3 0] ";
+  const MeshFile file = read_pbrt(texture + two);
+  REQUIRE(file.scene.corners.size() == 6);
+  CHECK(file.scene.corners[0].place == std::array<float, 2>{0, 1});
+  CHECK(file.scene.corners[1].place == std::array<float, 2>{1, 1});
+  CHECK(file.scene.corners[5].place == std::array<float, 2>{1, 0});
+  CHECK(!notes(file, "texture is not shown"));
+  const MeshFile turned = read_pbrt(texture + two + "\"normal N\" [0 0 -1 0 0 -1 0 0 -1 0 0 -1]");
+  REQUIRE(turned.scene.corners.size() == 6);
+  CHECK(turned.scene.corners[0].place == std::array<float, 2>{1, 0});
+  CHECK(turned.scene.corners[2].place == std::array<float, 2>{0, 1});
+  CHECK(turned.scene.vertices[turned.scene.objects[0].first] == Vec3d{1, 1, 0});
+  CHECK(read_pbrt(two).scene.corners.empty());
+}
+
 TEST_CASE("an area light shines as brightly as it says, to its front: behind stands its surface") {
   const MeshFile file = read_pbrt("AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2\n" +
                                   pbrt_triangle + "AttributeEnd\n");
