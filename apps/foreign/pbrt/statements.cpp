@@ -536,6 +536,7 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
   }
   const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
   look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
+  look.is_light = true;
   shape.mesh.material = look_number(look);
   if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
     shape.back = dark;
@@ -543,18 +544,24 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
 }
 
 void Statements::give_materials() {
-  for (const Look& look : looks_) {
+  for (Look& look : looks_) {
+    look.emission = surfaces_.at(look.surface).is_drawn ? look.emission : Vec3d{};
     file_.materials.push_back(Surfaces::material_of(surfaces_.at(look.surface), look.emission, look.opacity));
   }
 }
 
-/// What parts media from each other shows nothing, but where it shines; nor does what alpha takes away.
+/// What parts media from each other shows nothing and does not shine; nor does what alpha takes away.
 void Statements::drop_undrawn() {
   const auto is_undrawn = [this](const ShapePlace& place) {
     const Look& look = looks_[file_.shapes[place.shape].mesh.material];
-    const bool is_dark = !surfaces_.at(look.surface).is_drawn && look.emission == Vec3d{};
-    return is_dark || look.opacity <= 0;
+    return !surfaces_.at(look.surface).is_drawn || look.opacity <= 0;
   };
+  const auto shines_nowhere = [this](const ShapePlace& place) {
+    const Look& look = looks_[file_.shapes[place.shape].mesh.material];
+    return look.is_light && !surfaces_.at(look.surface).is_drawn;
+  };
+  notes_.count("area lights of the material \"interface\", which shine nowhere, as in pbrt",
+               static_cast<std::uint64_t>(std::count_if(file_.places.begin(), file_.places.end(), shines_nowhere)));
   for (const ShapePlace& place : file_.places) {
     file_.shapes[place.shape].uses -= is_undrawn(place) ? 1 : 0;
   }

@@ -66,7 +66,11 @@ class Statements {
     std::uint32_t surface = 0;
     core::Vec3d emission;
     double opacity = 1;
-    auto key() const { return std::array<double, 5>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity}; }
+    bool is_light = false;
+    auto key() const {
+      return std::array<double, 6>{
+          static_cast<double>(surface), emission.x, emission.y, emission.z, opacity, is_light ? 1.0 : 0.0};
+    }
   };
 
   void transform_statement(const Token& name);
@@ -132,7 +136,7 @@ class Statements {
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;
   std::vector<Look> looks_;
-  std::map<std::array<double, 5>, std::size_t> look_numbers_;
+  std::map<std::array<double, 6>, std::size_t> look_numbers_;
   GeometrySize size_;  ///< with every instance that is copied
   GeometrySize made_;  ///< of all shapes, once
   Film film_;

@@ -246,6 +246,17 @@ TEST_CASE("an area light shines as brightly as it says, to its front: behind sta
               "shine nowhere"));
 }
 
+TEST_CASE("an area light of the material interface shines nowhere, named before or after") {
+  const std::string light = "AreaLightSource \"diffuse\" \"bool twosided\" true\n", sphere = "Shape \"sphere\"\n";
+  for (const std::string interface : {"Material \"interface\"\n", "Material \"\"\n", "NamedMaterial \"air\"\n"}) {
+    const MeshFile file = read_pbrt(sphere + interface + light + pbrt_triangle +
+                                    "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n");
+    CHECK(file.scene.objects.size() == 1);
+    CHECK(!tests::material_of_object(file, 0).shines());
+    CHECK(notes(file, "area lights of the material \"interface\", which shine nowhere, as in pbrt: 1"));
+  }
+}
+
 TEST_CASE("lights that are no surface light as physics has it, below the file's own sky") {
   const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
   const MeshFile point = read_pbrt("LightSource \"point\" \"rgb I\" [1 2 3] \"point3 from\" [0 5 0]\n" + pbrt_triangle, by_paths);
