@@ -100,6 +100,7 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   }
   end_imports();
   check_ended();
+  add_awaited();
   surfaces_.settle(tokens_);
   give_materials();
   drop_undrawn();
@@ -322,25 +323,46 @@ void Statements::object_begin(const Token& name) {
   open_object_ = &found->second;
 }
 
-/// In front of what the object's shapes have. Here alone an instance's transform is made.
 void Statements::object_instance(const Token& name) {
   const std::string object = text(name, "a name");
-  const auto found = objects_.find(object);
-  if (open_object_ != nullptr || found == objects_.end()) {
-    tokens_.fail(name.place, open_object_ != nullptr ? "ObjectInstance stands within an object, where pbrt allows none"
-                                                     : "no object " + quoted(object) + " is there: none has begun before");
+  if (open_object_ != nullptr) {
+    tokens_.fail(name.place, "ObjectInstance stands within an object, where pbrt allows none");
   }
-  Object& shapes = found->second;
-  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
-  check_total(size_, name.place);
-  if (const std::uint64_t bytes = (file_.places.size() + shapes.places.size()) * sizeof(ShapePlace);
-      bytes > files_.memory_bytes_max()) {
-    throw core::RoomError(tokens_.text_of(name.place) + ": the places of its shapes take " + bytes_text(bytes) +
+  if (const auto found = objects_.find(object); found != objects_.end()) {
+    add_instance(found->second, state_.ctm, name);
+  } else {
+    awaited_.push_back({object, state_.ctm, name});
+    check_room(awaited_.size() * sizeof(Awaited), name.place);
+  }
+}
+
+/// For so many bytes of places.
+void Statements::check_room(std::uint64_t bytes, const Place& said) const {
+  if (bytes > files_.memory_bytes_max()) {
+    throw core::RoomError(tokens_.text_of(said) + ": the places of its shapes take " + bytes_text(bytes) +
                           " of memory, and a file's scene may take " + bytes_text(files_.memory_bytes_max()) +
                           ": give it fewer instances, or objects of fewer shapes");
   }
+}
+
+/// Of objects that began behind them.
+void Statements::add_awaited() {
+  for (const Awaited& one : awaited_) {
+    const auto found = objects_.find(one.object);
+    if (found == objects_.end()) {
+      tokens_.fail(one.name.place, "no object " + quoted(one.object) + " is there: no ObjectBegin has that name");
+    }
+    add_instance(found->second, one.ctm, one.name);
+  }
+}
+
+/// In front of what the object's shapes have. Here alone an instance's transform is made.
+void Statements::add_instance(Object& shapes, const Transform& ctm, const Token& name) {
+  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
+  check_total(size_, name.place);
+  check_room((file_.places.size() + shapes.places.size()) * sizeof(ShapePlace), name.place);
   for (const ShapePlace& place : shapes.places) {
-    const ShapePlace instance{place.shape, composed(state_.ctm, place.world)};
+    const ShapePlace instance{place.shape, composed(ctm, place.world)};
     check_map(name, instance.world);
     ++file_.shapes[place.shape].uses;
     file_.places.push_back(instance);

@@ -61,6 +61,13 @@ class Statements {
     bool is_counted = false;
   };
 
+  /// An instance of an object that has not begun yet.
+  struct Awaited {
+    std::string object;
+    Transform ctm;
+    Token name;
+  };
+
   /// What a shape's material is made of, in the end.
   struct Look {
     std::uint32_t surface = 0;
@@ -84,6 +91,9 @@ class Statements {
   void attribute(const Token& name);
   void object_begin(const Token& name);
   void object_instance(const Token& name);
+  void add_instance(Object& shapes, const Transform& ctm, const Token& name);
+  void add_awaited();
+  void check_room(std::uint64_t bytes, const Place& said) const;
   void film(const Token& name);
   void camera(const Token& name);
   void color_space(const Token& name);
@@ -135,6 +145,7 @@ class Statements {
   std::map<std::string, Transform> systems_;
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;
+  std::vector<Awaited> awaited_;
   std::vector<Look> looks_;
   std::map<std::array<double, 6>, std::size_t> look_numbers_;
   GeometrySize size_;  ///< with every instance that is copied

@@ -108,6 +108,13 @@ TEST_CASE("an object stands wherever it is named, its own transform behind the i
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectBegin \"p\""), "within another object"));
 }
 
+TEST_CASE("an object may be named before it begins") {
+  const MeshFile file = read_pbrt("Translate 0 0 5 ObjectInstance \"o\" AttributeBegin ObjectBegin \"o\" Translate 1 0 0\n" + pbrt_triangle +
+                                  "ObjectEnd AttributeEnd ObjectInstance \"o\"\n");
+  REQUIRE(file.scene.objects.size() == 2);
+  CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\"\n" + pbrt_triangle), "6:1: no object \"o\" is there"));
+}
+
 TEST_CASE("what is large and stands in several places is kept as a mesh, turned round or not, beside what is round there") {
   std::string corners, indices;
   for (int i = 0; i < 65; ++i) {
