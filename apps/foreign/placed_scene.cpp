@@ -246,7 +246,8 @@ class PlacedScene {
     for (const PolygonMesh& back : backs_) {
       writer.add(behind(back), file_.materials[back.material].material);
     }
-    if (!writer.has_area()) {
+    const bool is_sky_alone = file_.places.empty() && (file_.background != Vec3d{} || !file_.skies.empty());
+    if (!writer.has_area() && !is_sky_alone) {
       refuse_without_area(file_, result_.notes);
     }
     note_count(result_.notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());

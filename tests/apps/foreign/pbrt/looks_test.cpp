@@ -340,6 +340,13 @@ TEST_CASE("white balance makes white of what a light of its temperature shows") 
                         "expected a temperature"));
 }
 
+TEST_CASE("a sky alone is a scene, and nothing at all is none") {
+  const MeshFile file = read_pbrt("LightSource \"infinite\" \"rgb L\" [0.25 0.5 1]\n");
+  CHECK(file.scene.objects.empty());
+  CHECK(file.scene.background == Vec3d{0.25, 0.5, 1});
+  CHECK(tests::contains(pbrt_refusal(""), "no mesh in it"));
+}
+
 TEST_CASE("a sky's directions lie in its square as in equal areas") {
   const auto near = [](const std::array<double, 2>& place, double s, double t) {
     return std::abs(place[0] - s) < 1e-12 && std::abs(place[1] - t) < 1e-12;
