@@ -139,6 +139,7 @@ class PlacedScene {
       : file_(std::move(file)), options_(options), files_(files), scale_(options.scale.value_or(1)) {
     result_.scene.name = path;
     result_.scene.coordinate_rounding = file_.coordinate_rounding;
+    result_.scene.bounces = file_.bounces;
     result_.notes = std::move(file_.notes);
   }
 

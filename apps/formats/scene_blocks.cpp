@@ -97,6 +97,9 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   return true;
 }
 
+/// Of a file that does not say how many.
+constexpr int no_bounces = -1;
+
 std::uint64_t count_of(const auto& pool) { return pool.size(); }
 
 bool is_point(const Vec3d& point) {
@@ -116,6 +119,7 @@ bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& 
                           .add(scene.zenith)
                           .add(scene.background)
                           .add(scene.coordinate_rounding)
+                          .add(scene.bounces.value_or(no_bounces))
                           .add(count_of(scene.materials))
                           .add(count_of(scene.objects))
                           .add(count_of(vertices.points))
@@ -188,6 +192,9 @@ void SceneReceiver::take_head(Unpacker fields) {
   scene_.background = fields.take<Vec3d>();
   scene_.coordinate_rounding = fields.take<double>();
   Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);
+  const auto bounces = fields.take<int>();
+  Unpacker::require(bounces >= no_bounces && bounces <= core::Scene::bounces_max);
+  scene_.bounces = bounces == no_bounces ? std::nullopt : std::optional(bounces);
   const auto reserve = [this, &fields](auto& pool) {
     const auto count = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());

@@ -257,8 +257,8 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"textures", textures_text(scene)},
            {"lights or background", lights_text(scene)},
            {view_fact, view_text(scene.view)},
-           picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(picture.depth - 1)}
-                                           : PictureFact{"depth", std::to_string(picture.depth)},
+           picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(depth_of(picture, scene) - 1)}
+                                           : PictureFact{"depth", std::to_string(depth_of(picture, scene))},
            {"cutoff", text_of(picture.cutoff)},
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},

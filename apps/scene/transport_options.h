@@ -29,6 +29,7 @@ SkyChoice mesh_sky();
 struct TransportOptions {
   core::TransportKind kind = core::TransportKind::whitted;
   int bounces = 8;                  ///< by paths: 0 to 254
+  bool are_bounces_unasked = true;  ///< then those that the scene's file says are taken
   std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
   std::optional<double> occlusion;  ///< by paths: core::Transport::occlusion_distance, in the scene's units; above 0
   /// By paths: of what shines by itself so many are aimed at, the most powerful; 0 to emitters_limit.

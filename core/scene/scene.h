@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -131,6 +132,8 @@ struct Object {
 struct KeptMeshes;
 
 struct Scene {
+  static constexpr int bounces_max = 253;
+
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
   Vec3d background;  ///< linear RGB, as the file gives it
@@ -144,8 +147,9 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
-  SkyTexels sky;  ///< by paths, what no ray meets, if it is there
-  Vec3d zenith;   ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
+  SkyTexels sky;               ///< by paths, what no ray meets, if it is there
+  Vec3d zenith;                ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
+  std::optional<int> bounces;  ///< by paths, how often its file has light go on; nothing where it does not say that
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;

@@ -91,6 +91,7 @@ struct PlacedFile {
   std::vector<std::string> notes;    ///< what of the file is not shown as it is, a sentence each
   std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once
   double coordinate_rounding = 0;    ///< as core::Scene's
+  std::optional<int> bounces;        ///< likewise
 
   /// Adds a mesh that stands where it is.
   void add(PolygonMesh mesh) {

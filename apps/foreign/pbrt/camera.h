@@ -30,8 +30,8 @@ struct Film {
 Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes);
 
 struct Camera {
-  double degrees = 90;   ///< of the shorter side, from edge to edge; 0 where it has no perspective
-  Transform from_world;  ///< to where x is right, y up and z ahead
+  double degrees = 90;      ///< of the shorter side, from edge to edge; 0 where it has no perspective
+  Transform from_world;     ///< to where x is right, y up and z ahead
   double open_seconds = 1;  ///< its shutter
 };
 /// Throws core::InputError if the world is pressed flat before it, or for an angle that none has.

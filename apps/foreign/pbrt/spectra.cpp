@@ -142,11 +142,12 @@ bool is_named_spectrum(const std::string& name) {
 }
 
 Vec3d metal_color(const Parameter* eta, const Parameter* k, double below) {
-  static const Parameter copper_eta{.type = ParameterType::spectrum, .name = "eta", .place = {}, .numbers = {}, .texts = {"metal-Cu-eta"}};
-  static const Parameter copper_k{.type = ParameterType::spectrum, .name = "k", .place = {}, .numbers = {}, .texts = {"metal-Cu-k"}};
+  static const Parameter copper_eta{
+      .type = ParameterType::spectrum, .name = "eta", .place = {}, .numbers = {}, .texts = {"metal-Cu-eta"}};
+  static const Parameter copper_k{
+      .type = ParameterType::spectrum, .name = "k", .place = {}, .numbers = {}, .texts = {"metal-Cu-k"}};
   const Parameter &n_of = eta != nullptr ? *eta : copper_eta, &k_of = k != nullptr ? *k : copper_k;
-  return reflectance_of(
-      [&](double nm) { return straight_reflection(value_of(n_of, nm) / below, value_of(k_of, nm) / below); });
+  return reflectance_of([&](double nm) { return straight_reflection(value_of(n_of, nm) / below, value_of(k_of, nm) / below); });
 }
 
 /// By von Kries, in the coordinates of the Bradford transform (K. M. Lam, 1985).

@@ -14,8 +14,8 @@ namespace dmpc::apps::pbrt {
 /// whatever its numbers, as pbrt-v4 scales it; an index is a number in each channel.
 enum class SpectrumUse : std::uint8_t { reflectance, light, index };
 
-/// Of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances by daylight (D65). A spectrum is 0 beyond its
-/// points. Throws core::InputError at its place for numbers out of range, and for a light that is to be no light.
+/// Of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances by daylight (D65). A spectrum is 0 beyond
+/// its points. Throws core::InputError at its place for numbers out of range, and for a light that is to be no light.
 core::Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use);
 /// Whether pbrt-v4 knows a light, a metal or a glass by this name; else it is a file's.
 bool is_named_spectrum(const std::string& name);

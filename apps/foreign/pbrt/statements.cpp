@@ -18,6 +18,8 @@ namespace {
 using core::Vec3d;
 
 constexpr double number_max = 1e30, degrees_max = 1e6;
+/// Of an integrator that does not say it.
+constexpr std::int64_t depth_unsaid = 5;
 /// pbrt's numbers are floats, in text and in files of meshes.
 constexpr double float_rounding = 0x1p-25;
 
@@ -33,7 +35,9 @@ GeometrySize size_of_shape(const PlacedShape& shape) { return shape.sphere ? siz
 }  // namespace
 
 Statements::Statements(const std::string& path, SceneFiles& files, core::Copies copies)
-    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {}
+    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {
+  file_.bounces = static_cast<int>(depth_unsaid - 1);
+}
 
 const std::map<std::string_view, Statements::Statement>& Statements::all() {
   static const std::map<std::string_view, Statement> statements{
@@ -52,7 +56,7 @@ const std::map<std::string_view, Statements::Statement>& Statements::all() {
       {"Identity", &Statements::transform_statement},
       {"Import", &Statements::import},
       {"Include", &Statements::include},
-      {"Integrator", &Statements::of_other_renderers},
+      {"Integrator", &Statements::integrator},
       {"LightSource", &Statements::light},
       {"LookAt", &Statements::transform_statement},
       {"MakeNamedMaterial", &Statements::make_named_material},
@@ -68,7 +72,7 @@ const std::map<std::string_view, Statements::Statement>& Statements::all() {
       {"Renderer", &Statements::of_older_versions},
       {"ReverseOrientation", &Statements::reverse_orientation},
       {"Rotate", &Statements::transform_statement},
-      {"Sampler", &Statements::of_other_renderers},
+      {"Sampler", &Statements::sampler},
       {"Scale", &Statements::transform_statement},
       {"Shape", &Statements::shape},
       {"SurfaceIntegrator", &Statements::of_older_versions},
@@ -448,6 +452,44 @@ void Statements::of_other_renderers(const Token& name) {
   parameters(kind, name, "");
 }
 
+/// Pbrt's depth is of hits that lights show directly, of which ours have one without a bounce.
+void Statements::integrator(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  const std::int64_t depth = all.integer("maxdepth", depth_unsaid);
+  if (depth < 0) {
+    all.fail("its maxdepth is " + std::to_string(depth) + ", expected 0 or more");
+  }
+  file_.bounces = static_cast<int>(std::clamp<std::int64_t>(depth - 1, 0, core::Scene::bounces_max));
+  if (depth == 0 || depth - 1 > core::Scene::bounces_max) {
+    file_.notes.push_back("the integrator's maxdepth is " + std::to_string(depth) + ", shown with " +
+                          counted(static_cast<std::uint64_t>(*file_.bounces), "bounce"));
+  }
+  const bool is_one = kind == "path" || kind == "volpath" || kind == "simplepath" || kind == "simplevolpath" || kind == "bdpt" ||
+                      kind == "mlt" || kind == "sppm" || kind == "lightpath" || kind == "randomwalk";
+  if (kind == "ambientocclusion" || kind == "function") {
+    file_.notes.push_back("the integrator \"" + kind + "\" shows something else than light, shown by paths" +
+                          (kind == "function" ? "" : "; --occlusion=DISTANCE shows what it does"));
+  } else if (!is_one) {
+    all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+  }
+  finish(all);
+}
+
+void Statements::sampler(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  constexpr std::int64_t most = 32768;
+  const bool is_stratified = kind == "stratified";
+  const std::int64_t samples = is_stratified ? all.integer("xsamples", 4) * all.integer("ysamples", 4)
+                                             : all.integer("pixelsamples", kind == "independent" ? 4 : 16);
+  if (samples > 0) {
+    file_.notes.push_back("the sampler takes " + counted(static_cast<std::uint64_t>(samples), "sample") +
+                          " a pixel: --samples=" + std::to_string(std::min(samples, most)) + " does so, too");
+  }
+  finish(all);
+}
+
 void Statements::option(const Token& name) { Parameters(tokens_, "Option", name.place); }
 
 void Statements::medium_interface(const Token& name) {
@@ -517,7 +559,8 @@ void Statements::light(const Token& name) {
 void Statements::shape(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "shape");
-  std::optional<PlacedShape> shape = shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
+  std::optional<PlacedShape> shape =
+      shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
   if (shape) {
     add_shape(*std::move(shape), all);
     finish(all);

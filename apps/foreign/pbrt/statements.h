@@ -43,7 +43,7 @@ class Statements {
     std::uint32_t surface = 0;
     std::optional<AreaLight> light;
     bool is_reversed = false;
-    bool moves_start = true;  ///< what moves things holds when the shutter opens
+    bool moves_start = true;                               ///< what moves things holds when the shutter opens
     std::map<std::string, Parameters::Defaults> defaults;  ///< of shapes, lights, materials, ...
   };
   enum class Opening : std::uint8_t { attribute, object, import };
@@ -75,8 +75,8 @@ class Statements {
     double opacity = 1;
     bool is_light = false;
     auto key() const {
-      return std::array<double, 6>{
-          static_cast<double>(surface), emission.x, emission.y, emission.z, opacity, is_light ? 1.0 : 0.0};
+      return std::array<double, 6>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity,
+                                   is_light ? 1.0 : 0.0};
     }
   };
 
@@ -98,6 +98,8 @@ class Statements {
   void camera(const Token& name);
   void color_space(const Token& name);
   void of_other_renderers(const Token& name);
+  void integrator(const Token& name);
+  void sampler(const Token& name);
   void option(const Token& name);
   void medium_interface(const Token& name);
   void world_begin(const Token& name);

@@ -23,8 +23,8 @@ Vec3d clamped(const Vec3d& color) {
   return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
 }
 
-/// Of diffuse light within what has this index its smooth surface sends so much back inwards: all but 1/n^2 of what it lets in (S.
-/// Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection outside).
+/// Of diffuse light within what has this index its smooth surface sends so much back inwards: all but 1/n^2 of what it lets in
+/// (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection outside).
 double inner_reflection(double index) {
   constexpr double index_min = 1.001;  // below which there is no telling
   if (!(index > index_min)) {
@@ -160,8 +160,9 @@ Vec3d Surfaces::metal(const Parameters& parameters, const std::string& prefix, d
   }
   if (color) {
     const Vec3d share = clamped(color->color);
-    return below == 1 ? share
-                      : channels_of({1, 1, 1}, {k_of_reflectance(share.x), k_of_reflectance(share.y), k_of_reflectance(share.z)}, below);
+    return below == 1
+               ? share
+               : channels_of({1, 1, 1}, {k_of_reflectance(share.x), k_of_reflectance(share.y), k_of_reflectance(share.z)}, below);
   }
   const auto is_spectrum = [](const Parameter* one) { return one == nullptr || one->type == spectrum; };
   if (is_spectrum(eta) && is_spectrum(k)) {
@@ -194,7 +195,8 @@ Surface Surfaces::coated_conductor(const Parameters& parameters) const {
   return surface;
 }
 
-/// Light that is within goes back and forth between what is diffuse and the coat: of reflectance R comes out R (1 - f) / (1 - R f).
+/// Light that is within goes back and forth between what is diffuse and the coat: of reflectance R comes out R (1 - f) / (1 - R
+/// f).
 Surface Surfaces::coated(const Parameters& parameters) const {
   Surface surface = diffuse(parameters, "reflectance", 0.5);
   surface.has_facets = true;

@@ -56,7 +56,8 @@ TEST_CASE("a metal is one, with what it reflects straight ahead as its colour, a
 // Reckoned beforehand, nanometre by nanometre, of what was measured: Fresnel's reflection, by daylight and the observer of 1931.
 TEST_CASE("named metals reflect straight ahead what their spectra say, wavelength by wavelength") {
   const auto metal = [](const std::string& name) {
-    return material_of("Material \"conductor\" \"spectrum eta\" \"metal-" + name + "-eta\" \"spectrum k\" \"metal-" + name + "-k\"\n")
+    return material_of("Material \"conductor\" \"spectrum eta\" \"metal-" + name + "-eta\" \"spectrum k\" \"metal-" + name +
+                       "-k\"\n")
         .color;
   };
   CHECK(is_near(material_of("Material \"conductor\"\n").color, {0.955, 0.638, 0.538}, 0.005));
@@ -116,10 +117,11 @@ TEST_CASE("so is a picture below a coat, texel by texel") {
   Image grey(1, 1);
   grey.rgb = {0.5, 0.2, 0.8};
   write_image(folder / "grey.exr", grey);
-  tests::write_text(folder / "a.pbrt", tests::pbrt_camera +
-                                           "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.exr\"\n"
-                                           "Material \"coateddiffuse\" \"texture reflectance\" \"w\"\n"
-                                           "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+  tests::write_text(folder / "a.pbrt",
+                    tests::pbrt_camera +
+                        "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.exr\"\n"
+                        "Material \"coateddiffuse\" \"texture reflectance\" \"w\"\n"
+                        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
   const MeshFile file = read_mesh_file(folder / "a.pbrt");
   REQUIRE(file.scene.textures.size() == 1);
   const core::Texture& texture = file.scene.textures[0];
@@ -169,11 +171,13 @@ TEST_CASE("textures of constants are reckoned") {
 }
 
 TEST_CASE("a checkerboard has its first colour where whole numbers of squares to the right and upwards add up to an even one") {
-  for (const std::string where : {"\"float uscale\" 4", "\"float vscale\" 2 \"float vdelta\" 1", "\"float udelta\" 3 \"float vscale\" 3"}) {
+  for (const std::string where :
+       {"\"float uscale\" 4", "\"float vscale\" 2 \"float vdelta\" 1", "\"float udelta\" 3 \"float vscale\" 3"}) {
     CAPTURE(where);
-    const MeshFile checks = read_pbrt("Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0 0] " + where +
-                                      "\nMaterial \"diffuse\" \"texture reflectance\" \"c\"\n"
-                                      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+    const MeshFile checks =
+        read_pbrt("Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0 0] " + where +
+                  "\nMaterial \"diffuse\" \"texture reflectance\" \"c\"\n"
+                  "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
     REQUIRE(checks.scene.textures.size() == 1);
     REQUIRE(checks.scene.corners.size() == 3);
     const auto value = [&](const char* name, double fallback) {
@@ -249,8 +253,8 @@ TEST_CASE("an area light shines as brightly as it says, to its front: behind sta
 TEST_CASE("an area light of the material interface shines nowhere, named before or after") {
   const std::string light = "AreaLightSource \"diffuse\" \"bool twosided\" true\n", sphere = "Shape \"sphere\"\n";
   for (const std::string interface : {"Material \"interface\"\n", "Material \"\"\n", "NamedMaterial \"air\"\n"}) {
-    const MeshFile file = read_pbrt(sphere + interface + light + pbrt_triangle +
-                                    "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n");
+    const MeshFile file =
+        read_pbrt(sphere + interface + light + pbrt_triangle + "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n");
     CHECK(file.scene.objects.size() == 1);
     CHECK(!tests::material_of_object(file, 0).shines());
     CHECK(notes(file, "area lights of the material \"interface\", which shine nowhere, as in pbrt: 1"));
@@ -297,8 +301,8 @@ TEST_CASE("light that is no rgb has the luminance 1, and the colour of its tempe
 
 TEST_CASE("illuminants that scenes name have the luminance 1 and their colour") {
   const auto lamp = [](const std::string& name) {
-    return tests::material_of_object(
-               read_pbrt("AreaLightSource \"diffuse\" \"spectrum L\" \"" + name + "\"\n" + pbrt_triangle), 0)
+    return tests::material_of_object(read_pbrt("AreaLightSource \"diffuse\" \"spectrum L\" \"" + name + "\"\n" + pbrt_triangle),
+                                     0)
         .emission;
   };
   CHECK(is_near(lamp("stdillum-A"), {1.845, 0.826, 0.2334}, 1e-3));
@@ -320,8 +324,9 @@ TEST_CASE("light is exposed for as long as the shutter is open, by ISO over 100,
   CHECK(shown("\"float iso\" 200", "") == Vec3d{2, 2, 2});
   CHECK(shown("", "\"float shutterclose\" 0.5") == Vec3d{0.5, 0.5, 0.5});
   CHECK(shown("\"float iso\" 400", "\"float shutteropen\" 0.25 \"float shutterclose\" 0.75") == Vec3d{2, 2, 2});
-  CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Camera \"perspective\" \"float shutteropen\" 1 WorldBegin " + pbrt_triangle),
-                        "its shutter is open for 0 s"));
+  CHECK(
+      tests::contains(tests::mesh_refusal("a.pbrt", "Camera \"perspective\" \"float shutteropen\" 1 WorldBegin " + pbrt_triangle),
+                      "its shutter is open for 0 s"));
 }
 
 // Bradford's, from CIE's daylight to sRGB's white; reckoned beforehand.

@@ -73,8 +73,9 @@ TEST_CASE("transforms stand before what comes behind them, in double precision")
 TEST_CASE("what is said between TransformBegin and TransformEnd ends there, as with attributes") {
   const std::string red = "Material \"diffuse\" \"rgb reflectance\" [1 0 0]\n";
   for (const std::string name : {"Transform", "Attribute"}) {
-    const MeshFile file = read_pbrt(name + "Begin " + red + "ReverseOrientation AreaLightSource \"diffuse\" ActiveTransform EndTime " +
-                                    name + "End Translate 1 2 3\n" + pbrt_triangle);
+    const MeshFile file =
+        read_pbrt(name + "Begin " + red + "ReverseOrientation AreaLightSource \"diffuse\" ActiveTransform EndTime " + name +
+                  "End Translate 1 2 3\n" + pbrt_triangle);
     REQUIRE(file.scene.objects.size() == 1);
     CHECK(tests::material_of_object(file, 0).color == Vec3d{0.5, 0.5, 0.5});
     CHECK(!tests::material_of_object(file, 0).shines());
@@ -109,8 +110,8 @@ TEST_CASE("an object stands wherever it is named, its own transform behind the i
 }
 
 TEST_CASE("an object may be named before it begins") {
-  const MeshFile file = read_pbrt("Translate 0 0 5 ObjectInstance \"o\" AttributeBegin ObjectBegin \"o\" Translate 1 0 0\n" + pbrt_triangle +
-                                  "ObjectEnd AttributeEnd ObjectInstance \"o\"\n");
+  const MeshFile file = read_pbrt("Translate 0 0 5 ObjectInstance \"o\" AttributeBegin ObjectBegin \"o\" Translate 1 0 0\n" +
+                                  pbrt_triangle + "ObjectEnd AttributeEnd ObjectInstance \"o\"\n");
   REQUIRE(file.scene.objects.size() == 2);
   CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\"\n" + pbrt_triangle), "6:1: no object \"o\" is there"));
 }
@@ -179,6 +180,22 @@ TEST_CASE("text may have remarks, lines that end by two bytes, a mark in front, 
       "e\r\n" +
       pbrt_camera + "# a remark [ \" \r\nShape \"trianglemesh\"\r\n\"point3 P\" [0 0 0 1 0 0 0 1 0]";
   CHECK(read_mesh("a.pbrt", text).scene.objects.size() == 1);
+}
+
+TEST_CASE("an integrator's depth is that of paths, whose bounces are one fewer, and other integrators are said") {
+  const auto read = [](const std::string& integrator) {
+    return read_mesh("a.pbrt", integrator + " WorldBegin " + pbrt_triangle);
+  };
+  CHECK(read("").scene.bounces == 4);
+  CHECK(read("Integrator \"path\"").scene.bounces == 4);
+  CHECK(read("Integrator \"bdpt\" \"integer maxdepth\" 65").scene.bounces == 64);
+  CHECK(read("Integrator \"volpath\" \"integer maxdepth\" 1").scene.bounces == 0);
+  CHECK(notes(read("Integrator \"volpath\" \"integer maxdepth\" 0"), "maxdepth is 0, shown with 0 bounces"));
+  CHECK(notes(read("Integrator \"path\" \"integer maxdepth\" 1000"), "maxdepth is 1000, shown with 253 bounces"));
+  CHECK(notes(read("Integrator \"ambientocclusion\""), "--occlusion=DISTANCE"));
+  CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Integrator \"whitted\""), "no integrator of kind 'whitted'"));
+  CHECK(notes(read("Sampler \"halton\" \"integer pixelsamples\" 128"), "128 samples a pixel: --samples=128"));
+  CHECK(notes(read("Sampler \"stratified\" \"integer xsamples\" 8 \"integer ysamples\" 2"), "16 samples a pixel"));
 }
 
 TEST_CASE("errors say file, line and column") {
