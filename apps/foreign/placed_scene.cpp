@@ -389,9 +389,8 @@ class PlacedScene {
     const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
     note_count(result_.notes, "materials that shine, which light other things by paths alone",
                is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
-    core::SceneBuilder builder(result_.scene);
     std::vector<core::PointLight> points;
-    std::uint64_t spheres = 0, unfallen = 0;
+    std::uint64_t unfallen = 0;
     for (const FileLight& light : file_.lights) {
       if (!(largest_component(light.intensity) > 0)) {
         continue;
@@ -399,8 +398,7 @@ class PlacedScene {
       if (light.kind == FileLightKind::distant) {
         points.push_back({far_position(light, result_.bounds), light.intensity * (1 / pi), true});
       } else if (is_by_paths) {
-        add_sphere(light, builder);
-        ++spheres;
+        points.push_back(falling(light));
       } else {
         const Vec3d position = light.position * scale_;
         const double way = std::max(length(position - result_.bounds.center), light_share * result_.bounds.radius);
@@ -412,21 +410,19 @@ class PlacedScene {
       scale_down(points);
     }
     result_.scene.lights = std::move(points);
-    note_count(result_.notes, "point lights, shown as spheres of a thousandth of the scene", spheres);
     note_count(result_.notes, "point lights whose fall-off with distance is ignored", unfallen);
   }
 
-  /// One shines as brightly as its point: its radiance times the area that is seen of it is the intensity.
-  void add_sphere(const FileLight& light, core::SceneBuilder& builder) {
-    const double radius = light_share * result_.bounds.radius, area = pi * radius * radius;
-    const double most = 1e29;
-    const Vec3d radiance = light.intensity * (scale_ * scale_ / area);
-    const Vec3d position = light.position * scale_;
-    if (!(largest_component(radiance) < most) || !is_in_reach(position)) {
-      throw core::InputError("a point light is too strong, or too far away, beside a scene so small or large; correct the file");
+  /// Of ours an irradiance of pi is 1.
+  core::PointLight falling(const FileLight& light) const {
+    constexpr double most = 1e29;
+    core::PointLight result{light.position * scale_, light.intensity * (scale_ * scale_ / pi), true};
+    if (!(largest_component(result.color) < most) || !is_in_reach(result.position)) {
+      throw core::InputError("a point light is too strong, or too far away; correct the file");
     }
-    builder.material({.color = {0, 0, 0}, .diffuse = 0, .emission = radiance});
-    builder.sphere(position, radius);
+    result.falls_off_from = std::max(result_.bounds.radius * light_share, 1 / most);
+    result.cone = light.cone;
+    return result;
   }
 
   PlacedFile file_;

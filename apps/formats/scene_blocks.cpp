@@ -89,6 +89,8 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
     Packer fields;
     for (const core::PointLight& light : std::span(lights).subspan(first, std::min(lights_a_message, lights.size() - first))) {
       fields.add(light.position).add(light.color).add(static_cast<std::uint8_t>(light.has_color));
+      fields.add(light.falls_off_from).add(light.cone.ahead).add(light.cone.full_degrees).add(light.cone.none_degrees);
+      fields.add(static_cast<std::uint8_t>(light.cone.is_smooth));
     }
     if (!line.send(Saying::lights, fields)) {
       return false;
@@ -108,6 +110,7 @@ bool is_point(const Vec3d& point) {
 
 bool is_light(const Vec3d& color) { return is_point(color) && std::min({color.x, color.y, color.z}) >= 0; }
 
+bool is_angle(double degrees) { return degrees >= 0 && degrees <= 180; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 
@@ -217,6 +220,14 @@ void SceneReceiver::take_lights(Unpacker fields) {
   for (std::size_t i = 0; i < lights_a_message && !fields.is_empty(); ++i) {
     core::PointLight light{.position = fields.take<Vec3d>(), .color = fields.take<Vec3d>()};
     light.has_color = fields.take_flag();
+    light.falls_off_from = fields.take<double>();
+    light.cone.ahead = fields.take<Vec3d>();
+    light.cone.full_degrees = fields.take<double>();
+    light.cone.none_degrees = fields.take<double>();
+    light.cone.is_smooth = fields.take_flag();
+    const core::LightCone& cone = light.cone;
+    Unpacker::require(is_weight(light.falls_off_from) && is_angle(cone.full_degrees) && is_angle(cone.none_degrees) &&
+                      (cone.none_degrees == 0 || std::abs(length(cone.ahead) - 1) < 1e-6));
     Unpacker::require(is_point(light.position) && is_light(light.color) && scene_.lights.size() < lights_max);
     scene_.lights.push_back(light);
   }

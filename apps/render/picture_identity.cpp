@@ -152,6 +152,13 @@ std::string lights_text(const core::Scene& scene) {
     add(digest, light.position);
     add(digest, light.color);
     digest.add(std::uint64_t{light.has_color});
+    if (!light.is_plain()) {
+      digest.add(light.falls_off_from);
+      add(digest, light.cone.ahead);
+      digest.add(light.cone.full_degrees);
+      digest.add(light.cone.none_degrees);
+      digest.add(std::uint64_t{light.cone.is_smooth});
+    }
   }
   return text_of(digest);
 }

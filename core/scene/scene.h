@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/record/light_spread.h"
 #include "core/scene/sky_texels.h"
 #include "core/scene/texture.h"
 
@@ -77,11 +78,18 @@ struct Material {
   double specular_max(double texture_max = 1) const;
 };
 
-/// NFF's `l`: a point light without fall-off.
+/// NFF's `l`: a point light, without fall-off unless that is said. Nothing is to be seen of it.
 struct PointLight {
   Vec3d position;
   Vec3d color{1, 1, 1};
   bool has_color = false;  ///< false: the file gave no colour, and every such light gets 1/sqrt(number of lights)
+  /// Above 0 it falls off with the square of the distance, and `color` is what it is 1 away, in the scene's units. What is nearer
+  /// than this may be brighter than a film is made for.
+  double falls_off_from = 0;
+  LightCone cone = {};
+
+  /// Whether NFF can say it.
+  bool is_plain() const { return falls_off_from == 0 && cone.none_degrees == 0; }
 };
 
 /// NFF's `v`.

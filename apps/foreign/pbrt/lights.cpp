@@ -8,6 +8,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra.h"
+#include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -43,18 +44,36 @@ void check_place(const Parameters& parameters, const Vec3d& point) {
   }
 }
 
+/// What a spot's light would fill all round, as bright as it is ahead.
+double filled(const core::LightCone& cone) {
+  const double full = core::cos_degrees(cone.full_degrees), none = core::cos_degrees(cone.none_degrees);
+  return 2 * pi * ((1 - full) + (full - none) / 2);
+}
+
+core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
+  const Vec3d from = parameters.point("from").value_or(Vec3d{}), to = parameters.point("to").value_or(Vec3d{0, 0, 1});
+  const Vec3d ahead = world.direction(to - from);
+  const double none = parameters.number("coneangle", 30), full = none - parameters.number("conedeltaangle", 5);
+  if (!(none > 0 && none <= 180 && full <= none)) {
+    parameters.fail("its cone ends at " + rounded(none) + " degrees, from " + rounded(full) +
+                    " on, expected more than 0 and at most 180");
+  }
+  if (!(length(ahead) > 0 && length(ahead) < 1e30)) {
+    parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
+  }
+  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .is_smooth = true};
+}
+
 void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, FileLightKind kind,
                PlacedFile& file) {
-  const double factor = scale_of(parameters) * factor_of(parameters, "power", 4 * pi);
+  const bool is_spot = kind == FileLightKind::spot;
+  const core::LightCone cone = is_spot ? cone_of(parameters, world) : core::LightCone{};
+  const double factor = scale_of(parameters) * factor_of(parameters, "power", is_spot ? filled(cone) : 4 * pi);
   FileLight result{.kind = kind,
                    .position = world.point(parameters.point("from").value_or(Vec3d{})),
-                   .intensity = light(parameters, "I", exposure, factor)};
+                   .intensity = light(parameters, "I", exposure, factor),
+                   .cone = cone};
   check_place(parameters, result.position);
-  for (const char* const cone : {"coneangle", "conedeltaangle", "fov"}) {
-    parameters.number(cone);
-  }
-  parameters.point("to");
-  parameters.text("filename", "");
   file.lights.push_back(result);
 }
 
@@ -88,6 +107,14 @@ void add_infinite(const Parameters& parameters, const Tokens& tokens, const Tran
     parameters.fail("has coordinates that are pressed flat, in which no sky has directions");
   }
   file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = exposure.of({scale, scale, scale})});
+}
+
+/// A small face, whose vector is as long as its area.
+FileLight half_round(const Vec3d& centre, const Vec3d& face, const Vec3d& radiance) {
+  return {.kind = FileLightKind::spot,
+          .position = centre,
+          .intensity = radiance * length(face),
+          .cone = {.ahead = normalize(face), .full_degrees = 0, .none_degrees = 90}};
 }
 
 double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
@@ -130,13 +157,61 @@ Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transf
   return light.power && area > 0 ? light.radiance * (*light.power / area) : light.radiance;
 }
 
+/// As points: of each face, into its half of space by the cosine, as long as they are few; of a sphere and of others all round,
+/// as what looks to all sides alike shines from afar.
+std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world) {
+  constexpr std::size_t faces_max = 16;
+  const Vec3d radiance = radiance_of(light, shape, world);
+  const double sides = light.is_twosided ? 2 : 1;
+  if (shape.sphere) {
+    return {{.kind = FileLightKind::point,
+             .position = world.point(shape.sphere->center),
+             .intensity = radiance * (sides * area_of(shape, world) / 4)}};
+  }
+  const double side = (world.determinant() < 0) != shape.is_turned ? -0.5 : 0.5;
+  std::vector<FileLight> lights;
+  Vec3d middle, across;
+  double area = 0;
+  std::size_t first = 0;
+  const auto corner = [&](std::size_t i) { return world.point(shape.mesh.vertices[shape.mesh.faces.corners[i]]); };
+  for (const std::uint32_t end : shape.mesh.faces.ends) {
+    for (std::size_t i = first + 2; i < end; ++i) {
+      const Vec3d a = corner(first), b = corner(i - 1), c = corner(i), face = cross(b - a, c - a) * side;
+      const Vec3d centre = (a + b + c) * (1.0 / 3);
+      middle = middle + centre * length(face);
+      across = across + face;
+      area += length(face);
+      if (lights.size() <= faces_max && length(face) > 0) {
+        lights.push_back(half_round(centre, face, radiance));
+      }
+    }
+    first = end;
+  }
+  if (lights.size() > faces_max) {
+    const bool is_flat = length(across) > 0.999 * area;
+    lights = {is_flat ? half_round(middle * (1 / area), across, radiance)
+                      : FileLight{.kind = FileLightKind::point,
+                                  .position = middle * (1 / area),
+                                  .intensity = radiance * (sides * area / 4)}};
+  }
+  const bool has_backs = light.is_twosided && !lights.empty() && lights.front().kind == FileLightKind::spot;
+  for (std::size_t i = 0, count = lights.size(); has_backs && i < count; ++i) {
+    lights.push_back(lights[i]);
+    lights.back().cone.ahead = -lights.back().cone.ahead;
+  }
+  return lights;
+}
+
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
                const Exposure& exposure, PlacedFile& file, Notes& notes) {
   if (kind == "point") {
     add_point(parameters, world, exposure, FileLightKind::point, file);
-  } else if (kind == "spot" || kind == "goniometric" || kind == "projection") {
-    notes.count("lights of kind '" + kind + "', which shine all round here");
+  } else if (kind == "spot") {
     add_point(parameters, world, exposure, FileLightKind::spot, file);
+  } else if (kind == "goniometric" || kind == "projection") {
+    notes.count("lights of kind '" + kind + "', which shine all round here, without their picture");
+    parameters.text("filename", "");
+    add_point(parameters, world, exposure, FileLightKind::point, file);
   } else if (kind == "distant") {
     add_distant(parameters, world, exposure, file);
   } else if (kind == "infinite") {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/pbrt/camera.h"
@@ -22,6 +23,9 @@ struct AreaLight {
 AreaLight area_light_of(const std::string& kind, const Parameters& parameters, const Exposure& exposure, Notes& notes);
 /// What the shape shines with, in these coordinates of the world.
 core::Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transform& world);
+
+/// What lights as an area light does of which nothing is to be seen.
+std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world);
 
 /// Adds what a LightSource statement says to the file's lights, background or skies. `world` is from its coordinates.
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,

@@ -107,6 +107,7 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   add_awaited();
   surfaces_.settle(tokens_);
   give_materials();
+  add_unseen_lights();
   drop_undrawn();
   const Camera camera = camera_.value_or(Camera{});
   const bool is_turned = sees_left_handed(camera);
@@ -131,6 +132,7 @@ void Statements::turn_round(const Transform& turn) {
   }
   for (FileLight& light : file_.lights) {
     light.position = turn.point(light.position);
+    light.cone.ahead = turn.direction(light.cone.ahead);
   }
   for (FileSky& sky : file_.skies) {
     const Transform rows{sky.rows, {}};
@@ -599,12 +601,28 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
     notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
     return;
   }
+  if (look.opacity <= 0) {
+    for (const FileLight& light : unseen_lights(*state_.light, shape, state_.ctm)) {
+      unseen_.emplace_back(look.surface, light);
+    }
+    notes_.count("area lights that alpha takes away, which light as points");
+    return;
+  }
   const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
   look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
   look.is_light = true;
   shape.mesh.material = look_number(look);
   if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
     shape.back = dark;
+  }
+}
+
+/// But of the material "interface".
+void Statements::add_unseen_lights() {
+  for (const auto& [surface, light] : unseen_) {
+    if (surfaces_.at(surface).is_drawn) {
+      file_.lights.push_back(light);
+    }
   }
 }
 

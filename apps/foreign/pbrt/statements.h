@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/foreign/mesh/geometry.h"
@@ -131,6 +132,7 @@ class Statements {
   void add_place(const ShapePlace& place, const GeometrySize& size, const Place& said);
   void check_total(const GeometrySize& total, const Place& said) const;
   void give_materials();
+  void add_unseen_lights();
   void drop_undrawn();
   void check_ended() const;
   void turn_round(const Transform& turn);
@@ -149,6 +151,7 @@ class Statements {
   Object* open_object_ = nullptr;
   std::vector<Awaited> awaited_;
   std::vector<Look> looks_;
+  std::vector<std::pair<std::uint32_t, FileLight>> unseen_;  ///< with their surfaces
   std::map<std::array<double, 6>, std::size_t> look_numbers_;
   GeometrySize size_;  ///< with every instance that is copied
   GeometrySize made_;  ///< of all shapes, once
