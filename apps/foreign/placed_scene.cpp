@@ -403,6 +403,7 @@ class PlacedScene {
         const Vec3d position = light.position * scale_;
         const double way = std::max(length(position - result_.bounds.center), light_share * result_.bounds.radius);
         points.push_back({position, light.intensity * (scale_ * scale_ / (pi * way * way)), true});
+        points.back().cone = light.cone;
         ++unfallen;
       }
     }

@@ -105,7 +105,6 @@ Camera camera_of(const std::string& kind, const Parameters& parameters, const Tr
   camera.degrees = 2 * angle_of_tangent(half);
   notes.count("aspects of cameras that are not the film's, shown with that", parameters.number("frameaspectratio") ? 1 : 0);
   notes.count("lenses that blur what is near or far, shown sharp", parameters.number("lensradius", 0) > 0 ? 1 : 0);
-  parameters.number("focaldistance");
   return camera;
 }
 

@@ -82,8 +82,6 @@ Corners corners_of(const Parameters& parameters, std::size_t of_a_face) {
   if (corners.points.empty()) {
     parameters.fail("has no \"point3 P\"");
   }
-  parameters.find("S", {vector3});
-  parameters.find("faceIndices", {integer});
   check_count(parameters, "N", corners.normals.size(), corners.points.size());
   check_count(parameters, "uv", corners.places.size(), corners.points.size());
   corners.indices = indices_of(parameters, corners.points.size(), of_a_face);
@@ -261,7 +259,6 @@ PolygonMesh loop_mesh(const Parameters& parameters) {
   if (points.empty()) {
     parameters.fail("has no \"point3 P\"");
   }
-  parameters.find("scheme", {text});
   const std::int64_t levels = parameters.integer("levels", 3);
   if (levels < 0 || levels > 100) {
     parameters.fail("has " + std::to_string(levels) + " levels, expected 0 to 100");
@@ -280,7 +277,6 @@ PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneF
     parameters.fail("has no \"string filename\"");
   }
   notes.count("meshes with displacement, shown without", parameters.find("displacement", {texture, text}) != nullptr ? 1 : 0);
-  parameters.find("edgelength", {number});
   std::vector<std::string> found;
   PolygonMesh mesh;
   try {

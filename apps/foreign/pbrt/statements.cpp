@@ -7,9 +7,11 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/parameter_table.h"
 #include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
+#include "core/base/expect.h"
 #include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::pbrt {
@@ -418,9 +420,14 @@ Parameters Statements::parameters(const std::string& owner, const Token& name, c
   return result;
 }
 
-void Statements::finish(const Parameters& parameters) {
+void Statements::finish(const Parameters& parameters, const std::string& statement, const std::string& kind) {
   for (const std::string& name : parameters.unused()) {
-    notes_.count("parameters \"" + clipped(name, 40) + "\" that mean nothing where they stand", 1);
+    const ParameterFate fate = fate_of(statement, kind, name);
+    if (fate == ParameterFate::said) {
+      notes_.count("\"" + name + "\" of " + statement + (kind.empty() ? "" : " \"" + kind + "\"") + ", which is not shown");
+    } else if (fate != ParameterFate::silent) {
+      notes_.count("parameters \"" + clipped(name, 40) + "\" that mean nothing where they stand", 1);
+    }
   }
 }
 
@@ -428,12 +435,14 @@ void Statements::film(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
   film_ = film_of(kind, all, notes_);
+  finish(all, name.text, kind);
 }
 
 void Statements::camera(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
   camera_ = camera_of(kind, all, state_.ctm, notes_);
+  finish(all, name.text, kind);
   systems_.insert_or_assign("camera", *inverse_of(state_.ctm));
 }
 
@@ -448,10 +457,16 @@ void Statements::color_space(const Token& name) {
   notes_.count("colours of the space " + quoted(space) + ", shown as if they were of sRGB", space == "srgb" ? 0 : 1);
 }
 
-/// Samplers, integrators, filters and what is within media: how pbrt renders, or what is not shown.
+/// Structures, filters and media: how pbrt renders, or what is not shown.
 void Statements::of_other_renderers(const Token& name) {
   const std::string kind = text(name, "its kind");
-  parameters(kind, name, "");
+  const Parameters all = parameters(kind, name, "");
+  if (name.text != "MakeNamedMedium") {
+    finish(all, name.text, kind);
+  }
+  const bool is_ours = kind == "box" && all.number("xradius", 0.5) == 0.5 && all.number("yradius", 0.5) == 0.5;
+  notes_.count("filters of pixels, in place of which a pixel is the mean of what falls on it",
+               name.text == "PixelFilter" && !is_ours ? 1 : 0);
 }
 
 /// Pbrt's depth is of hits that lights show directly, of which ours have one without a bounce.
@@ -475,7 +490,7 @@ void Statements::integrator(const Token& name) {
   } else if (!is_one) {
     all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::sampler(const Token& name) {
@@ -489,10 +504,13 @@ void Statements::sampler(const Token& name) {
     file_.notes.push_back("the sampler takes " + counted(static_cast<std::uint64_t>(samples), "sample") +
                           " a pixel: --samples=" + std::to_string(std::min(samples, most)) + " does so, too");
   }
-  finish(all);
+  finish(all, name.text, kind);
 }
 
-void Statements::option(const Token& name) { Parameters(tokens_, "Option", name.place); }
+void Statements::option(const Token& name) {
+  const Parameters all(tokens_, "Option", name.place);
+  finish(all, name.text, "");
+}
 
 void Statements::medium_interface(const Token& name) {
   const std::string inside = text(name, "a medium's name");
@@ -523,21 +541,21 @@ void Statements::texture(const Token& name) {
   const std::string texture = text(name, "its name"), type = text(name, "what it is of"), kind = text(name, "its kind");
   const Parameters all = parameters(texture, name, "texture");
   textures_.add(texture, type, kind, all);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::material(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "material");
   state_.surface = surfaces_.add(kind, all, tokens_);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::make_named_material(const Token& name) {
   const std::string material = text(name, "its name");
   const Parameters all = parameters(material, name, "material");
   surfaces_.add_named(material, all, tokens_);
-  finish(all);
+  finish(all, "Material", all.text("type", ""));
 }
 
 void Statements::named_material(const Token& name) { state_.surface = surfaces_.named(text(name, "its name"), name.place); }
@@ -546,14 +564,14 @@ void Statements::area_light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
   state_.light = area_light_of(kind, all, exposure(), notes_);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
   add_light(kind, all, tokens_, state_.ctm, exposure(), file_, notes_);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 // Shapes.
@@ -565,7 +583,7 @@ void Statements::shape(const Token& name) {
       shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
   if (shape) {
     add_shape(*std::move(shape), all);
-    finish(all);
+    finish(all, name.text, kind);
   }
 }
 

@@ -122,9 +122,9 @@ class Statements {
   void check_map(const Token& name, const Transform& map) const;
   std::vector<double> numbers(const Token& name, std::size_t count);
   std::string text(const Token& name, const char* what);
-  /// With what Attribute has said of such, and what of it nobody knows is counted by finish().
+  /// With what Attribute has said of such. What of it nobody has looked for is counted by finish(), by the table of parameters.
   Parameters parameters(const std::string& owner, const Token& name, const char* kind);
-  void finish(const Parameters& parameters);
+  void finish(const Parameters& parameters, const std::string& statement, const std::string& kind);
   Exposure exposure() const;
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);

@@ -213,9 +213,6 @@ Surface Surfaces::coated(const Parameters& parameters) const {
     color = clamped(color);
     color = {color.x * (1 - f) / (1 - color.x * f), color.y * (1 - f) / (1 - color.y * f), color.z * (1 - f) / (1 - color.z * f)};
   }
-  for (const char* const inside : {"thickness", "g", "albedo", "maxdepth", "nsamples"}) {
-    parameters.find(inside, {number, integer, rgb, spectrum, texture});
-  }
   return surface;
 }
 
@@ -253,11 +250,14 @@ Surface Surfaces::surface_of(const std::string& kind, const Parameters& paramete
   if (kind == "diffusetransmission") {
     notes_.count("materials that scatter light through, shown as opaque");
     parameters.find("transmittance", {texture, rgb, spectrum});
-    return diffuse(parameters, "reflectance", 0.25);
+    Surface surface = diffuse(parameters, "reflectance", 0.25);
+    surface.color.color = surface.color.color * parameters.number("scale", 1);
+    return surface;
   }
   if (kind == "subsurface" || kind == "hair" || kind == "measured") {
     notes_.count("materials of kind '" + kind + "', shown as diffuse");
-    return diffuse(parameters, kind == "hair" ? "color" : "reflectance", 0.5);
+    const bool has_color = kind == "hair" && parameters.find("reflectance", {texture, rgb, spectrum}) == nullptr;
+    return diffuse(parameters, has_color ? "color" : "reflectance", 0.5);
   }
   parameters.fail("there is no material of kind '" + clipped(kind, 40) + "' in pbrt-v4");
 }

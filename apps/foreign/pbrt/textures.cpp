@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 
 #include "apps/edge/line/shown_text.h"
 #include "core/scene/texel.h"
@@ -50,8 +51,11 @@ TextureValue Textures::value_of(const std::string& kind, const Parameters& param
     notes_.count("textures that mix by direction, shown half and half", kind == "directionmix" ? 1 : 0);
     return mixed(parameters, is_number);
   }
-  if (kind == "checkerboard" || kind == "dots") {
+  if (kind == "checkerboard") {
     return checkered(parameters, is_number);
+  }
+  if (kind == "dots") {
+    return dotted(parameters, is_number);
   }
   if (kind == "imagemap") {
     return pictured(parameters);
@@ -112,6 +116,14 @@ TextureValue Textures::mixed(const Parameters& parameters, bool is_number) {
   return amount < 0.5 ? first : second;
 }
 
+/// Half of its cells have a dot, whose radius is 0.35 of theirs.
+TextureValue Textures::dotted(const Parameters& parameters, bool is_number) {
+  constexpr double share = 0.5 * 0.35 * 0.35 * std::numbers::pi;
+  const TextureValue inside = part(parameters, "inside", 1, is_number), outside = part(parameters, "outside", 0, is_number);
+  notes_.count("dots, shown as the mean of their colours");
+  return {.color = inside.color * share + outside.color * (1 - share), .picture = {}, .place = {}};
+}
+
 TextureValue Textures::checkered(const Parameters& parameters, bool is_number) {
   const TextureValue first = part(parameters, "tex1", 1, is_number), second = part(parameters, "tex2", 0, is_number);
   const bool is_flat = parameters.integer("dimension", 2) == 2;
@@ -149,8 +161,6 @@ TextureValue Textures::pictured(const Parameters& parameters) {
   value.picture = TextureUse{.path = path, .edges = {edges, edges}};
   const double scale = parameters.number("scale", 1);
   value.color = {scale, scale, scale};
-  parameters.text("filter", "");
-  parameters.number("maxanisotropy");
   notes_.count("pictures that are black beyond their edges, shown with their edges going on", wrap == "black" ? 1 : 0);
   notes_.count("pictures that are to be inverted, shown as they are", parameters.flag("invert", false) ? 1 : 0);
   notes_.count("pictures whose encoding is not sRGB, shown as if it were", encoding == "sRGB" || encoding == "srgb" ? 0 : 1);

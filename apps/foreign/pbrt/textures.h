@@ -44,6 +44,7 @@ class Textures {
   TextureValue part(const Parameters& parameters, const char* name, double fallback, bool is_number) const;
   TextureValue scaled(const Parameters& parameters, bool is_number);
   TextureValue mixed(const Parameters& parameters, bool is_number);
+  TextureValue dotted(const Parameters& parameters, bool is_number);
   TextureValue checkered(const Parameters& parameters, bool is_number);
   TextureValue pictured(const Parameters& parameters);
   void place(const Parameters& parameters, TextureValue& value, double span = 1);
