@@ -498,8 +498,9 @@ void Statements::sampler(const Token& name) {
   const Parameters all = parameters(kind, name, "");
   constexpr std::int64_t most = 32768;
   const bool is_stratified = kind == "stratified";
-  const std::int64_t samples = is_stratified ? all.integer("xsamples", 4) * all.integer("ysamples", 4)
-                                             : all.integer("pixelsamples", kind == "independent" ? 4 : 16);
+  const auto count = [&](const char* side) { return std::clamp<std::int64_t>(all.integer(side, 4), 0, most); };
+  const std::int64_t samples =
+      is_stratified ? count("xsamples") * count("ysamples") : all.integer("pixelsamples", kind == "independent" ? 4 : 16);
   if (samples > 0) {
     file_.notes.push_back("the sampler takes " + counted(static_cast<std::uint64_t>(samples), "sample") +
                           " a pixel: --samples=" + std::to_string(std::min(samples, most)) + " does so, too");

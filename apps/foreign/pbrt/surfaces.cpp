@@ -195,8 +195,7 @@ Surface Surfaces::coated_conductor(const Parameters& parameters) const {
   return surface;
 }
 
-/// Light that is within goes back and forth between what is diffuse and the coat: of reflectance R comes out R (1 - f) / (1 - R
-/// f).
+/// Light that is within goes back and forth between what is diffuse and the coat: of R comes out R (1 - f) / (1 - R f).
 Surface Surfaces::coated(const Parameters& parameters) const {
   Surface surface = diffuse(parameters, "reflectance", 0.5);
   surface.has_facets = true;

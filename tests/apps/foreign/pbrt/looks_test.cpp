@@ -250,6 +250,46 @@ TEST_CASE("an area light shines as brightly as it says, to its front: behind sta
               "shine nowhere"));
 }
 
+// Of smoothstep's cone: 2 pi ((1 - cos 25) + (cos 25 - cos 30) / 2) times as much as ahead.
+TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
+  const MeshFile spot =
+      read_pbrt("LightSource \"spot\" \"rgb I\" [3 3 3] \"point3 from\" [0 5 0] \"point3 to\" [0 0 0] \"float coneangle\" 20\n" +
+                    pbrt_triangle,
+                by_paths);
+  REQUIRE(spot.scene.lights.size() == 1);
+  const core::PointLight& light = spot.scene.lights[0];
+  CHECK(is_near(light.cone.ahead, {0, -1, 0}));
+  CHECK(light.cone.full_degrees == 15);
+  CHECK(light.cone.none_degrees == 20);
+  CHECK(light.cone.is_smooth);
+  CHECK(is_near(light.color * pi, {3, 3, 3}));
+  const MeshFile strong = read_pbrt("LightSource \"spot\" \"float power\" 10\n" + pbrt_triangle, by_paths);
+  const double full = std::cos(25 * pi / 180), none = std::cos(30 * pi / 180);
+  CHECK(is_near(strong.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (2 * pi * ((1 - full) + (full - none) / 2)))));
+  CHECK(tests::contains(pbrt_refusal("LightSource \"spot\" \"float coneangle\" 0"), "its cone ends at 0 degrees"));
+}
+
+TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as points") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
+  const std::string lamp = pbrt_triangle + "AreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n";
+  const MeshFile ball = read_pbrt(lamp + "Translate 0 3 4 Shape \"sphere\" \"float radius\" 0.5 \"float alpha\" 0\n", by_paths);
+  CHECK(ball.scene.objects.size() == 1);
+  REQUIRE(ball.scene.lights.size() == 1);
+  CHECK(ball.scene.lights[0].position == Vec3d{0, 3, 4});
+  CHECK(ball.scene.lights[0].cone.none_degrees == 0);
+  CHECK(is_near(ball.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (40 * pi * 0.25)));  // pi L r^2
+  const MeshFile half = read_pbrt(
+      lamp + "Shape \"trianglemesh\" \"float alpha\" 0 \"point3 P\" [0 0 3 3 0 3 0 3 3] \"integer indices\" [0 1 2]\n", by_paths);
+  CHECK(half.scene.objects.size() == 1);
+  REQUIRE(half.scene.lights.size() == 1);
+  CHECK(is_near(half.scene.lights[0].position, {1, 1, 3}));
+  CHECK(is_near(half.scene.lights[0].cone.ahead, {0, 0, 1}));
+  CHECK(half.scene.lights[0].cone.none_degrees == 90);
+  CHECK(is_near(half.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (40 * 4.5)));
+  CHECK(notes(half, "area lights that alpha takes away, which light as points: 1"));
+}
+
 TEST_CASE("an area light of the material interface shines nowhere, named before or after") {
   const std::string light = "AreaLightSource \"diffuse\" \"bool twosided\" true\n", sphere = "Shape \"sphere\"\n";
   for (const std::string interface : {"Material \"interface\"\n", "Material \"\"\n", "NamedMaterial \"air\"\n"}) {
@@ -264,11 +304,11 @@ TEST_CASE("an area light of the material interface shines nowhere, named before 
 TEST_CASE("lights that are no surface light as physics has it, below the file's own sky") {
   const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
   const MeshFile point = read_pbrt("LightSource \"point\" \"rgb I\" [1 2 3] \"point3 from\" [0 5 0]\n" + pbrt_triangle, by_paths);
-  REQUIRE(point.scene.spheres.size() == 1);
-  CHECK(point.scene.lights.empty());
-  const double radius = point.scene.spheres[0].radius;
-  CHECK(point.scene.spheres[0].center == Vec3d{0, 5, 0});
-  CHECK(is_near(tests::material_of_object(point, 1).emission * (pi * radius * radius), {1, 2, 3}));
+  REQUIRE(point.scene.lights.size() == 1);
+  CHECK(point.scene.spheres.empty());
+  CHECK(point.scene.lights[0].position == Vec3d{0, 5, 0});
+  CHECK(point.scene.lights[0].falls_off_from > 0);
+  CHECK(is_near(point.scene.lights[0].color * pi, {1, 2, 3}));
   const MeshFile sun = read_pbrt(
       "LightSource \"distant\" \"rgb L\" [3 3 3] \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n" + pbrt_triangle, by_paths);
   REQUIRE(sun.scene.lights.size() == 1);
