@@ -133,6 +133,15 @@ constexpr std::array table{
         "bool wavefront"},
 };
 
+/// The length of a text that does not have the letter.
+std::size_t place_of(char letter, std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size() && text[at] != letter) {
+    ++at;
+  }
+  return at;
+}
+
 bool has(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     if (next_of(list).name == name) {
@@ -147,10 +156,10 @@ bool has(std::string_view list, std::string_view name) {
 std::span<const ParameterRow> parameter_table() { return table; }
 
 ListedParameter next_of(std::string_view& list) {
-  const std::size_t end = std::min(list.find(','), list.size());
+  const std::size_t end = place_of(',', list);
   const std::string_view both = list.substr(0, end);
   list.remove_prefix(std::min(end + 2, list.size()));
-  const std::size_t blank = std::min(both.find(' '), both.size());
+  const std::size_t blank = place_of(' ', both);
   return {both.substr(0, blank), both.substr(std::min(blank + 1, both.size()))};
 }
 

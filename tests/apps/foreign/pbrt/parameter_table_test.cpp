@@ -60,15 +60,23 @@ const std::string named =
     "Texture \"number\" \"float\" \"constant\" \"float value\" 0.25\n"
     "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
 
-std::string scene_of(const ParameterRow& row, const std::string& said) {
+/// Each parameter of the row's in a statement of its own, and one that none has.
+std::string scene_of(const ParameterRow& row) {
   const std::string statement(row.statement), kind(row.kind);
   const bool is_first = statement == "Film" || statement == "Camera" || statement == "Sampler" || statement == "PixelFilter" ||
                         statement == "Integrator" || statement == "Accelerator" || statement == "Option";
-  const std::string needed = row.statement == "Texture" && kind == "mix" ? "" : needed_by(kind);
-  const std::string words = statement + (statement == "Texture" ? " \"t\" \"spectrum\"" : "") +
-                            (statement == "Option" ? "" : " \"" + kind + "\"") + needed + " " + said + "\n";
-  const std::string world = "WorldBegin\n" + named + (is_first ? "" : words) + tests::pbrt_triangle;
-  return before + (is_first ? words : "") + world;
+  const std::string needed = statement == "Texture" && kind == "mix" ? "" : needed_by(kind);
+  const std::string begin = statement + (statement == "Texture" ? " \"t\" \"spectrum\"" : "") +
+                            (statement == "Option" ? "" : " \"" + kind + "\"") + needed + " ";
+  std::string words = begin + "\"float wizard\" 1\n";
+  for (std::string_view list : {row.used, row.said, row.silent}) {
+    while (!list.empty()) {
+      const ListedParameter parameter = pbrt::next_of(list);
+      words += begin + "\"" + std::string(parameter.type) + " " + std::string(parameter.name) + "\" " +
+               value_of(kind, parameter) + "\n";
+    }
+  }
+  return before + (is_first ? words : "") + "WorldBegin\n" + named + (is_first ? "" : words) + tests::pbrt_triangle;
 }
 
 MeshFile read(const std::string& scene) {
@@ -80,47 +88,32 @@ MeshFile read(const std::string& scene) {
   return read_mesh_file(folder / "a.pbrt");
 }
 
-/// Of all parameters in one of a row's lists.
-template <class Check>
-void for_each(const ParameterRow& row, std::string_view list, const Check& check) {
-  while (!list.empty()) {
-    const ListedParameter parameter = pbrt::next_of(list);
-    const std::string name(parameter.name),
-        said = "\"" + std::string(parameter.type) + " " + name + "\" " + value_of(std::string(row.kind), parameter);
-    const std::string scene = scene_of(row, said);
-    CAPTURE(scene);
-    check(read(scene), name);
-  }
-}
-
 bool is_named(const MeshFile& file, const std::string& name) {
   return notes(file, "parameters \"" + name + "\"") || notes(file, "\"" + name + "\" of ");
 }
 
 }  // namespace
 
-TEST_CASE("each parameter of pbrt-v4 that is shown is looked at, and nothing is said of one that changes no picture") {
+TEST_CASE(
+    "each parameter of pbrt-v4 is shown, said with its statement, or changes no picture, and what it does not have is said") {
   for (const ParameterRow& row : parameter_table()) {
-    for (const std::string_view list : {row.used, row.silent}) {
-      for_each(row, list, [](const MeshFile& file, const std::string& name) { CHECK(!is_named(file, name)); });
-    }
-  }
-}
-
-TEST_CASE("each parameter of pbrt-v4 that is not shown is said with its statement") {
-  for (const ParameterRow& row : parameter_table()) {
-    const std::string of = " of " + std::string(row.statement) + (row.kind.empty() ? "" : " \"" + std::string(row.kind) + "\"");
-    for_each(row, row.said, [&](const MeshFile& file, const std::string& name) {
-      CHECK(notes(file, "\"" + name + "\"" + of + ", which is not shown: 1"));
-    });
-  }
-}
-
-TEST_CASE("a parameter that pbrt-v4 does not have is said of each statement") {
-  for (const ParameterRow& row : parameter_table()) {
-    const std::string scene = scene_of(row, "\"float wizard\" 1");
+    const std::string scene = scene_of(row);
     CAPTURE(scene);
-    CHECK(notes(read(scene), "parameters \"wizard\" that mean nothing where they stand: 1"));
+    const MeshFile file = read(scene);
+    CHECK(notes(file, "parameters \"wizard\" that mean nothing where they stand: 1"));
+    for (std::string_view list : {row.used, row.silent}) {
+      while (!list.empty()) {
+        const std::string name(pbrt::next_of(list).name);
+        CAPTURE(name);
+        CHECK(!is_named(file, name));
+      }
+    }
+    const std::string of = " of " + std::string(row.statement) + (row.kind.empty() ? "" : " \"" + std::string(row.kind) + "\"");
+    for (std::string_view list = row.said; !list.empty();) {
+      const std::string name(pbrt::next_of(list).name);
+      CAPTURE(name);
+      CHECK(notes(file, "\"" + name + "\"" + of + ", which is not shown: 1"));
+    }
   }
 }
 
