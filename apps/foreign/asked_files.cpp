@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> AskedFiles::meant(const std::filesystem::path
 }
 
 void AskedFiles::ask_for_texture(Saying question, Packer fields, const TextureEdges& edges) {
-  const Message message = ask(question, fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff));
+  const Message message = ask(question, fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff).add(edges.coat));
   if (message.saying != Saying::yes) {
     throw core::InputError(Unpacker(message.bytes).take_text());
   }

@@ -132,6 +132,7 @@ class PlacedScene {
       : file_(std::move(file)), options_(options), files_(files), scale_(options.scale.value_or(1)) {
     result_.scene.name = path;
     result_.scene.coordinate_rounding = file_.coordinate_rounding;
+    result_.scene.bounces = file_.bounces;
     result_.notes = std::move(file_.notes);
   }
 
@@ -268,9 +269,10 @@ class PlacedScene {
         writer.strays());
   }
 
-  /// A frame of an animation may show nothing; the view of a whole that is but a point is one of unit size.
+  /// A frame of an animation may show nothing, and a sky may be all there is; the view of a whole that is but a point is one of unit size.
   void settle_empty(bool has_area) {
-    if (!has_area && (file_.shapes.empty() || !options_.animation)) {
+    const bool is_sky_alone = file_.places.empty() && (file_.background != Vec3d{} || !file_.skies.empty());
+    if (!has_area && !is_sky_alone && (file_.shapes.empty() || !options_.animation)) {
       refuse_without_area(file_, result_.notes);
     }
     result_.bounds.radius = result_.bounds.radius > 0 ? result_.bounds.radius : 1;
@@ -407,9 +409,8 @@ class PlacedScene {
     const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
     note_count(result_.notes, "materials that shine, which light other things by paths alone",
                is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
-    core::SceneBuilder builder(result_.scene);
     std::vector<core::PointLight> points;
-    std::uint64_t spheres = 0, unfallen = 0;
+    std::uint64_t unfallen = 0;
     for (const FileLight& light : file_.lights) {
       if (!(largest_component(light.intensity) > 0)) {
         continue;
@@ -417,12 +418,12 @@ class PlacedScene {
       if (light.kind == FileLightKind::distant) {
         points.push_back({far_position(light, result_.bounds), light.intensity * (1 / pi), true});
       } else if (is_by_paths) {
-        add_sphere(light, builder);
-        ++spheres;
+        points.push_back(falling(light));
       } else {
         const Vec3d position = light.position * scale_;
         const double way = std::max(length(position - result_.bounds.center), light_share * result_.bounds.radius);
         points.push_back({position, light.intensity * (scale_ * scale_ / (pi * way * way)), true});
+        points.back().cone = light.cone;
         ++unfallen;
       }
     }
@@ -430,21 +431,19 @@ class PlacedScene {
       scale_down(points);
     }
     result_.scene.lights = std::move(points);
-    note_count(result_.notes, "point lights, shown as spheres of a thousandth of the scene", spheres);
     note_count(result_.notes, "point lights whose fall-off with distance is ignored", unfallen);
   }
 
-  /// One shines as brightly as its point: its radiance times the area that is seen of it is the intensity.
-  void add_sphere(const FileLight& light, core::SceneBuilder& builder) {
-    const double radius = light_share * result_.bounds.radius, area = pi * radius * radius;
-    const double most = 1e29;
-    const Vec3d radiance = light.intensity * (scale_ * scale_ / area);
-    const Vec3d position = light.position * scale_;
-    if (!(largest_component(radiance) < most) || !is_in_reach(position)) {
-      throw core::InputError("a point light is too strong, or too far away, beside a scene so small or large; correct the file");
+  /// Of ours an irradiance of pi is 1.
+  core::PointLight falling(const FileLight& light) const {
+    constexpr double most = 1e29;
+    core::PointLight result{light.position * scale_, light.intensity * (scale_ * scale_ / pi), true};
+    if (!(largest_component(result.color) < most) || !is_in_reach(result.position)) {
+      throw core::InputError("a point light is too strong, or too far away; correct the file");
     }
-    builder.material({.color = {0, 0, 0}, .diffuse = 0, .emission = radiance});
-    builder.sphere(position, radius);
+    result.falls_off_from = std::max(result_.bounds.radius * light_share, 1 / most);
+    result.cone = light.cone;
+    return result;
   }
 
   PlacedFile file_;

@@ -68,9 +68,9 @@ ReaderLimits with_sandbox(ReaderLimits limits, Sandbox sandbox) {
 TextureEdges take_edges(Unpacker& fields) {
   const auto s = fields.take_choice(core::TextureWrap::clamp), t = fields.take_choice(core::TextureWrap::clamp);
   const auto alpha = fields.take_choice(TextureAlpha::kept);
-  const auto cutoff = fields.take<double>();
-  Unpacker::require(cutoff >= 0 && cutoff <= 1);
-  return {s, t, alpha, cutoff};
+  const auto cutoff = fields.take<double>(), coat = fields.take<double>();
+  Unpacker::require(cutoff >= 0 && cutoff <= 1 && coat >= 0 && coat <= coat_max);
+  return {s, t, alpha, cutoff, coat};
 }
 
 }  // namespace
@@ -285,6 +285,7 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   texture.levels.front().texels.resize(count);
   std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
   texture.format = edges.alpha == TextureAlpha::kept ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
+  put_below_coat(texture, edges.coat);
   core::add_levels(texture);
   core::keep_coverage(texture, edges.cutoff);
   return texture;

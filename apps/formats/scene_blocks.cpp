@@ -88,6 +88,8 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
     Packer fields;
     for (const core::PointLight& light : std::span(lights).subspan(first, std::min(lights_a_message, lights.size() - first))) {
       fields.add(light.position).add(light.color).add_flag(light.has_color);
+      fields.add(light.falls_off_from).add(light.cone.ahead).add(light.cone.full_degrees).add(light.cone.none_degrees);
+      fields.add_flag(light.cone.is_smooth);
     }
     if (!line.send(Saying::lights, fields)) {
       return false;
@@ -95,6 +97,9 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   }
   return true;
 }
+
+/// Of a file that does not say how many.
+constexpr int no_bounces = -1;
 
 /// Calls take(saying, list) for each that is announced, in order.
 template <class Vertices, class Take>
@@ -112,6 +117,7 @@ void for_each_list(core::Scene& scene, std::vector<Vec3d>& points, std::vector<V
 
 bool is_light(const Vec3d& color) { return is_in_reach(color) && std::min({color.x, color.y, color.z}) >= 0; }
 
+bool is_angle(double degrees) { return degrees >= 0 && degrees <= 180; }
 bool is_share(double value) { return value >= 0 && value <= 1; }
 bool is_weight(double value) { return value >= 0 && value < view_coordinate_max; }
 
@@ -120,6 +126,7 @@ bool is_weight(double value) { return value >= 0 && value < view_coordinate_max;
 bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing) {
   Packer head;
   head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding);
+  head.add(scene.bounces.value_or(no_bounces));
   const auto for_each = [&](const auto& take) { for_each_list(scene, vertices.points, vertices.indices, instances, take); };
   for_each([&head](Saying /*saying*/, const auto& list) { head.add(std::uint64_t{list.size()}); });
   BlockSender blocks(line, handing);
@@ -173,6 +180,9 @@ void SceneReceiver::take_head(Unpacker fields) {
   scene_.background = fields.take<Vec3d>();
   scene_.coordinate_rounding = fields.take<double>();
   Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);
+  const auto bounces = fields.take<int>();
+  Unpacker::require(bounces >= no_bounces && bounces <= core::Scene::bounces_max);
+  scene_.bounces = bounces == no_bounces ? std::nullopt : std::optional(bounces);
   for_each_list(scene_, points_, scene_.vertices, instances_, [&](Saying each, auto& list) {
     const auto count = announced_[each] = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());
@@ -186,6 +196,14 @@ void SceneReceiver::take_lights(Unpacker fields) {
   for (std::size_t i = 0; i < lights_a_message && !fields.is_empty(); ++i) {
     core::PointLight light{.position = fields.take<Vec3d>(), .color = fields.take<Vec3d>()};
     light.has_color = fields.take_flag();
+    light.falls_off_from = fields.take<double>();
+    light.cone.ahead = fields.take<Vec3d>();
+    light.cone.full_degrees = fields.take<double>();
+    light.cone.none_degrees = fields.take<double>();
+    light.cone.is_smooth = fields.take_flag();
+    const core::LightCone& cone = light.cone;
+    Unpacker::require(is_weight(light.falls_off_from) && is_angle(cone.full_degrees) && is_angle(cone.none_degrees) &&
+                      (cone.none_degrees == 0 || std::abs(length(cone.ahead) - 1) < 1e-6));
     Unpacker::require(is_in_reach(light.position) && is_light(light.color) && scene_.lights.size() < lights_max);
     scene_.lights.push_back(light);
   }

@@ -123,7 +123,9 @@ SceneFigures figures_of(const core::Scene& scene) {
                        .meshes = count_meshes(scene),
                        .materials = count_materials(scene)};
   for (const core::PointLight& light : scene.lights) {
-    figures.lights.push_back({light.position, core::intensity_of(light, scene), true});
+    figures.lights.push_back(light);
+    figures.lights.back().color = core::intensity_of(light, scene);
+    figures.lights.back().has_color = true;
   }
   for (const core::Texture& texture : scene.textures) {
     figures.textures.push_back(figures_of(texture));

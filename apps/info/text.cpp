@@ -61,7 +61,8 @@ std::string view_text(const InfoRecord& record) {
 std::string lights_text(const SceneFigures& scene) {
   std::string text = std::to_string(scene.lights.size());
   for (std::size_t i = 0; i < std::min(lights_shown_max, scene.lights.size()); ++i) {
-    text += (i == 0 ? ": --light=" : " --light=") + text_of(scene.lights[i]);
+    text +=
+        (i == 0 ? ": " : " ") + std::string(scene.lights[i].is_plain() ? "--light=" : "falling off ") + text_of(scene.lights[i]);
   }
   return text + (scene.lights.size() > lights_shown_max ? " ..." : "");
 }

@@ -88,6 +88,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
     hidden_alphas_ += head.hides_alpha ? 1 : 0;
     texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
   });
+  put_below_coat(texture, edges.coat);
   core::add_levels(texture);
   core::keep_coverage(texture, edges.cutoff);
   return texture;

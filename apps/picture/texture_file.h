@@ -17,7 +17,15 @@ struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
   TextureAlpha alpha = TextureAlpha::ignored;
   double cutoff = 0;  ///< of alpha that cuts out what is less, up to 1; 0: it cuts nothing out
+  /// Of a smooth coat over what has these colours: what it sends back inwards of the light of white, up to coat_max.
+  double coat = 0;
 };
+inline constexpr double coat_max = 0.99;
+
+/// What comes out through such a coat of a channel.
+constexpr double below_coat(double channel, double coat) { return channel * (1 - coat) / (1 - channel * coat); }
+/// That for all texels of `texture`, which has no smaller levels yet.
+void put_below_coat(core::Texture& texture, double coat);
 
 /// Throws core::InputError "NAME: ..." for a texture that has no texels, or more than core::Texture::size_max along a side.
 inline void check_texture_size(const std::string& name, std::int64_t width, std::int64_t height) {

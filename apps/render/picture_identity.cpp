@@ -152,6 +152,13 @@ std::string lights_text(const core::Scene& scene) {
     add(digest, light.position);
     add(digest, light.color);
     digest.add(std::uint64_t{light.has_color});
+    if (!light.is_plain()) {
+      digest.add(light.falls_off_from);
+      add(digest, light.cone.ahead);
+      digest.add(light.cone.full_degrees);
+      digest.add(light.cone.none_degrees);
+      digest.add(std::uint64_t{light.cone.is_smooth});
+    }
   }
   return text_of(digest);
 }
@@ -255,8 +262,8 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"textures", textures_text(scene)},
            {"lights or background", lights_text(scene)},
            {view_fact, view_text(scene.view)},
-           picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(picture.depth - 1)}
-                                           : PictureFact{"depth", std::to_string(picture.depth)},
+           picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(depth_of(picture, scene) - 1)}
+                                           : PictureFact{"depth", std::to_string(depth_of(picture, scene))},
            {"cutoff", text_of(picture.cutoff)},
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},

@@ -93,6 +93,15 @@ std::string points_text(std::uint64_t count) {
                           ": as spheres of --light-radius they would be around the eye, or too small or too far away to show";
 }
 
+/// Of bounces that the file says, where nobody asks for others.
+std::string bounces_text(const core::Scene& scene, const PictureOptions& picture) {
+  const int bounces = depth_of(picture, scene) - 1;
+  return bounces == picture.depth - 1 || !scene.bounces
+             ? ""
+             : "the scene's file says how often light goes on: " + counted(static_cast<std::uint64_t>(bounces), "bounce") +
+                   "; --bounces=" + std::to_string(picture.transport.bounces) + " takes as many as other scenes have";
+}
+
 constexpr const char* one_path_note = "one path a pixel shows mostly noise, which falls with more, such as --samples=256";
 
 constexpr const char* no_points_note = "--light-radius changes nothing: no point light is in the scene";
@@ -222,7 +231,8 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
     say_once({note, sky_note, contrast_text(scene.sky), may_be_black ? shadow_note(picture.staging) : "",
               picture.is_one_path_unasked ? one_path_note : "",
-              picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left)});
+              picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left),
+              bounces_text(scene, picture)});
     say_what_is_missing(scene, picture.transport, is_below_own_sky(picture.scene));
   }
   return scene;

@@ -121,6 +121,7 @@ void settle_transport(const OptionSet& options, PictureOptions& picture) {
   }
   refine_paths(picture);
   picture.depth = picture.transport.depth();
+  picture.transport.are_bounces_unasked = !options.is_given("--bounces");
   picture.is_one_path_unasked = picture.samples == 1 && !options.is_given("--samples");
   if (picture.transport.sky && !is_own_sky(picture)) {
     picture.staging.background = picture.transport.sky->horizon;
@@ -216,14 +217,23 @@ void add_view_options(OptionSet options, PictureOptions& picture) {
                                        "When shadow rays are cast: towards lights that the surface faces, or towards all");
 }
 
+int depth_of(const PictureOptions& picture, const core::Scene& scene) {
+  TransportOptions transport = picture.transport;
+  if (!transport.is_by_paths() || !transport.are_bounces_unasked || !scene.bounces) {
+    return picture.depth;
+  }
+  transport.bounces = *scene.bounces;
+  return transport.depth();
+}
+
 core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene) {
   const std::uint32_t samples = options.is_refined ? options.refinement.samples_max : static_cast<std::uint32_t>(options.samples);
-  return core::film_scale_for(scene, options.depth, samples, light_of(options));
+  return core::film_scale_for(scene, depth_of(options, scene), samples, light_of(options));
 }
 
 double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
   // A ray from the eye is like one that is reflected, one hit earlier.
-  return core::radiance_bound(scene, options.depth + 1, light_of(options));
+  return core::radiance_bound(scene, depth_of(options, scene) + 1, light_of(options));
 }
 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
@@ -232,9 +242,9 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
   const core::RenderSettings settings{.header = database.header(),
                                       .camera = camera,
                                       .shade = {.convention = options.convention,
-                                                .depth_max = options.depth,
+                                                .depth_max = depth_of(options, scene),
                                                 .cutoff = options.cutoff,
-                                                .radiance_bound = core::radiance_bound(scene, options.depth),
+                                                .radiance_bound = core::radiance_bound(scene, depth_of(options, scene)),
                                                 .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
                                                 .first_samples = static_cast<std::uint32_t>(options.samples),
                                                 .film_scale = film_scale_of(options, scene),

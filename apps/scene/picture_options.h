@@ -62,6 +62,9 @@ struct PictureOptions {
   TransportOptions transport;
 };
 
+/// The picture's depth, by paths that of the scene's file where nobody has asked for bounces.
+int depth_of(const PictureOptions& picture, const core::Scene& scene);
+
 /// Declares them. What presents_meshes is now decides of what they say, and of what a mesh file shows by default. Where no option
 /// says how it is lit or by what transport: paths under mesh_sky(), or the sky that is asked for; else Whitted's transport. Both
 /// to an error unless samples or a quality are asked for, which, as all that says how well it is rendered, change no light.

@@ -63,7 +63,9 @@ const char* expected_instead(ViewFault fault) {
 void add_fill(double intensity, core::Scene& scene) {
   std::vector<core::PointLight> lights;
   for (const core::PointLight& light : scene.lights) {
-    lights.push_back({light.position, core::intensity_of(light, scene), true});
+    lights.push_back(light);
+    lights.back().color = core::intensity_of(light, scene);
+    lights.back().has_color = true;
   }
   lights.push_back({scene.view.from, {intensity, intensity, intensity}, true});
   scene.lights = std::move(lights);

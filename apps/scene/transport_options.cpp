@@ -118,8 +118,10 @@ void add_options(OptionSet options, TransportOptions& transport) {
       "--transport", transport.kind, {{"whitted", TransportKind::whitted}, {"paths", TransportKind::paths}},
       "How light gets about: mirrored and let through alone, or scattered from surface to surface, too, with noise that more "
       "--samples take away");
-  options.add_number("--bounces", transport.bounces, 0, 254, "8",
-                     "By paths: how often light from elsewhere goes on from surface to surface; 0 is what lights show directly");
+  options.add_number(
+      "--bounces", transport.bounces, 0, 254, "8",
+      "By paths: how often light from elsewhere goes on from surface to surface; 0 is what lights show directly. Files of pbrt "
+      "say themselves how often, unless this does");
   options.add_text(
       "--sky", "R,G,B|GREY[/R,G,B|GREY]|FILE [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
       "By paths: what no ray meets is this bright, and lights the scene: everywhere alike, or from the horizon to the zenith, "

@@ -28,8 +28,9 @@ SkyChoice mesh_sky();
 
 struct TransportOptions {
   core::TransportKind kind = core::TransportKind::whitted;
-  int bounces = 8;               ///< by paths: 0 to 254
-  std::optional<SkyChoice> sky;  ///< by paths; its horizon is the scene's background, too
+  int bounces = 8;                  ///< by paths: 0 to 254
+  bool are_bounces_unasked = true;  ///< then those that the scene's file says are taken
+  std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
   /// By paths: of what shines by itself so many are aimed at, the most powerful; 0 to emitters_limit.
   std::uint32_t emitters = 1024;
   std::optional<double> light_radius;  ///< by paths: point lights are spheres of this radius, in the scene's units; above 0

@@ -184,9 +184,12 @@ void DatabaseBuilder::write_lights() {
   header().lights = writer_.allocate_array<LightRecord>(scene_.lights.size());
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const PointLight& light = scene_.lights[i];
-    writer_.write(
-        header().lights, i * sizeof(LightRecord),
-        LightRecord{.position = Vec3f(to_local(frame(), light.position)), .intensity = Color(intensity_of(light, scene_))});
+    const bool falls_off = light.falls_off_from > 0;
+    const Vec3d intensity = intensity_of(light, scene_) * (falls_off ? frame().scale * frame().scale : 1.0);
+    writer_.write(header().lights, i * sizeof(LightRecord),
+                  LightRecord{.position = Vec3f(to_local(frame(), light.position)),
+                              .intensity = Color(intensity),
+                              .spread = spread_of(light.cone, falls_off)});
   }
 }
 

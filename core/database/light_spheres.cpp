@@ -21,12 +21,15 @@ std::uint64_t make_lights_spheres(Scene& scene, double radius) {
   for (const PointLight& light : scene.lights) {
     const Vec3d intensity = intensity_of(light, scene);
     const double distance = length(light.position - box.center());
-    if (radius < small_light_share * diagonal || length(light.position - scene.view.from) <= radius ||
+    const bool is_cone = light.cone.none_degrees > 0;
+    if (is_cone || radius < small_light_share * diagonal || length(light.position - scene.view.from) <= radius ||
         distance > far_light_diagonals * diagonal) {
-      points.push_back({light.position, intensity, true});  // as bright as it was among the others
+      points.push_back(light);
+      points.back().color = intensity;  // as bright as it was among the others
+      points.back().has_color = true;
       continue;
     }
-    const double ratio = std::max(distance / radius, 1.0);
+    const double ratio = light.falls_off_from > 0 ? 1.0 / radius : std::max(distance / radius, 1.0);
     spheres.emplace_back(light, intensity * (ratio * ratio));
   }
   scene.lights = std::move(points);

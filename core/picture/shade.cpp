@@ -139,7 +139,8 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   const double ambient = brightest(scene.ambient);
   double light = 0, direct = 0, passed_on = 0, emitter = 0;
   for (const PointLight& point_light : scene.lights) {
-    light += brightest(intensity_of(point_light, scene));
+    const double nearest = point_light.falls_off_from > 0 ? point_light.falls_off_from : 1;
+    light += brightest(intensity_of(point_light, scene)) / (nearest * nearest);
   }
   const double sky = transport.has_sky ? scene.sky.brightest : 0;
   for (const Material& material : scene.materials) {
@@ -512,8 +513,14 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
   if (++state.surface.next_light == header_.light_count) {
     end_point_lights(state);
   }
-  const bool is_lit = fall.cosine > 0.0;
-  const Color weight = is_lit ? reflected_light(state, light, fall, highlight) : Color{};
+  LightRecord here = light;
+  bool is_lit = fall.cosine > 0.0;
+  if (is_lit && !light.spread.is_plain()) {
+    const double share = share_of(light.spread, fall.towards, length(Vec3d(light.position) - state.point));
+    here.intensity = Color(Vec3d(light.intensity) * share);
+    is_lit = share > 0.0;
+  }
+  const Color weight = is_lit ? reflected_light(state, here, fall, highlight) : Color{};
   if (leaves_out(is_lit, weight)) {
     return false;
   }

@@ -25,6 +25,7 @@
 #include "core/base/region.h"
 #include "core/base/units.h"
 #include "core/base/vec.h"
+#include "core/record/light_spread.h"
 
 namespace dmpc::core {
 
@@ -321,9 +322,9 @@ struct MicrofacetRecord {
 static_assert(sizeof(MicrofacetRecord) == sizeof(MaterialRecord));
 
 struct LightRecord {
-  Vec3f position;  ///< grid-local
-  Color intensity;
-  std::array<std::uint32_t, 2> padding{};
+  Vec3f position;   ///< grid-local
+  Color intensity;  ///< of one that falls off: ahead, 1 away
+  LightSpread spread{};
 };
 static_assert(sizeof(LightRecord) == 32);
 

@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/record/light_spread.h"
 #include "core/scene/sky_texels.h"
 #include "core/scene/texture.h"
 
@@ -79,11 +81,18 @@ struct Material {
   double specular_max(double texture_max = 1) const;
 };
 
-/// NFF's `l`: a point light without fall-off.
+/// NFF's `l`: a point light, without fall-off unless that is said. Nothing is to be seen of it.
 struct PointLight {
   Vec3d position;
   Vec3d color{1, 1, 1};
   bool has_color = false;  ///< false: the file gave no colour, and every such light gets 1/sqrt(number of lights)
+  /// Above 0 it falls off with the square of the distance, and `color` is what it is 1 away, in the scene's units. What is nearer
+  /// than this may be brighter than a film is made for.
+  double falls_off_from = 0;
+  LightCone cone = {};
+
+  /// Whether NFF can say it.
+  bool is_plain() const { return falls_off_from == 0 && cone.none_degrees == 0; }
 };
 
 /// NFF's `v`.
@@ -134,6 +143,8 @@ struct Object {
 struct KeptMeshes;
 
 struct Scene {
+  static constexpr int bounces_max = 253;
+
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
   Vec3d background;  ///< linear RGB, as the file gives it
@@ -147,8 +158,9 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
-  SkyTexels sky;  ///< by paths, what no ray meets, if it is there
-  Vec3d zenith;   ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
+  SkyTexels sky;               ///< by paths, what no ray meets, if it is there
+  Vec3d zenith;                ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
+  std::optional<int> bounces;  ///< by paths, how often its file has light go on; nothing where it does not say that
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;

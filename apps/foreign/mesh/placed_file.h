@@ -65,8 +65,9 @@ enum class FileLightKind : std::uint8_t { point, spot, distant };
 
 struct FileLight {
   FileLightKind kind{};
-  core::Vec3d position;   ///< of a distant one: the way that its light goes, of unit length if it goes anywhere
-  core::Vec3d intensity;  ///< of a distant one: what a surface gets that faces it
+  core::Vec3d position;    ///< of a distant one: the way that its light goes, of unit length if it goes anywhere
+  core::Vec3d intensity;   ///< of a distant one: what a surface gets that faces it
+  core::LightCone cone{};  ///< of what does not shine all round
 };
 
 /// All directions, as a square picture shows them in equal areas.
@@ -91,6 +92,7 @@ struct PlacedFile {
   std::vector<std::string> notes;    ///< what of the file is not shown as it is, a sentence each
   std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once
   double coordinate_rounding = 0;    ///< as core::Scene's
+  std::optional<int> bounces;        ///< likewise
 
   /// Adds a mesh that stands where it is.
   void add(PolygonMesh mesh) {

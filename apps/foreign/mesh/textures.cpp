@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 std::string key_of(const TextureUse& use) {
   return use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) + std::to_string(static_cast<int>(use.edges.t)) +
-         std::to_string(static_cast<int>(use.edges.alpha)) + ' ' + std::to_string(use.edges.cutoff);
+         std::to_string(static_cast<int>(use.edges.alpha)) + ' ' + std::to_string(use.edges.cutoff) + ' ' +
+         std::to_string(use.edges.coat);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/lights.h"
 #include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/spectra.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
@@ -38,7 +39,31 @@ double window_half(const Parameters& parameters, Notes& notes) {
   return half;
 }
 
+/// Of its light before the shutter opens: ISO over 100, and white made of a light's temperature.
+Exposure exposure_of(const Parameters& parameters, Notes& notes) {
+  Exposure exposure{.factor = parameters.number("iso", 100) / 100};
+  if (!(exposure.factor > 0 && exposure.factor < 1e12)) {
+    parameters.fail("its iso is " + rounded(exposure.factor * 100) + ", expected more than 0");
+  }
+  const bool is_camera = parameters.text("sensor", "cie1931") != "cie1931";
+  notes.count("films with the sensor of a camera, shown with that of CIE 1931", is_camera ? 1 : 0);
+  const double kelvin = parameters.number("whitebalance", 0);
+  if (kelvin != 0) {
+    if (!(kelvin >= 500 && kelvin <= 25'000)) {
+      parameters.fail("its whitebalance is " + rounded(kelvin) + ", expected a temperature from 500 to 25,000 K");
+    }
+    exposure.balance = white_balance(kelvin);
+    notes.count("films whose white balance is given to the lights, in place of their light");
+  }
+  return exposure;
+}
+
 }  // namespace
+
+Vec3d Exposure::of(const Vec3d& light) const {
+  const auto channel = [&](std::size_t i) { return std::max(dot(balance[i], light), 0.0) * factor; };
+  return {channel(0), channel(1), channel(2)};
+}
 
 Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes) {
   if (kind == "image") {
@@ -53,15 +78,7 @@ Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes
                     " pixels, expected 1 to 65536 along a side, and at most 2^28");
   }
   film.size = {static_cast<int>(width), static_cast<int>(height)};
-  const double iso = parameters.number("iso", 100), imaging = parameters.number("imagingratio", 1);
-  const bool is_measured = parameters.find("sensor", {text}) != nullptr || parameters.find("iso", {number}) != nullptr;
-  film.exposure = is_measured ? parameters.number("exposuretime", 1) * iso / 100 : imaging;
-  if (!(film.exposure > 0 && film.exposure < 1e12)) {
-    parameters.fail("is exposed by " + rounded(film.exposure) + ", expected more than 0");
-  }
-  for (const char* const other : {"filename", "savefp16", "diagonal", "maxcomponentvalue", "whitebalance", "coordinatesystem"}) {
-    parameters.find(other, {text, boolean, number});
-  }
+  film.exposure = exposure_of(parameters, notes);
   const bool is_cut = parameters.find("cropwindow", {number}) != nullptr || parameters.find("pixelbounds", {integer}) != nullptr;
   notes.count("films of which a part is to be made, made whole", is_cut ? 1 : 0);
   return film;
@@ -72,8 +89,9 @@ Camera camera_of(const std::string& kind, const Parameters& parameters, const Tr
   if (!inverse_of(from_world)) {
     parameters.fail("stands in coordinates that are pressed flat");
   }
-  for (const char* const time : {"shutteropen", "shutterclose"}) {
-    parameters.number(time);
+  camera.open_seconds = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+  if (!(camera.open_seconds > 0 && camera.open_seconds < 1e12)) {
+    parameters.fail("its shutter is open for " + rounded(camera.open_seconds) + " s, expected more than 0");
   }
   if (kind != "perspective") {
     notes.count("cameras of kind '" + clipped(kind, 40) + "', which are not taken");
@@ -87,7 +105,6 @@ Camera camera_of(const std::string& kind, const Parameters& parameters, const Tr
   camera.degrees = 2 * angle_of_tangent(half);
   notes.count("aspects of cameras that are not the film's, shown with that", parameters.number("frameaspectratio") ? 1 : 0);
   notes.count("lenses that blur what is near or far, shown sharp", parameters.number("lensradius", 0) > 0 ? 1 : 0);
-  parameters.number("focaldistance");
   return camera;
 }
 

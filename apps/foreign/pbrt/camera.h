@@ -1,6 +1,7 @@
 // The camera of a pbrt scene, and the film's pixels.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -12,17 +13,26 @@
 
 namespace dmpc::apps::pbrt {
 
+/// What a film makes of light.
+struct Exposure {
+  double factor = 1;
+  std::array<core::Vec3d, 3> balance = Transform{}.rows;  ///< in linear sRGB, before the factor
+
+  core::Vec3d of(const core::Vec3d& light) const;
+};
+
 struct Film {
   Resolution size{1280, 720};
-  double exposure = 1;  ///< what it multiplies light by
+  Exposure exposure;  ///< but for the camera's shutter
 };
 
 /// Throws core::InputError for a film of pbrt-v3, and for more pixels than a picture may have.
 Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes);
 
 struct Camera {
-  double degrees = 90;   ///< of the shorter side, from edge to edge; 0 where it has no perspective
-  Transform from_world;  ///< to where x is right, y up and z ahead
+  double degrees = 90;      ///< of the shorter side, from edge to edge; 0 where it has no perspective
+  Transform from_world;     ///< to where x is right, y up and z ahead
+  double open_seconds = 1;  ///< its shutter
 };
 /// Throws core::InputError if the world is pressed flat before it, or for an angle that none has.
 Camera camera_of(const std::string& kind, const Parameters& parameters, const Transform& from_world, Notes& notes);

@@ -8,6 +8,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra.h"
+#include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -17,18 +18,18 @@ using enum ParameterType;
 
 constexpr double pi = std::numbers::pi;
 
-Vec3d light(const Parameters& parameters, const char* name, double factor) {
+Vec3d light(const Parameters& parameters, const char* name, const Exposure& exposure, double factor) {
   const Parameter* const found = parameters.find(name, {rgb, spectrum, blackbody});
-  return (found == nullptr ? Vec3d{1, 1, 1} : color_of(*found, parameters, SpectrumUse::light)) * factor;
+  return exposure.of(found == nullptr ? Vec3d{1, 1, 1} : color_of(*found, parameters, SpectrumUse::light)) * factor;
 }
 
-double scale_of(const Parameters& parameters, double exposure) {
+double scale_of(const Parameters& parameters) {
   constexpr double most = 1e12;
   const double scale = parameters.number("scale", 1);
   if (!(scale >= 0 && scale <= most)) {
     parameters.fail("its scale is " + rounded(scale) + ", expected 0 to 1e12");
   }
-  return scale * exposure;
+  return scale;
 }
 
 /// What is asked for of the whole, in place of what the light's own numbers make.
@@ -43,40 +44,60 @@ void check_place(const Parameters& parameters, const Vec3d& point) {
   }
 }
 
-void add_point(const Parameters& parameters, const Transform& world, double scale, FileLightKind kind, PlacedFile& file) {
-  const double factor = scale * factor_of(parameters, "power", 4 * pi);
+/// What a spot's light would fill all round, as bright as it is ahead.
+double filled(const core::LightCone& cone) {
+  const double full = core::cos_degrees(cone.full_degrees), none = core::cos_degrees(cone.none_degrees);
+  return 2 * pi * ((1 - full) + (full - none) / 2);
+}
+
+core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
+  const Vec3d from = parameters.point("from").value_or(Vec3d{}), to = parameters.point("to").value_or(Vec3d{0, 0, 1});
+  const Vec3d ahead = world.direction(to - from);
+  const double none = parameters.number("coneangle", 30), full = none - parameters.number("conedeltaangle", 5);
+  if (!(none > 0 && none <= 180 && full <= none)) {
+    parameters.fail("its cone ends at " + rounded(none) + " degrees, from " + rounded(full) +
+                    " on, expected more than 0 and at most 180");
+  }
+  if (!(length(ahead) > 0 && length(ahead) < 1e30)) {
+    parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
+  }
+  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .is_smooth = true};
+}
+
+void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, FileLightKind kind,
+               PlacedFile& file) {
+  const bool is_spot = kind == FileLightKind::spot;
+  const core::LightCone cone = is_spot ? cone_of(parameters, world) : core::LightCone{};
+  const double factor = scale_of(parameters) * factor_of(parameters, "power", is_spot ? filled(cone) : 4 * pi);
   FileLight result{.kind = kind,
                    .position = world.point(parameters.point("from").value_or(Vec3d{})),
-                   .intensity = light(parameters, "I", factor)};
+                   .intensity = light(parameters, "I", exposure, factor),
+                   .cone = cone};
   check_place(parameters, result.position);
-  for (const char* const cone : {"coneangle", "conedeltaangle", "fov"}) {
-    parameters.number(cone);
-  }
-  parameters.point("to");
-  parameters.text("filename", "");
   file.lights.push_back(result);
 }
 
-void add_distant(const Parameters& parameters, const Transform& world, double scale, PlacedFile& file) {
+void add_distant(const Parameters& parameters, const Transform& world, const Exposure& exposure, PlacedFile& file) {
   const Vec3d from = parameters.point("from").value_or(Vec3d{}), to = parameters.point("to").value_or(Vec3d{0, 0, 1});
   const Vec3d way = world.direction(to - from);
   const double distance = length(way);
   if (!(distance > 0 && distance < 1e30)) {
     parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
   }
-  const double factor = scale * factor_of(parameters, "illuminance", 1);
+  const double factor = scale_of(parameters) * factor_of(parameters, "illuminance", 1);
   file.lights.push_back(
-      {.kind = FileLightKind::distant, .position = way * (1 / distance), .intensity = light(parameters, "L", factor)});
+      {.kind = FileLightKind::distant, .position = way * (1 / distance), .intensity = light(parameters, "L", exposure, factor)});
 }
 
-void add_infinite(const Parameters& parameters, const Tokens& tokens, const Transform& world, double scale, PlacedFile& file,
-                  Notes& notes) {
+void add_infinite(const Parameters& parameters, const Tokens& tokens, const Transform& world, const Exposure& exposure,
+                  PlacedFile& file, Notes& notes) {
+  const double scale = scale_of(parameters);
   const std::string name = parameters.text("filename", "");
   notes.count("portals of infinite lights, which change no light, left out",
               parameters.find("portal", {point3}) != nullptr ? 1 : 0);
   if (name.empty()) {
     const double factor = scale * factor_of(parameters, "illuminance", pi);
-    file.background = file.background + light(parameters, "L", factor);
+    file.background = file.background + light(parameters, "L", exposure, factor);
     return;
   }
   const bool is_measured = parameters.number("illuminance", 0) > 0;
@@ -85,7 +106,15 @@ void add_infinite(const Parameters& parameters, const Tokens& tokens, const Tran
   if (!inverse) {
     parameters.fail("has coordinates that are pressed flat, in which no sky has directions");
   }
-  file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = {scale, scale, scale}});
+  file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = exposure.of({scale, scale, scale})});
+}
+
+/// A small face, whose vector is as long as its area.
+FileLight half_round(const Vec3d& centre, const Vec3d& face, const Vec3d& radiance) {
+  return {.kind = FileLightKind::spot,
+          .position = centre,
+          .intensity = radiance * length(face),
+          .cone = {.ahead = normalize(face), .full_degrees = 0, .none_degrees = 90}};
 }
 
 double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
@@ -109,11 +138,11 @@ double area_of(const PlacedShape& shape, const Transform& world) {
 
 }  // namespace
 
-AreaLight area_light_of(const std::string& kind, const Parameters& parameters, double exposure, Notes& notes) {
+AreaLight area_light_of(const std::string& kind, const Parameters& parameters, const Exposure& exposure, Notes& notes) {
   if (kind != "diffuse") {
     parameters.fail("there is no area light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }
-  AreaLight result{.radiance = light(parameters, "L", scale_of(parameters, exposure)), .power = {}, .is_twosided = false};
+  AreaLight result{.radiance = light(parameters, "L", exposure, scale_of(parameters)), .power = {}, .is_twosided = false};
   const double power = parameters.number("power", 0);
   if (power > 0) {
     result.power = power;
@@ -128,18 +157,65 @@ Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transf
   return light.power && area > 0 ? light.radiance * (*light.power / area) : light.radiance;
 }
 
+/// As points: of each face, into its half of space by the cosine, as long as they are few; of a sphere and of others all round,
+/// as what looks to all sides alike shines from afar.
+std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world) {
+  constexpr std::size_t faces_max = 16;
+  const Vec3d radiance = radiance_of(light, shape, world);
+  const double sides = light.is_twosided ? 2 : 1;
+  if (shape.sphere) {
+    return {{.kind = FileLightKind::point,
+             .position = world.point(shape.sphere->center),
+             .intensity = radiance * (sides * area_of(shape, world) / 4)}};
+  }
+  const double side = (world.determinant() < 0) != shape.is_turned ? -0.5 : 0.5;
+  std::vector<FileLight> lights;
+  Vec3d middle, across;
+  double area = 0;
+  std::size_t first = 0;
+  const auto corner = [&](std::size_t i) { return world.point(shape.mesh.vertices[shape.mesh.faces.corners[i]]); };
+  for (const std::uint32_t end : shape.mesh.faces.ends) {
+    for (std::size_t i = first + 2; i < end; ++i) {
+      const Vec3d a = corner(first), b = corner(i - 1), c = corner(i), face = cross(b - a, c - a) * side;
+      const Vec3d centre = (a + b + c) * (1.0 / 3);
+      middle = middle + centre * length(face);
+      across = across + face;
+      area += length(face);
+      if (lights.size() <= faces_max && length(face) > 0) {
+        lights.push_back(half_round(centre, face, radiance));
+      }
+    }
+    first = end;
+  }
+  if (lights.size() > faces_max) {
+    const bool is_flat = length(across) > 0.999 * area;
+    lights = {is_flat ? half_round(middle * (1 / area), across, radiance)
+                      : FileLight{.kind = FileLightKind::point,
+                                  .position = middle * (1 / area),
+                                  .intensity = radiance * (sides * area / 4)}};
+  }
+  const bool has_backs = light.is_twosided && !lights.empty() && lights.front().kind == FileLightKind::spot;
+  for (std::size_t i = 0, count = lights.size(); has_backs && i < count; ++i) {
+    lights.push_back(lights[i]);
+    lights.back().cone.ahead = -lights.back().cone.ahead;
+  }
+  return lights;
+}
+
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
-               double exposure, PlacedFile& file, Notes& notes) {
-  const double scale = scale_of(parameters, exposure);
+               const Exposure& exposure, PlacedFile& file, Notes& notes) {
   if (kind == "point") {
-    add_point(parameters, world, scale, FileLightKind::point, file);
-  } else if (kind == "spot" || kind == "goniometric" || kind == "projection") {
-    notes.count("lights of kind '" + kind + "', which shine all round here");
-    add_point(parameters, world, scale, FileLightKind::spot, file);
+    add_point(parameters, world, exposure, FileLightKind::point, file);
+  } else if (kind == "spot") {
+    add_point(parameters, world, exposure, FileLightKind::spot, file);
+  } else if (kind == "goniometric" || kind == "projection") {
+    notes.count("lights of kind '" + kind + "', which shine all round here, without their picture");
+    parameters.text("filename", "");
+    add_point(parameters, world, exposure, FileLightKind::point, file);
   } else if (kind == "distant") {
-    add_distant(parameters, world, scale, file);
+    add_distant(parameters, world, exposure, file);
   } else if (kind == "infinite") {
-    add_infinite(parameters, tokens, world, scale, file, notes);
+    add_infinite(parameters, tokens, world, exposure, file, notes);
   } else {
     parameters.fail("there is no light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }

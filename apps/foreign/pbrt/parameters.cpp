@@ -8,6 +8,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/pbrt/spectra.h"
 #include "apps/foreign/text/line_words.h"
 
 namespace dmpc::apps::pbrt {
@@ -91,6 +92,11 @@ Parameter Parameters::read(const Token& declaration) {
     }
   }
   check(parameter);
+  if (parameter.type == spectrum && parameter.texts.size() == 1 && !is_named_spectrum(parameter.texts[0])) {
+    parameter.numbers = tokens_.numbers_of(parameter.texts[0], parameter.place);
+    parameter.texts.clear();
+    check(parameter);
+  }
   return parameter;
 }
 
@@ -144,8 +150,8 @@ const Parameter* Parameters::find(std::string_view name, std::initializer_list<P
     return one.name == name && std::find(types.begin(), types.end(), one.type) != types.end();
   };
   const auto look_in = [&](const std::vector<Parameter>& list) -> const Parameter* {
-    const auto found = std::find_if(list.begin(), list.end(), is_it);
-    return found == list.end() ? nullptr : &*found;
+    const auto found = std::find_if(list.rbegin(), list.rend(), is_it);
+    return found == list.rend() ? nullptr : &*found;
   };
   const Parameter* found = look_in(list_);
   if (found == nullptr && defaults_) {
@@ -212,7 +218,8 @@ std::vector<core::Vec3d> Parameters::points(std::string_view name, std::initiali
 std::vector<std::string> Parameters::unused() const {
   std::vector<std::string> names;
   for (const Parameter& parameter : list_) {
-    if (!parameter.is_used) {
+    const auto says_it = [&](const Parameter& one) { return one.is_used && one.name == parameter.name; };
+    if (std::none_of(list_.begin(), list_.end(), says_it)) {
       names.push_back(parameter.name);
     }
   }

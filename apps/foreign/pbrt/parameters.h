@@ -50,7 +50,7 @@ class Parameters {
   void add_defaults(const Defaults& defaults) { defaults_ = defaults; }
   std::vector<Parameter> take_list() { return std::move(list_); }
 
-  /// Of this name and one of these types; nothing if there is none. Of another type it stays unused.
+  /// Of this name and one of these types the last; nothing if there is none. Of another type it stays unused.
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types) const;
 
   /// Throw core::InputError at the parameter's place if it has not one value.
@@ -67,7 +67,7 @@ class Parameters {
   [[noreturn]] void fail(const Place& place, const std::string& what) const { tokens_.fail(place, owner_ + ": " + what); }
   [[noreturn]] void fail(const std::string& what) const { fail(place_, what); }
 
-  /// Names of what nobody has looked for.
+  /// Names of what nobody has looked for, nor for another parameter of that name.
   std::vector<std::string> unused() const;
 
  private:

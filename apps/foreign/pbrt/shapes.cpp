@@ -82,8 +82,6 @@ Corners corners_of(const Parameters& parameters, std::size_t of_a_face) {
   if (corners.points.empty()) {
     parameters.fail("has no \"point3 P\"");
   }
-  parameters.find("S", {vector3});
-  parameters.find("faceIndices", {integer});
   check_count(parameters, "N", corners.normals.size(), corners.points.size());
   check_count(parameters, "uv", corners.places.size(), corners.points.size());
   corners.indices = indices_of(parameters, corners.points.size(), of_a_face);
@@ -116,7 +114,31 @@ void add_corner(const Corners& corners, std::uint32_t vertex, PolygonMesh& mesh)
   }
 }
 
-PolygonMesh triangle_mesh(const Parameters& parameters) {
+/// Triangles and quads that do not say where they lie on a picture lie on it as pbrt has them, each by itself.
+void place_faces(PolygonMesh& mesh) {
+  constexpr std::array<PlaceOnPicture, 4> corners{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};  // v upwards is 0, 0, 1, 1
+  const auto spread = [&mesh](auto& list) {
+    auto of_corners = list;
+    of_corners.clear();
+    for (std::size_t i = 0; i < mesh.faces.corners.size() && !list.empty(); ++i) {
+      of_corners.push_back(list[mesh.of_corner(i)]);
+    }
+    list = std::move(of_corners);
+  };
+  spread(mesh.normals);
+  spread(mesh.colors);
+  spread(mesh.alphas);
+  mesh.is_by_vertex = false;
+  std::size_t first = 0;
+  for (const std::uint32_t end : mesh.faces.ends) {
+    for (std::size_t i = first; i < end; ++i) {
+      mesh.places.push_back(corners[(i - first) % corners.size()]);
+    }
+    first = end;
+  }
+}
+
+PolygonMesh triangle_mesh(const Parameters& parameters, bool has_pictures) {
   Corners corners = corners_of(parameters, 3);
   PolygonMesh mesh{.name = {},
                    .vertices = std::move(corners.points),
@@ -126,6 +148,9 @@ PolygonMesh triangle_mesh(const Parameters& parameters) {
                    .places = std::move(corners.places)};
   for (PlaceOnPicture& place : mesh.places) {
     place[1] = 1 - place[1];
+  }
+  if (has_pictures && mesh.places.empty()) {
+    place_faces(mesh);
   }
   turn_to_normals(mesh);
   return mesh;
@@ -234,7 +259,6 @@ PolygonMesh loop_mesh(const Parameters& parameters) {
   if (points.empty()) {
     parameters.fail("has no \"point3 P\"");
   }
-  parameters.find("scheme", {text});
   const std::int64_t levels = parameters.integer("levels", 3);
   if (levels < 0 || levels > 100) {
     parameters.fail("has " + std::to_string(levels) + " levels, expected 0 to 100");
@@ -247,13 +271,12 @@ PolygonMesh loop_mesh(const Parameters& parameters) {
   }
 }
 
-PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files, Notes& notes) {
+PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files, Notes& notes, bool has_pictures) {
   const std::string name = parameters.text("filename", "");
   if (name.empty()) {
     parameters.fail("has no \"string filename\"");
   }
   notes.count("meshes with displacement, shown without", parameters.find("displacement", {texture, text}) != nullptr ? 1 : 0);
-  parameters.find("edgelength", {number});
   std::vector<std::string> found;
   PolygonMesh mesh;
   try {
@@ -265,6 +288,9 @@ PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneF
   }
   for (const std::string& note : found) {
     notes.count("meshes' files of which is said: " + note);
+  }
+  if (has_pictures && mesh.places.empty()) {
+    place_faces(mesh);
   }
   turn_to_normals(mesh);
   return mesh;
@@ -318,12 +344,12 @@ PolygonMesh disk(const Parameters& parameters) {
 }  // namespace
 
 std::optional<PlacedShape> shape_of(const std::string& kind, const Parameters& parameters, const Tokens& tokens,
-                                    SceneFiles& files, Notes& notes) {
+                                    SceneFiles& files, Notes& notes, bool has_pictures) {
   PlacedShape shape;
   if (kind == "trianglemesh") {
-    shape.mesh = triangle_mesh(parameters);
+    shape.mesh = triangle_mesh(parameters, has_pictures);
   } else if (kind == "plymesh") {
-    shape.mesh = file_mesh(parameters, tokens, files, notes);
+    shape.mesh = file_mesh(parameters, tokens, files, notes, has_pictures);
   } else if (kind == "bilinearmesh") {
     shape.mesh = patch_mesh(parameters);
   } else if (kind == "loopsubdiv") {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/spectra_tables.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
@@ -12,31 +14,34 @@ namespace {
 
 using core::Vec3d;
 
-constexpr double first_nm = 360, last_nm = 830, step_nm = 5;
+constexpr double nm_step = 1;
+constexpr double last_nm = observer_first_nm + observer_step_nm * static_cast<double>(observer[0].size() - 1);
 
-/// One half of a Gaussian to the left of its middle, another to the right.
-double lobe(double nm, double middle, double left, double right) {
-  const double t = (nm - middle) * (nm < middle ? left : right);
-  return core::exponential(-0.5 * t * t);
+/// Straight between numbers that lie `step` apart, as the nearest beyond them.
+template <std::size_t Count>
+double between(const std::array<double, Count>& numbers, double first, double step, double nm) {
+  const double place = std::clamp((nm - first) / step, 0.0, static_cast<double>(Count - 1));
+  const std::size_t at = std::min(static_cast<std::size_t>(place), Count - 2);
+  const double share = place - static_cast<double>(at);
+  return numbers[at] * (1 - share) + numbers[at + 1] * share;
 }
 
 Vec3d matching(double nm) {
-  return {1.056 * lobe(nm, 599.8, 1 / 37.9, 1 / 31.0) + 0.362 * lobe(nm, 442.0, 1 / 16.0, 1 / 26.7) -
-              0.065 * lobe(nm, 501.1, 1 / 20.4, 1 / 26.2),
-          0.821 * lobe(nm, 568.8, 1 / 46.9, 1 / 40.5) + 0.286 * lobe(nm, 530.9, 1 / 16.3, 1 / 31.1),
-          1.217 * lobe(nm, 437.0, 1 / 11.8, 1 / 36.0) + 0.681 * lobe(nm, 459.0, 1 / 26.0, 1 / 13.8)};
+  const auto of = [nm](std::size_t i) { return between(observer[i], observer_first_nm, observer_step_nm, nm); };
+  return {of(0), of(1), of(2)};
 }
 
+double daylight_at(double nm) { return between(daylight, observer_first_nm, 10, nm); }
+
 /// IEC 61966-2-1.
-Vec3d rgb_of(const Vec3d& xyz) {
-  return {3.2406 * xyz.x - 1.5372 * xyz.y - 0.4986 * xyz.z, -0.9689 * xyz.x + 1.8758 * xyz.y + 0.0415 * xyz.z,
-          0.0557 * xyz.x - 0.2040 * xyz.y + 1.0570 * xyz.z};
-}
+constexpr std::array<Vec3d, 3> rgb_rows{{{3.2406, -1.5372, -0.4986}, {-0.9689, 1.8758, 0.0415}, {0.0557, -0.2040, 1.0570}}};
+
+Vec3d rgb_of(const Vec3d& xyz) { return {dot(rgb_rows[0], xyz), dot(rgb_rows[1], xyz), dot(rgb_rows[2], xyz)}; }
 
 template <class Value>
 Vec3d integral(const Value& value) {
   Vec3d sum;
-  for (double nm = first_nm; nm <= last_nm; nm += step_nm) {
+  for (double nm = observer_first_nm; nm <= last_nm; nm += nm_step) {
     sum = sum + matching(nm) * value(nm);
   }
   return sum;
@@ -51,9 +56,11 @@ Vec3d light_of(const Vec3d& xyz) {
   return bright > 0 ? color * (1 / bright) : Vec3d{};
 }
 
-/// As what reflects all of each wavelength is white.
-Vec3d reflectance_of(const Vec3d& xyz) {
-  const Vec3d color = rgb_of(xyz), white = rgb_of(integral([](double /*nm*/) { return 1.0; }));
+/// By daylight, in which what reflects all of each wavelength is white.
+template <class Value>
+Vec3d reflectance_of(const Value& value) {
+  static const Vec3d white = rgb_of(integral(daylight_at));
+  const Vec3d color = rgb_of(integral([&](double nm) { return value(nm) * daylight_at(nm); }));
   return without_negative({color.x / white.x, color.y / white.y, color.z / white.z});
 }
 
@@ -64,54 +71,55 @@ double black_body(double nm, double kelvin) {
   return 1 / (x * x * x * x * x * (core::exponential(second_radiation_constant / (nm * kelvin)) - 1));
 }
 
-/// Straight between its points, as the last beyond them.
+/// Straight between its points, 0 beyond them.
 double value_at(const std::vector<double>& pairs, double nm) {
-  if (nm <= pairs[0]) {
-    return pairs[1];
+  std::size_t low = 0, high = pairs.size() / 2;  // the first point beyond nm lies there
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    (pairs[2 * middle] > nm ? high : low) = pairs[2 * middle] > nm ? middle : middle + 1;
   }
-  for (std::size_t i = 2; i < pairs.size(); i += 2) {
-    if (nm <= pairs[i]) {
-      const double share = (nm - pairs[i - 2]) / (pairs[i] - pairs[i - 2]);
-      return pairs[i - 1] + (pairs[i + 1] - pairs[i - 1]) * share;
-    }
+  if (low == 0 || 2 * low == pairs.size()) {
+    return low > 0 && pairs[2 * low - 2] == nm ? pairs[2 * low - 1] : 0;
   }
-  return pairs.back();
+  const double *const before = &pairs[2 * low - 2], *const after = before + 2;
+  return before[1] + (after[1] - before[1]) * (nm - before[0]) / (after[0] - before[0]);
 }
 
-/// At the wavelengths of red, green and blue.
-Vec3d index_of(const std::vector<double>& pairs) { return {value_at(pairs, 630), value_at(pairs, 532), value_at(pairs, 465)}; }
+template <class Rows>
+const auto* find_in(const Rows& rows, const std::string& name) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
 
-struct NamedIndex {
-  std::string_view name;
-  Vec3d value;
-};
-
-/// At red, green and blue, as tables that renderers share have them; nobody has held them against measurements here. Of glasses
-/// at the yellow line of sodium.
-constexpr std::array<NamedIndex, 22> named_indices{
-    {{"metal-Ag-eta", {0.155275, 0.116723, 0.138342}}, {"metal-Ag-k", {4.828384, 3.122506, 2.146966}},
-     {"metal-Al-eta", {1.657460, 0.880369, 0.521229}}, {"metal-Al-k", {9.223869, 6.269523, 4.837001}},
-     {"metal-Au-eta", {0.143119, 0.374957, 1.442479}}, {"metal-Au-k", {3.983160, 2.385721, 1.603215}},
-     {"metal-Cu-eta", {0.200438, 0.924033, 1.102212}}, {"metal-Cu-k", {3.912949, 2.452848, 2.142188}},
-     {"metal-CuZn-eta", {0.444, 0.527, 1.094}},        {"metal-CuZn-k", {3.695, 2.765, 1.829}},
-     {"metal-MgO-eta", {1.735, 1.741, 1.751}},         {"metal-MgO-k", {0, 0, 0}},
-     {"metal-TiO2-eta", {2.58, 2.66, 2.78}},           {"metal-TiO2-k", {0, 0, 0}},
-     {"glass-BK7", {1.5168, 1.5168, 1.5168}},          {"glass-BAF10", {1.6700, 1.6700, 1.6700}},
-     {"glass-FK51A", {1.4866, 1.4866, 1.4866}},        {"glass-LASF9", {1.8503, 1.8503, 1.8503}},
-     {"glass-F5", {1.6034, 1.6034, 1.6034}},           {"glass-F10", {1.6231, 1.6231, 1.6231}},
-     {"glass-F11", {1.6206, 1.6206, 1.6206}},          {"glass-SF11", {1.7847, 1.7847, 1.7847}}}};
-
-Vec3d named(const std::string& name, const Parameter& parameter, const Parameters& owner, SpectrumUse use) {
-  if (name.starts_with("stdillum-") || name.starts_with("illum-")) {
-    return {1, 1, 1};
+/// Metals and glasses that scenes name, and spectra by pairs.
+double value_of(const Parameter& parameter, double nm) {
+  constexpr double first = 400, step = 20;
+  if (parameter.texts.empty()) {
+    return value_at(parameter.numbers, nm);
   }
-  const auto found =
-      std::find_if(named_indices.begin(), named_indices.end(), [&](const NamedIndex& one) { return one.name == name; });
-  if (found == named_indices.end() || use != SpectrumUse::index) {
-    owner.fail(parameter.place, "parameter \"" + clipped(parameter.name, 40) + "\": the spectrum '" + clipped(name, 60) +
-                                    "' is not known here; write it as numbers, pairs of wavelength and value, or as rgb");
+  const NamedMetal* const metal = find_in(named_metals, parameter.texts[0]);
+  const NamedGlass* const glass = find_in(named_glasses, parameter.texts[0]);
+  return metal != nullptr ? between(metal->value, first, step, nm) : glass != nullptr ? glass->index : 0;
+}
+
+/// By the CIE's chromaticity, of luminance 1.
+Vec3d xyz_of(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
+
+Vec3d blackbody_light(double kelvin) {
+  return integral([&](double nm) { return black_body(nm, kelvin); });
+}
+
+Vec3d times(const std::array<Vec3d, 3>& rows, const Vec3d& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+
+/// Of daylight of this temperature (CIE 15), by today's radiation constant; of a black body where it is redder than daylight is.
+Vec3d white_of(double kelvin) {
+  const double t = kelvin * (1.4388 / 1.4380);
+  if (t < 4000) {
+    return blackbody_light(t);
   }
-  return found->value;
+  const double x = t <= 7000 ? ((-4.607e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
+                             : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.23704;
+  return xyz_of(x, (-3 * x + 2.870) * x - 0.275);
 }
 
 void check_wavelengths(const Parameter& parameter, const Parameters& owner) {
@@ -126,15 +134,30 @@ void check_wavelengths(const Parameter& parameter, const Parameters& owner) {
 
 double luminance(const Vec3d& color) { return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z; }
 
-Vec3d straight_reflection(const Vec3d& eta, const Vec3d& k) {
-  const auto channel = [](double n, double k_of) {
-    return ((n - 1) * (n - 1) + k_of * k_of) / ((n + 1) * (n + 1) + k_of * k_of);
-  };
-  return {channel(eta.x, k.x), channel(eta.y, k.y), channel(eta.z, k.z)};
+double straight_reflection(double n, double k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); }
+
+bool is_named_spectrum(const std::string& name) {
+  return find_in(named_lights, name) != nullptr || find_in(named_metals, name) != nullptr ||
+         find_in(named_glasses, name) != nullptr || name == "metal-MgO-k" || name == "metal-TiO2-k";
 }
 
-Vec3d copper_eta() { return named_indices[6].value; }
-Vec3d copper_k() { return named_indices[7].value; }
+Vec3d metal_color(const Parameter* eta, const Parameter* k, double below) {
+  static const Parameter copper_eta{
+      .type = ParameterType::spectrum, .name = "eta", .place = {}, .numbers = {}, .texts = {"metal-Cu-eta"}};
+  static const Parameter copper_k{
+      .type = ParameterType::spectrum, .name = "k", .place = {}, .numbers = {}, .texts = {"metal-Cu-k"}};
+  const Parameter &n_of = eta != nullptr ? *eta : copper_eta, &k_of = k != nullptr ? *k : copper_k;
+  return reflectance_of([&](double nm) { return straight_reflection(value_of(n_of, nm) / below, value_of(k_of, nm) / below); });
+}
+
+/// By von Kries, in the coordinates of the Bradford transform (K. M. Lam, 1985).
+std::array<Vec3d, 3> white_balance(double kelvin) {
+  const std::array<Vec3d, 3> cones{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
+  const Vec3d white = white_of(kelvin), from = times(cones, white * (1 / white.y)), to = times(cones, xyz_of(0.3127, 0.3290));
+  const Transform cones_from_rgb = composed(Transform{cones, {}}, *inverse_of(Transform{rgb_rows, {}}));
+  const Transform balanced = composed(scaling({to.x / from.x, to.y / from.y, to.z / from.z}), cones_from_rgb);
+  return composed(*inverse_of(cones_from_rgb), balanced).rows;
+}
 
 Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use) {
   constexpr double most = 1e12;
@@ -154,17 +177,19 @@ Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse 
     if (parameter.numbers.size() != 1 || !(kelvin >= 500 && kelvin <= 1e6)) {
       owner.fail(parameter.place, what + ": expected one temperature from 500 to 1e6 K");
     }
-    return light_of(integral([&](double nm) { return black_body(nm, kelvin); }));
-  }
-  if (!parameter.texts.empty()) {
-    return named(parameter.texts[0], parameter, owner, use);
+    return light_of(blackbody_light(kelvin));
   }
   check_wavelengths(parameter, owner);
-  if (use == SpectrumUse::index) {
-    return index_of(parameter.numbers);
+  const NamedLight* const named = parameter.texts.empty() ? nullptr : find_in(named_lights, parameter.texts[0]);
+  if (named != nullptr && use != SpectrumUse::light) {
+    owner.fail(parameter.place, what + ": '" + clipped(parameter.texts[0], 40) + "' is a light, and no " +
+                                    (use == SpectrumUse::index ? "index" : "reflectance"));
   }
-  const Vec3d xyz = integral([&](double nm) { return value_at(parameter.numbers, nm); });
-  return use == SpectrumUse::light ? light_of(xyz) : reflectance_of(xyz);
+  const auto value = [&](double nm) { return value_of(parameter, nm); };
+  if (use == SpectrumUse::index) {
+    return {value(630), value(532), value(465)};  // at the wavelengths of red, green and blue
+  }
+  return use == SpectrumUse::reflectance ? reflectance_of(value) : light_of(named ? xyz_of(named->x, named->y) : integral(value));
 }
 
 }  // namespace dmpc::apps::pbrt

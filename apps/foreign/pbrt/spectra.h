@@ -1,7 +1,7 @@
 // Light, reflectance and metals as pbrt's scenes name them, in linear sRGB.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -14,16 +14,19 @@ namespace dmpc::apps::pbrt {
 /// whatever its numbers, as pbrt-v4 scales it; an index is a number in each channel.
 enum class SpectrumUse : std::uint8_t { reflectance, light, index };
 
-/// Of an rgb, spectrum or blackbody parameter, by the matching functions of CIE 1931 as fits of Gaussians have them (C. Wyman,
-/// P.-P. Sloan, P. Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2013). Throws
-/// core::InputError at its place for a name that nobody knows, and for numbers out of range.
+/// Of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances by daylight (D65). A spectrum is 0 beyond
+/// its points. Throws core::InputError at its place for numbers out of range, and for a light that is to be no light.
 core::Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use);
+/// Whether pbrt-v4 knows a light, a metal or a glass by this name; else it is a file's.
+bool is_named_spectrum(const std::string& name);
 
-/// What a metal reflects straight ahead, by its index eta + i k (Fresnel), channel by channel.
-core::Vec3d straight_reflection(const core::Vec3d& eta, const core::Vec3d& k);
-/// Of a metal by pbrt's name of its spectra, "metal-Cu-eta" and "metal-Cu-k".
-core::Vec3d copper_eta();
-core::Vec3d copper_k();
+/// What a metal reflects straight ahead by its index eta + i k, below what has the index `below` (Fresnel).
+double straight_reflection(double n, double k);
+/// Of spectra, wavelength by wavelength; of copper where there is none.
+core::Vec3d metal_color(const Parameter* eta, const Parameter* k, double below);
+
+/// Rows of what makes white of a light's temperature, in linear sRGB.
+std::array<core::Vec3d, 3> white_balance(double kelvin);
 
 double luminance(const core::Vec3d& color);
 

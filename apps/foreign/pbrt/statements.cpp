@@ -7,9 +7,11 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/parameter_table.h"
 #include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
+#include "core/base/expect.h"
 #include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::pbrt {
@@ -18,6 +20,8 @@ namespace {
 using core::Vec3d;
 
 constexpr double number_max = 1e30, degrees_max = 1e6;
+/// Of an integrator that does not say it.
+constexpr std::int64_t depth_unsaid = 5;
 /// pbrt's numbers are floats, in text and in files of meshes.
 constexpr double float_rounding = 0x1p-25;
 
@@ -33,7 +37,9 @@ GeometrySize size_of_shape(const PlacedShape& shape) { return shape.sphere ? siz
 }  // namespace
 
 Statements::Statements(const std::string& path, SceneFiles& files, core::Copies copies)
-    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {}
+    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {
+  file_.bounces = static_cast<int>(depth_unsaid - 1);
+}
 
 const std::map<std::string_view, Statements::Statement>& Statements::all() {
   static const std::map<std::string_view, Statement> statements{
@@ -52,7 +58,7 @@ const std::map<std::string_view, Statements::Statement>& Statements::all() {
       {"Identity", &Statements::transform_statement},
       {"Import", &Statements::import},
       {"Include", &Statements::include},
-      {"Integrator", &Statements::of_other_renderers},
+      {"Integrator", &Statements::integrator},
       {"LightSource", &Statements::light},
       {"LookAt", &Statements::transform_statement},
       {"MakeNamedMaterial", &Statements::make_named_material},
@@ -68,7 +74,7 @@ const std::map<std::string_view, Statements::Statement>& Statements::all() {
       {"Renderer", &Statements::of_older_versions},
       {"ReverseOrientation", &Statements::reverse_orientation},
       {"Rotate", &Statements::transform_statement},
-      {"Sampler", &Statements::of_other_renderers},
+      {"Sampler", &Statements::sampler},
       {"Scale", &Statements::transform_statement},
       {"Shape", &Statements::shape},
       {"SurfaceIntegrator", &Statements::of_older_versions},
@@ -100,8 +106,10 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   }
   end_imports();
   check_ended();
+  add_awaited();
   surfaces_.settle(tokens_);
   give_materials();
+  add_unseen_lights();
   drop_undrawn();
   const Camera camera = camera_.value_or(Camera{});
   const bool is_turned = sees_left_handed(camera);
@@ -126,6 +134,7 @@ void Statements::turn_round(const Transform& turn) {
   }
   for (FileLight& light : file_.lights) {
     light.position = turn.point(light.position);
+    light.cone.ahead = turn.direction(light.cone.ahead);
   }
   for (FileSky& sky : file_.skies) {
     const Transform rows{sky.rows, {}};
@@ -174,7 +183,7 @@ void Statements::check_map(const Token& name, const Transform& map) const {
 
 /// What is moved at the end of the shutter's time alone does not move here.
 void Statements::apply(const Token& name, const Transform& map) {
-  if (moves_start_) {
+  if (state_.moves_start) {
     const Transform moved = composed(state_.ctm, map);
     check_map(name, moved);
     state_.ctm = moved;
@@ -183,7 +192,7 @@ void Statements::apply(const Token& name, const Transform& map) {
 
 void Statements::transform_statement(const Token& name) {
   if (name.text == "Identity") {
-    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+    state_.ctm = state_.moves_start ? Transform{} : state_.ctm;
   } else if (name.text == "TransformTimes") {
     numbers(name, 2);
   } else if (name.text == "Translate") {
@@ -218,7 +227,7 @@ void Statements::matrix(const Token& name) {
   }
   const Transform map{{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
   if (name.text == "Transform") {
-    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+    state_.ctm = state_.moves_start ? Transform{} : state_.ctm;
   }
   apply(name, map);
 }
@@ -229,7 +238,8 @@ void Statements::coordinates(const Token& name) {
   const std::string system = text(name, "a name");
   const auto found = systems_.find(system);
   if (found == systems_.end()) {
-    tokens_.fail(name.place, "CoordSysTransform: no CoordinateSystem " + quoted(system) + " is there");
+    notes_.count("names of CoordSysTransform that no CoordinateSystem has, which move nothing");
+    return;
   }
   state_.ctm = found->second;
 }
@@ -239,8 +249,8 @@ void Statements::active_transform(const Token& name) {
   if (which.text != "StartTime" && which.text != "EndTime" && which.text != "All") {
     tokens_.fail(which.place, name.text + " has " + quoted(which.text) + ", expected StartTime, EndTime or All");
   }
-  moves_start_ = which.text != "EndTime";
-  notes_.count("what moves while the shutter is open, shown as it stands at first", moves_start_ ? 0 : 1);
+  state_.moves_start = which.text != "EndTime";
+  notes_.count("what moves while the shutter is open, shown as it stands at first", state_.moves_start ? 0 : 1);
 }
 
 void Statements::reverse_orientation(const Token& /*name*/) { state_.is_reversed = !state_.is_reversed; }
@@ -259,22 +269,15 @@ void Statements::restore(Opening opening, const Token& name) {
     tokens_.fail(name.place, name.text + " ends what has not begun" +
                                  (saved_.empty() ? "" : ", within what begins at " + tokens_.text_of(saved_.back().place)));
   }
-  if (opening == Opening::transform) {
-    state_.ctm = saved_.back().state.ctm;
-  } else {
-    state_ = std::move(saved_.back().state);
-  }
+  state_ = std::move(saved_.back().state);
   saved_.pop_back();
 }
 
-void Statements::begin(const Token& name) {
-  save(name.text == "TransformBegin" ? Opening::transform : Opening::attribute, name.place);
-}
+/// In version 4 TransformBegin and TransformEnd are AttributeBegin and AttributeEnd.
+void Statements::begin(const Token& name) { save(Opening::attribute, name.place); }
 
 void Statements::end(const Token& name) {
-  const Opening opening = name.text == "TransformEnd" ? Opening::transform
-                          : name.text == "ObjectEnd"  ? Opening::object
-                                                      : Opening::attribute;
+  const Opening opening = name.text == "ObjectEnd" ? Opening::object : Opening::attribute;
   restore(opening, name);
   if (opening == Opening::object) {
     open_object_ = nullptr;
@@ -304,7 +307,7 @@ void Statements::attribute(const Token& name) {
   Parameters more(tokens_, "Attribute " + quoted(kind), name.place);
   std::vector<Parameter> list = more.take_list();
   if (const auto& known = state_.defaults[kind]) {
-    list.insert(list.end(), known->begin(), known->end());  // what is said last counts
+    list.insert(list.begin(), known->begin(), known->end());  // what is said last counts
   }
   constexpr std::size_t most = 1000;
   if (list.size() > most) {
@@ -328,25 +331,46 @@ void Statements::object_begin(const Token& name) {
   open_object_ = &found->second;
 }
 
-/// In front of what the object's shapes have. Here alone an instance's transform is made.
 void Statements::object_instance(const Token& name) {
   const std::string object = text(name, "a name");
-  const auto found = objects_.find(object);
-  if (open_object_ != nullptr || found == objects_.end()) {
-    tokens_.fail(name.place, open_object_ != nullptr ? "ObjectInstance stands within an object, where pbrt allows none"
-                                                     : "no object " + quoted(object) + " is there: none has begun before");
+  if (open_object_ != nullptr) {
+    tokens_.fail(name.place, "ObjectInstance stands within an object, where pbrt allows none");
   }
-  Object& shapes = found->second;
-  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
-  check_total(size_, name.place);
-  if (const std::uint64_t bytes = (file_.places.size() + shapes.places.size()) * sizeof(ShapePlace);
-      bytes > files_.memory_bytes_max()) {
-    throw core::RoomError(tokens_.text_of(name.place) + ": the places of its shapes take " + bytes_text(bytes) +
+  if (const auto found = objects_.find(object); found != objects_.end()) {
+    add_instance(found->second, state_.ctm, name);
+  } else {
+    awaited_.push_back({object, state_.ctm, name});
+    check_room(awaited_.size() * sizeof(Awaited), name.place);
+  }
+}
+
+/// For so many bytes of places.
+void Statements::check_room(std::uint64_t bytes, const Place& said) const {
+  if (bytes > files_.memory_bytes_max()) {
+    throw core::RoomError(tokens_.text_of(said) + ": the places of its shapes take " + bytes_text(bytes) +
                           " of memory, and a file's scene may take " + bytes_text(files_.memory_bytes_max()) +
                           ": give it fewer instances, or objects of fewer shapes");
   }
+}
+
+/// Of objects that began behind them.
+void Statements::add_awaited() {
+  for (const Awaited& one : awaited_) {
+    const auto found = objects_.find(one.object);
+    if (found == objects_.end()) {
+      tokens_.fail(one.name.place, "no object " + quoted(one.object) + " is there: no ObjectBegin has that name");
+    }
+    add_instance(found->second, one.ctm, one.name);
+  }
+}
+
+/// In front of what the object's shapes have. Here alone an instance's transform is made.
+void Statements::add_instance(Object& shapes, const Transform& ctm, const Token& name) {
+  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
+  check_total(size_, name.place);
+  check_room((file_.places.size() + shapes.places.size()) * sizeof(ShapePlace), name.place);
   for (const ShapePlace& place : shapes.places) {
-    const ShapePlace instance{place.shape, composed(state_.ctm, place.world)};
+    const ShapePlace instance{place.shape, composed(ctm, place.world)};
     check_map(name, instance.world);
     ++file_.shapes[place.shape].uses;
     file_.places.push_back(instance);
@@ -396,9 +420,14 @@ Parameters Statements::parameters(const std::string& owner, const Token& name, c
   return result;
 }
 
-void Statements::finish(const Parameters& parameters) {
+void Statements::finish(const Parameters& parameters, const std::string& statement, const std::string& kind) {
   for (const std::string& name : parameters.unused()) {
-    notes_.count("parameters \"" + clipped(name, 40) + "\" that mean nothing where they stand", 1);
+    const ParameterFate fate = fate_of(statement, kind, name);
+    if (fate == ParameterFate::said) {
+      notes_.count("\"" + name + "\" of " + statement + (kind.empty() ? "" : " \"" + kind + "\"") + ", which is not shown");
+    } else if (fate != ParameterFate::silent) {
+      notes_.count("parameters \"" + clipped(name, 40) + "\" that mean nothing where they stand", 1);
+    }
   }
 }
 
@@ -406,13 +435,21 @@ void Statements::film(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
   film_ = film_of(kind, all, notes_);
+  finish(all, name.text, kind);
 }
 
 void Statements::camera(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
   camera_ = camera_of(kind, all, state_.ctm, notes_);
+  finish(all, name.text, kind);
   systems_.insert_or_assign("camera", *inverse_of(state_.ctm));
+}
+
+Exposure Statements::exposure() const {
+  Exposure exposure = film_.exposure;
+  exposure.factor *= camera_.value_or(Camera{}).open_seconds;
+  return exposure;
 }
 
 void Statements::color_space(const Token& name) {
@@ -420,13 +457,61 @@ void Statements::color_space(const Token& name) {
   notes_.count("colours of the space " + quoted(space) + ", shown as if they were of sRGB", space == "srgb" ? 0 : 1);
 }
 
-/// Samplers, integrators, filters and what is within media: how pbrt renders, or what is not shown.
+/// Structures, filters and media: how pbrt renders, or what is not shown.
 void Statements::of_other_renderers(const Token& name) {
   const std::string kind = text(name, "its kind");
-  parameters(kind, name, "");
+  const Parameters all = parameters(kind, name, "");
+  if (name.text != "MakeNamedMedium") {
+    finish(all, name.text, kind);
+  }
+  const bool is_ours = kind == "box" && all.number("xradius", 0.5) == 0.5 && all.number("yradius", 0.5) == 0.5;
+  notes_.count("filters of pixels, in place of which a pixel is the mean of what falls on it",
+               name.text == "PixelFilter" && !is_ours ? 1 : 0);
 }
 
-void Statements::option(const Token& name) { Parameters(tokens_, "Option", name.place); }
+/// Pbrt's depth is of hits that lights show directly, of which ours have one without a bounce.
+void Statements::integrator(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  const std::int64_t depth = all.integer("maxdepth", depth_unsaid);
+  if (depth < 0) {
+    all.fail("its maxdepth is " + std::to_string(depth) + ", expected 0 or more");
+  }
+  file_.bounces = static_cast<int>(std::clamp<std::int64_t>(depth - 1, 0, core::Scene::bounces_max));
+  if (depth == 0 || depth - 1 > core::Scene::bounces_max) {
+    file_.notes.push_back("the integrator's maxdepth is " + std::to_string(depth) + ", shown with " +
+                          counted(static_cast<std::uint64_t>(*file_.bounces), "bounce"));
+  }
+  const bool is_one = kind == "path" || kind == "volpath" || kind == "simplepath" || kind == "simplevolpath" || kind == "bdpt" ||
+                      kind == "mlt" || kind == "sppm" || kind == "lightpath" || kind == "randomwalk";
+  if (kind == "ambientocclusion" || kind == "function") {
+    file_.notes.push_back("the integrator \"" + kind + "\" shows something else than light, shown by paths" +
+                          (kind == "function" ? "" : "; --occlusion=DISTANCE shows what it does"));
+  } else if (!is_one) {
+    all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+  }
+  finish(all, name.text, kind);
+}
+
+void Statements::sampler(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  constexpr std::int64_t most = 32768;
+  const bool is_stratified = kind == "stratified";
+  const auto count = [&](const char* side) { return std::clamp<std::int64_t>(all.integer(side, 4), 0, most); };
+  const std::int64_t samples =
+      is_stratified ? count("xsamples") * count("ysamples") : all.integer("pixelsamples", kind == "independent" ? 4 : 16);
+  if (samples > 0) {
+    file_.notes.push_back("the sampler takes " + counted(static_cast<std::uint64_t>(samples), "sample") +
+                          " a pixel: --samples=" + std::to_string(std::min(samples, most)) + " does so, too");
+  }
+  finish(all, name.text, kind);
+}
+
+void Statements::option(const Token& name) {
+  const Parameters all(tokens_, "Option", name.place);
+  finish(all, name.text, "");
+}
 
 void Statements::medium_interface(const Token& name) {
   const std::string inside = text(name, "a medium's name");
@@ -441,7 +526,7 @@ void Statements::world_begin(const Token& name) {
     tokens_.fail(name.place, "WorldBegin is there a second time");
   }
   state_.ctm = {};
-  moves_start_ = true;
+  state_.moves_start = true;
   systems_.insert_or_assign("world", state_.ctm);
 }
 
@@ -457,21 +542,21 @@ void Statements::texture(const Token& name) {
   const std::string texture = text(name, "its name"), type = text(name, "what it is of"), kind = text(name, "its kind");
   const Parameters all = parameters(texture, name, "texture");
   textures_.add(texture, type, kind, all);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::material(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "material");
   state_.surface = surfaces_.add(kind, all, tokens_);
-  finish(all);
+  finish(all, name.text, kind);
 }
 
 void Statements::make_named_material(const Token& name) {
   const std::string material = text(name, "its name");
   const Parameters all = parameters(material, name, "material");
   surfaces_.add_named(material, all, tokens_);
-  finish(all);
+  finish(all, "Material", all.text("type", ""));
 }
 
 void Statements::named_material(const Token& name) { state_.surface = surfaces_.named(text(name, "its name"), name.place); }
@@ -479,15 +564,15 @@ void Statements::named_material(const Token& name) { state_.surface = surfaces_.
 void Statements::area_light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
-  state_.light = area_light_of(kind, all, film_.exposure, notes_);
-  finish(all);
+  state_.light = area_light_of(kind, all, exposure(), notes_);
+  finish(all, name.text, kind);
 }
 
 void Statements::light(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "light");
-  add_light(kind, all, tokens_, state_.ctm, film_.exposure, file_, notes_);
-  finish(all);
+  add_light(kind, all, tokens_, state_.ctm, exposure(), file_, notes_);
+  finish(all, name.text, kind);
 }
 
 // Shapes.
@@ -495,10 +580,11 @@ void Statements::light(const Token& name) {
 void Statements::shape(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "shape");
-  std::optional<PlacedShape> shape = shape_of(kind, all, tokens_, files_, notes_);
+  std::optional<PlacedShape> shape =
+      shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
   if (shape) {
     add_shape(*std::move(shape), all);
-    finish(all);
+    finish(all, name.text, kind);
   }
 }
 
@@ -534,26 +620,49 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
     notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
     return;
   }
+  if (look.opacity <= 0) {
+    for (const FileLight& light : unseen_lights(*state_.light, shape, state_.ctm)) {
+      unseen_.emplace_back(look.surface, light);
+    }
+    notes_.count("area lights that alpha takes away, which light as points");
+    return;
+  }
   look.emission = radiance_of(*state_.light, shape, state_.ctm);
+  look.is_light = true;
   shape.mesh.material = look_number(look);
   if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
     shape.back = dark;
   }
 }
 
+/// But of the material "interface".
+void Statements::add_unseen_lights() {
+  for (const auto& [surface, light] : unseen_) {
+    if (surfaces_.at(surface).is_drawn) {
+      file_.lights.push_back(light);
+    }
+  }
+}
+
 void Statements::give_materials() {
-  for (const Look& look : looks_) {
+  for (Look& look : looks_) {
+    look.emission = surfaces_.at(look.surface).is_drawn ? look.emission : Vec3d{};
     file_.materials.push_back(Surfaces::material_of(surfaces_.at(look.surface), look.emission, look.opacity));
   }
 }
 
-/// What parts media from each other shows nothing, but where it shines; nor does what alpha takes away.
+/// What parts media from each other shows nothing and does not shine; nor does what alpha takes away.
 void Statements::drop_undrawn() {
   const auto is_undrawn = [this](const ShapePlace& place) {
     const Look& look = looks_[file_.shapes[place.shape].mesh.material];
-    const bool is_dark = !surfaces_.at(look.surface).is_drawn && look.emission == Vec3d{};
-    return is_dark || look.opacity <= 0;
+    return !surfaces_.at(look.surface).is_drawn || look.opacity <= 0;
   };
+  const auto shines_nowhere = [this](const ShapePlace& place) {
+    const Look& look = looks_[file_.shapes[place.shape].mesh.material];
+    return look.is_light && !surfaces_.at(look.surface).is_drawn;
+  };
+  notes_.count("area lights of the material \"interface\", which shine nowhere, as in pbrt",
+               static_cast<std::uint64_t>(std::count_if(file_.places.begin(), file_.places.end(), shines_nowhere)));
   for (const ShapePlace& place : file_.places) {
     file_.shapes[place.shape].uses -= is_undrawn(place) ? 1 : 0;
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/foreign/mesh/geometry.h"
@@ -43,9 +44,10 @@ class Statements {
     std::uint32_t surface = 0;
     std::optional<AreaLight> light;
     bool is_reversed = false;
+    bool moves_start = true;                               ///< what moves things holds when the shutter opens
     std::map<std::string, Parameters::Defaults> defaults;  ///< of shapes, lights, materials, ...
   };
-  enum class Opening : std::uint8_t { attribute, transform, object, import };
+  enum class Opening : std::uint8_t { attribute, object, import };
   struct Saved {
     State state;
     Opening opening;
@@ -60,12 +62,23 @@ class Statements {
     bool is_counted = false;
   };
 
+  /// An instance of an object that has not begun yet.
+  struct Awaited {
+    std::string object;
+    Transform ctm;
+    Token name;
+  };
+
   /// What a shape's material is made of, in the end.
   struct Look {
     std::uint32_t surface = 0;
     core::Vec3d emission;
     double opacity = 1;
-    auto key() const { return std::array<double, 5>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity}; }
+    bool is_light = false;
+    auto key() const {
+      return std::array<double, 6>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity,
+                                   is_light ? 1.0 : 0.0};
+    }
   };
 
   void transform_statement(const Token& name);
@@ -79,10 +92,15 @@ class Statements {
   void attribute(const Token& name);
   void object_begin(const Token& name);
   void object_instance(const Token& name);
+  void add_instance(Object& shapes, const Transform& ctm, const Token& name);
+  void add_awaited();
+  void check_room(std::uint64_t bytes, const Place& said) const;
   void film(const Token& name);
   void camera(const Token& name);
   void color_space(const Token& name);
   void of_other_renderers(const Token& name);
+  void integrator(const Token& name);
+  void sampler(const Token& name);
   void option(const Token& name);
   void medium_interface(const Token& name);
   void world_begin(const Token& name);
@@ -104,15 +122,17 @@ class Statements {
   void check_map(const Token& name, const Transform& map) const;
   std::vector<double> numbers(const Token& name, std::size_t count);
   std::string text(const Token& name, const char* what);
-  /// With what Attribute has said of such, and what of it nobody knows is counted by finish().
+  /// With what Attribute has said of such. What of it nobody has looked for is counted by finish(), by the table of parameters.
   Parameters parameters(const std::string& owner, const Token& name, const char* kind);
-  void finish(const Parameters& parameters);
+  void finish(const Parameters& parameters, const std::string& statement, const std::string& kind);
+  Exposure exposure() const;
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);
   std::size_t look_number(const Look& look);
   void add_place(const ShapePlace& place, const GeometrySize& size, const Place& said);
   void check_total(const GeometrySize& total, const Place& said) const;
   void give_materials();
+  void add_unseen_lights();
   void drop_undrawn();
   void check_ended() const;
   void turn_round(const Transform& turn);
@@ -129,13 +149,15 @@ class Statements {
   std::map<std::string, Transform> systems_;
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;
+  std::vector<Awaited> awaited_;
   std::vector<Look> looks_;
-  std::map<std::array<double, 5>, std::size_t> look_numbers_;
+  std::vector<std::pair<std::uint32_t, FileLight>> unseen_;  ///< with their surfaces
+  std::map<std::array<double, 6>, std::size_t> look_numbers_;
   GeometrySize size_;  ///< with every instance that is copied
   GeometrySize made_;  ///< of all shapes, once
   Film film_;
   std::optional<Camera> camera_;
-  bool is_world_ = false, moves_start_ = true;
+  bool is_world_ = false;
 };
 
 }  // namespace dmpc::apps::pbrt

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/edge/line/shown_text.h"
+#include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -22,8 +23,35 @@ Vec3d clamped(const Vec3d& color) {
   return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
 }
 
+/// Of diffuse light within what has this index its smooth surface sends so much back inwards: all but 1/n^2 of what it lets in
+/// (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection outside).
+double inner_reflection(double index) {
+  constexpr double index_min = 1.001;  // below which there is no telling
+  if (!(index > index_min)) {
+    return 0;
+  }
+  const double n = index, square = n * n, sum = square + 1, difference = square - 1, fourth = square * square;
+  const double outside = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+                         square * difference * difference / (sum * sum * sum) * core::natural_log((n - 1) / (n + 1)) -
+                         2 * n * square * (square + 2 * n - 1) / (sum * (fourth - 1)) +
+                         8 * fourth * (fourth + 1) / (sum * (fourth - 1) * (fourth - 1)) * core::natural_log(n);
+  return 1 - (1 - outside) / square;
+}
+
 /// What a pane reflects of both its faces together, of what one face reflects.
 double of_both_faces(double one) { return 2 * one / (1 + one); }
+
+/// What a metal of this index reflects straight ahead, channel by channel.
+Vec3d channels_of(const Vec3d& eta, const Vec3d& k, double below) {
+  const auto channel = [below](double n, double k_of) { return straight_reflection(n / below, k_of / below); };
+  return {channel(eta.x, k.x), channel(eta.y, k.y), channel(eta.z, k.z)};
+}
+
+/// The k of a metal whose eta is 1.
+double k_of_reflectance(double share) {
+  const double most = std::min(share, 0.9999);
+  return 2 * std::sqrt(most / (1 - most));
+}
 
 /// A share of each, of the larger one's kind.
 Surface blended(const Surface& first, const Surface& second, double amount) {
@@ -123,28 +151,66 @@ Surface Surfaces::diffuse(const Parameters& parameters, const char* name, double
   return {.color = textures_.color(parameters, name, {fallback, fallback, fallback}, SpectrumUse::reflectance), .facets = {}};
 }
 
+Vec3d Surfaces::metal(const Parameters& parameters, const std::string& prefix, double below) const {
+  const auto of = [&](const std::string& name) { return parameters.find(prefix + name, {texture, rgb, spectrum}); };
+  const Parameter *const eta = of("eta"), *const k = of("k");
+  const auto color = textures_.color(parameters, "reflectance", SpectrumUse::reflectance);
+  if (color && (eta != nullptr || k != nullptr)) {
+    parameters.fail("a metal has a reflectance, or eta and k, not both");
+  }
+  if (color) {
+    const Vec3d share = clamped(color->color);
+    return below == 1
+               ? share
+               : channels_of({1, 1, 1}, {k_of_reflectance(share.x), k_of_reflectance(share.y), k_of_reflectance(share.z)}, below);
+  }
+  const auto is_spectrum = [](const Parameter* one) { return one == nullptr || one->type == spectrum; };
+  if (is_spectrum(eta) && is_spectrum(k)) {
+    return metal_color(eta, k, below);
+  }
+  const auto part = [&](const char* name, double fallback) {
+    return textures_.color(parameters, (prefix + name).c_str(), {fallback, fallback, fallback}, SpectrumUse::index).color;
+  };
+  return channels_of(part("eta", 1), part("k", 2), below);
+}
+
 Surface Surfaces::conductor(const Parameters& parameters, const std::string& prefix) const {
   Surface surface{.has_facets = true, .facets = {.metallic = 1}};
   surface.facets.roughness = roughness(parameters, prefix, 0);
   if (const auto color = textures_.color(parameters, "reflectance", SpectrumUse::reflectance)) {
     surface.color = *color;
-    return surface;
   }
-  const auto part = [&](const char* name, const Vec3d& fallback) {
-    return textures_.color(parameters, (prefix + name).c_str(), fallback, SpectrumUse::index).color;
-  };
-  surface.color.color = straight_reflection(part("eta", copper_eta()), part("k", copper_k()));
+  surface.color.color = metal(parameters, prefix, 1);
   return surface;
 }
 
+/// A metal whose colour is what comes back through a smooth coat, and of both faces of that.
+Surface Surfaces::coated_conductor(const Parameters& parameters) const {
+  notes_.count("coats of metals, shown in the metal's colour and roughness");
+  Surface surface = conductor(parameters, "conductor.");
+  const double coat = std::max(index(parameters, "interface.eta", 1.5), 1.0), face = straight_reflection(coat, 0);
+  const auto through = [face](double share) { return face + (1 - face) * (1 - face) * share / (1 - share * face); };
+  const Vec3d below = metal(parameters, "conductor.", coat);
+  surface.color.color = {through(below.x), through(below.y), through(below.z)};
+  return surface;
+}
+
+/// Light that is within goes back and forth between what is diffuse and the coat: of R comes out R (1 - f) / (1 - R f).
 Surface Surfaces::coated(const Parameters& parameters) const {
   Surface surface = diffuse(parameters, "reflectance", 0.5);
   surface.has_facets = true;
   surface.facets.metallic = 0;
   surface.facets.roughness = roughness(parameters, "", 0);
   surface.facets.refraction_index = index(parameters, "eta", 1.5);
-  for (const char* const inside : {"thickness", "g", "albedo", "maxdepth", "nsamples"}) {
-    parameters.find(inside, {number, integer, rgb, spectrum, texture});
+  Vec3d& color = surface.color.color;
+  const double f = inner_reflection(surface.facets.refraction_index);
+  if (surface.color.picture) {
+    const double held = std::min(f * mean(color), coat_max);
+    surface.color.picture->edges.coat = held;
+    color = color * ((1 - f) / (1 - held));
+  } else {
+    color = clamped(color);
+    color = {color.x * (1 - f) / (1 - color.x * f), color.y * (1 - f) / (1 - color.y * f), color.z * (1 - f) / (1 - color.z * f)};
   }
   return surface;
 }
@@ -170,8 +236,7 @@ Surface Surfaces::surface_of(const std::string& kind, const Parameters& paramete
     return conductor(parameters, "");
   }
   if (kind == "coatedconductor") {
-    notes_.count("coats of metals, which are not shown");
-    return conductor(parameters, "conductor.");
+    return coated_conductor(parameters);
   }
   if (kind == "dielectric" || kind == "thindielectric") {
     return glass(parameters, kind == "thindielectric");
@@ -184,11 +249,14 @@ Surface Surfaces::surface_of(const std::string& kind, const Parameters& paramete
   if (kind == "diffusetransmission") {
     notes_.count("materials that scatter light through, shown as opaque");
     parameters.find("transmittance", {texture, rgb, spectrum});
-    return diffuse(parameters, "reflectance", 0.25);
+    Surface surface = diffuse(parameters, "reflectance", 0.25);
+    surface.color.color = surface.color.color * parameters.number("scale", 1);
+    return surface;
   }
   if (kind == "subsurface" || kind == "hair" || kind == "measured") {
     notes_.count("materials of kind '" + kind + "', shown as diffuse");
-    return diffuse(parameters, kind == "hair" ? "color" : "reflectance", 0.5);
+    const bool has_color = kind == "hair" && parameters.find("reflectance", {texture, rgb, spectrum}) == nullptr;
+    return diffuse(parameters, has_color ? "color" : "reflectance", 0.5);
   }
   parameters.fail("there is no material of kind '" + clipped(kind, 40) + "' in pbrt-v4");
 }

@@ -57,7 +57,9 @@ class Surfaces {
 
   void fill(Slot& slot, const std::string& kind, const Parameters& parameters, const Tokens& tokens);
   Surface surface_of(const std::string& kind, const Parameters& parameters) const;
+  core::Vec3d metal(const Parameters& parameters, const std::string& prefix, double below) const;
   Surface conductor(const Parameters& parameters, const std::string& prefix) const;
+  Surface coated_conductor(const Parameters& parameters) const;
   Surface coated(const Parameters& parameters) const;
   Surface glass(const Parameters& parameters, bool is_thin) const;
   Surface diffuse(const Parameters& parameters, const char* name, double fallback) const;

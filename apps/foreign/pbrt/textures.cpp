@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 
 #include "apps/edge/line/shown_text.h"
 #include "core/scene/texel.h"
@@ -50,8 +51,11 @@ TextureValue Textures::value_of(const std::string& kind, const Parameters& param
     notes_.count("textures that mix by direction, shown half and half", kind == "directionmix" ? 1 : 0);
     return mixed(parameters, is_number);
   }
-  if (kind == "checkerboard" || kind == "dots") {
+  if (kind == "checkerboard") {
     return checkered(parameters, is_number);
+  }
+  if (kind == "dots") {
+    return dotted(parameters, is_number);
   }
   if (kind == "imagemap") {
     return pictured(parameters);
@@ -72,13 +76,14 @@ const TextureValue& Textures::find(const Parameter& parameter, const Parameters&
 }
 
 TextureValue Textures::part(const Parameters& parameters, const char* name, double fallback, bool is_number) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    return find(*of_texture, parameters, is_number);
+  if (!is_number) {
+    return color(parameters, name, {fallback, fallback, fallback}, SpectrumUse::reflectance);
   }
-  if (const Parameter* const of_color = parameters.find(name, {rgb, spectrum, blackbody})) {
-    return {.color = color_of(*of_color, parameters, SpectrumUse::reflectance), .picture = {}, .place = {}};
+  const Parameter* const found = parameters.find(name, {texture, ParameterType::number});
+  if (found != nullptr && found->type == texture) {
+    return find(*found, parameters, true);
   }
-  const double value = parameters.number(name, fallback);
+  const double value = found == nullptr ? fallback : parameters.number(name, fallback);
   return {.color = {value, value, value}, .picture = {}, .place = {}};
 }
 
@@ -111,6 +116,14 @@ TextureValue Textures::mixed(const Parameters& parameters, bool is_number) {
   return amount < 0.5 ? first : second;
 }
 
+/// Half of its cells have a dot, whose radius is 0.35 of theirs.
+TextureValue Textures::dotted(const Parameters& parameters, bool is_number) {
+  constexpr double share = 0.5 * 0.35 * 0.35 * std::numbers::pi;
+  const TextureValue inside = part(parameters, "inside", 1, is_number), outside = part(parameters, "outside", 0, is_number);
+  notes_.count("dots, shown as the mean of their colours");
+  return {.color = inside.color * share + outside.color * (1 - share), .picture = {}, .place = {}};
+}
+
 TextureValue Textures::checkered(const Parameters& parameters, bool is_number) {
   const TextureValue first = part(parameters, "tex1", 1, is_number), second = part(parameters, "tex2", 0, is_number);
   const bool is_flat = parameters.integer("dimension", 2) == 2;
@@ -123,23 +136,17 @@ TextureValue Textures::checkered(const Parameters& parameters, bool is_number) {
   TextureValue value;
   value.picture = TextureUse{.path = "*" + std::to_string(pictures_.size()), .edges = {}};
   pictures_.push_back(checks(first.color, second.color));
-  place(parameters, value);
-  for (double& number : value.place.rows[0]) {
-    number /= squares;
-  }
-  for (double& number : value.place.rows[1]) {
-    number /= squares;
-  }
+  place(parameters, value, squares);
   return value;
 }
 
-/// u and v as pbrt has them, v upwards, are scaled and moved; a picture's t goes downwards.
-void Textures::place(const Parameters& parameters, TextureValue& value) {
+/// u and v as pbrt has them, v upwards, are scaled and moved, `span` of that lies across the picture; its t goes downwards.
+void Textures::place(const Parameters& parameters, TextureValue& value, double span) {
   const std::string mapping = parameters.text("mapping", "uv");
   notes_.count("textures that lie by a mapping of their own, shown by u and v", mapping == "uv" ? 0 : 1);
   const double su = parameters.number("uscale", 1), sv = parameters.number("vscale", 1), du = parameters.number("udelta", 0),
                dv = parameters.number("vdelta", 0);
-  value.place.rows = {{{su, 0, du}, {0, sv, 1 - sv - dv}}};
+  value.place.rows = {{{su / span, 0, du / span}, {0, sv / span, 1 - (sv + dv) / span}}};
 }
 
 TextureValue Textures::pictured(const Parameters& parameters) {
@@ -150,11 +157,10 @@ TextureValue Textures::pictured(const Parameters& parameters) {
   if (path.empty()) {
     parameters.fail("a texture of a picture has no filename");
   }
+  have_files_ = true;
   value.picture = TextureUse{.path = path, .edges = {edges, edges}};
   const double scale = parameters.number("scale", 1);
   value.color = {scale, scale, scale};
-  parameters.text("filter", "");
-  parameters.number("maxanisotropy");
   notes_.count("pictures that are black beyond their edges, shown with their edges going on", wrap == "black" ? 1 : 0);
   notes_.count("pictures that are to be inverted, shown as they are", parameters.flag("invert", false) ? 1 : 0);
   notes_.count("pictures whose encoding is not sRGB, shown as if it were", encoding == "sRGB" || encoding == "srgb" ? 0 : 1);
@@ -163,12 +169,12 @@ TextureValue Textures::pictured(const Parameters& parameters) {
 }
 
 std::optional<TextureValue> Textures::color(const Parameters& parameters, const char* name, SpectrumUse use) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    return find(*of_texture, parameters, false);
+  const Parameter* const found = parameters.find(name, {texture, rgb, spectrum, blackbody});
+  if (found == nullptr) {
+    return std::nullopt;
   }
-  const Parameter* const found = parameters.find(name, {rgb, spectrum, blackbody});
-  return found == nullptr ? std::nullopt
-                          : std::optional(TextureValue{.color = color_of(*found, parameters, use), .picture = {}, .place = {}});
+  return found->type == texture ? find(*found, parameters, false)
+                                : TextureValue{.color = color_of(*found, parameters, use), .picture = {}, .place = {}};
 }
 
 TextureValue Textures::color(const Parameters& parameters, const char* name, const Vec3d& fallback, SpectrumUse use) const {
@@ -176,8 +182,9 @@ TextureValue Textures::color(const Parameters& parameters, const char* name, con
 }
 
 std::optional<double> Textures::number(const Parameters& parameters, const char* name) const {
-  if (const Parameter* const of_texture = parameters.find(name, {texture})) {
-    const TextureValue& value = find(*of_texture, parameters, true);
+  const Parameter* const found = parameters.find(name, {texture, ParameterType::number});
+  if (found != nullptr && found->type == texture) {
+    const TextureValue& value = find(*found, parameters, true);
     notes_.count("numbers by a picture, shown as if it were half grey all over", value.picture ? 1 : 0);
     return value.color.x * (value.picture ? number_of_picture : 1);
   }

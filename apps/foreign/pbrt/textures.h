@@ -33,6 +33,9 @@ class Textures {
   /// A parameter's colour, by texture or by itself. Throws core::InputError for a texture that nobody has defined before.
   TextureValue color(const Parameters& parameters, const char* name, const core::Vec3d& fallback, SpectrumUse use) const;
   std::optional<TextureValue> color(const Parameters& parameters, const char* name, SpectrumUse use) const;
+  /// Whether some show a picture of a file.
+  bool have_files() const { return have_files_; }
+
   /// A parameter's number; nothing where the statement has none.
   std::optional<double> number(const Parameters& parameters, const char* name) const;
 
@@ -41,14 +44,16 @@ class Textures {
   TextureValue part(const Parameters& parameters, const char* name, double fallback, bool is_number) const;
   TextureValue scaled(const Parameters& parameters, bool is_number);
   TextureValue mixed(const Parameters& parameters, bool is_number);
+  TextureValue dotted(const Parameters& parameters, bool is_number);
   TextureValue checkered(const Parameters& parameters, bool is_number);
   TextureValue pictured(const Parameters& parameters);
-  void place(const Parameters& parameters, TextureValue& value);
+  void place(const Parameters& parameters, TextureValue& value, double span = 1);
   const TextureValue& find(const Parameter& parameter, const Parameters& owner, bool is_number) const;
 
   Notes& notes_;
   std::vector<MadePicture>& pictures_;
   std::map<std::string, TextureValue> colors_, numbers_;
+  bool have_files_ = false;
 };
 
 }  // namespace dmpc::apps::pbrt

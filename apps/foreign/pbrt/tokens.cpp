@@ -6,6 +6,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/unpacked.h"
+#include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::pbrt {
@@ -100,6 +101,31 @@ void Tokens::include(const std::string& name, const Place& from) {
     const std::string text = error.what();
     throw text.starts_with(text_of(from)) ? error : core::InputError(text_of(from) + ": " + text);
   }
+}
+
+const std::vector<double>& Tokens::numbers_of(const std::string& name, const Place& from) {
+  const auto [known, is_new] = numbers_.try_emplace(name);
+  if (!is_new) {
+    return known->second;
+  }
+  Source source;
+  try {
+    source.bytes = std::make_unique<SourceText>(path_of(name), files_);
+  } catch (const core::InputError& error) {
+    fail(from, "the spectrum \"" + clipped(name, 60) + "\" is none that pbrt-v4 names, and no file of numbers: " + error.what());
+  }
+  source.rest = source.bytes->text();
+  while (skip_blanks(source)) {
+    const std::string_view word = source.rest.substr(0, source.rest.find_first_of(white));
+    const auto value = decimal_number(word);
+    if (!value) {
+      fail(from, "the spectrum's file " + clipped(name, 60) + " has '" + clipped(std::string(word), 40) + "' in its line " +
+                     std::to_string(source.place.line) + ", expected a number");
+    }
+    known->second.push_back(*value);
+    advance(source, word.size());
+  }
+  return known->second;
 }
 
 void Tokens::advance(Source& source, std::size_t bytes) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -68,6 +69,9 @@ class Tokens {
   /// How many files are open: the first alone is 1. One that ends is closed when the word behind it is asked for.
   std::size_t level() const { return open_.size(); }
 
+  /// A file of numbers, as of a spectrum, where # begins a remark. Throws core::InputError at `from` for what is none.
+  const std::vector<double>& numbers_of(const std::string& name, const Place& from);
+
   /// A file's name beside the scene's first.
   std::string path_of(const std::string& name) const;
   /// core::InputError "scene.pbrt:120:7: WHAT (included from main.pbrt:8)".
@@ -101,6 +105,7 @@ class Tokens {
   std::vector<Opened> opened_;
   std::vector<Source> open_;
   std::set<std::string> known_;
+  std::map<std::string, std::vector<double>> numbers_;  ///< by name
   std::uint64_t bytes_of_files_ = 0, bytes_read_ = 0, next_shown_ = 0;
   Token next_;
   bool has_next_ = false;

@@ -29,4 +29,20 @@ TEST_CASE("cones are as wide as pixels where there is a texture, half as wide wh
   CHECK(render_settings(picture, laid, core::build_database(laid, {})).shade.pixel_share == 0);
 }
 
+TEST_CASE(
+    "bounces are those that the scene's file says, unless they are asked for, or there are none by what transport there is") {
+  core::Scene scene;
+  PictureOptions picture{.scene = "a.pbrt"};
+  picture.transport.kind = core::TransportKind::paths;
+  picture.depth = picture.transport.depth();
+  CHECK(depth_of(picture, scene) == 9);
+  scene.bounces = 4;
+  CHECK(depth_of(picture, scene) == 5);
+  picture.transport.are_bounces_unasked = false;
+  CHECK(depth_of(picture, scene) == 9);
+  picture.transport = {};
+  picture.depth = 3;
+  CHECK(depth_of(picture, scene) == 3);
+}
+
 }  // namespace dmpc::apps::picture_options_test

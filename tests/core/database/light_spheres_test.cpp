@@ -66,6 +66,16 @@ TEST_CASE("lights of a radius that is nothing beside the scene stay points, and 
   }
 }
 
+TEST_CASE("a light that falls off lights as it did as a sphere, and one in a cone stays a point") {
+  PointLight falling{{0, 0, 4}, {2, 2, 2}, true}, spot{{0, 0, 4}, {2, 2, 2}, true};
+  falling.falls_off_from = 0.01;
+  spot.cone = {.ahead = {0, 0, -1}, .full_degrees = 5, .none_degrees = 10};
+  Scene scene = lit({falling, spot});
+  CHECK(make_lights_spheres(scene, 0.5) == 1);
+  CHECK(scene.lights.at(0).cone.none_degrees == 10);
+  CHECK(scene.materials[scene.objects[1].material].emission.x == 8);  // pi L r^2 is the intensity, pi times the colour
+}
+
 TEST_CASE("without objects lights stay points") {
   Scene scene;
   scene.lights = {{.position = {1, 2, 3}}};

@@ -29,6 +29,7 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
   if (setting.is_by_paths()) {
     picture.refinement.kind = core::ErrorKind::noise;
     picture.transport.bounces = *setting.bounces;
+    picture.transport.are_bounces_unasked = false;
     picture.transport.emitters = setting.emitters;
     picture.depth = picture.transport.depth();
   }

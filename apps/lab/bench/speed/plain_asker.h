@@ -61,7 +61,8 @@ core::Color PlainAsker::lights_on(const PlainSurface& surface, const Shown& show
       continue;
     }
     const float scale = 1 / length(towards);
-    const core::Color brought = light.intensity * shown(towards, scale, across * scale);
+    const double share = core::share_of(light.spread, core::Vec3d(towards) * double{scale}, 1 / double{scale});
+    const core::Color brought = light.intensity * shown(towards, scale, across * scale) * static_cast<float>(share);
     if (!(brought == core::Color{}) && !is_blocked(plain_start(surface, towards), light.position)) {
       sum = sum + brought;
     }

@@ -108,7 +108,8 @@ AccurateScene accurate_scene(const core::Scene& scene) {
   result.has_emission = std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const core::Material& material) { return !(material.emission == Vec3d{}); });
   for (const core::PointLight& light : scene.lights) {
-    result.lights.push_back({light.position, core::intensity_of(light, scene)});
+    result.lights.push_back(
+        {light.position, core::intensity_of(light, scene), core::spread_of(light.cone, light.falls_off_from > 0)});
   }
   for (std::uint32_t index = 0; index < scene.objects.size(); ++index) {
     add_object(result, scene, index);

@@ -15,6 +15,7 @@ namespace dmpc::apps {
 struct AccurateLight {
   core::Vec3d position;
   core::Vec3d intensity;
+  core::LightSpread spread;  ///< as rounded as the product has it
 };
 
 /// What paths aim at, and how likely.

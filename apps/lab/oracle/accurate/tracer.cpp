@@ -276,7 +276,9 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
   for (std::uint32_t index = 0; index < scene_.lights.size(); ++index) {
     const AccurateLight& light = scene_.lights[index];
     const Vec3d towards = light.position - touch.surface.point;
-    const double distance = length(towards), cosine = distance > 0 ? dot(towards, touch.normal) / distance : 0;
+    const double distance = length(towards);
+    const double share = distance > 0 ? core::share_of(light.spread, towards * (1 / distance), distance) : 0;
+    const double cosine = share > 0 ? dot(towards, touch.normal) / distance : 0;
     if (!(cosine > 0) && options_.convention == core::Convention::haines) {
       continue;
     }
@@ -288,11 +290,12 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
     ray.weight = {};
     if (cosine > 0 && touch.has_facets) {
       ray.weight =
-          touch.ray.weight * light.intensity * touch.facets().response(towards * (1 / distance)).value * std::numbers::pi;
+          touch.ray.weight * light.intensity * share * touch.facets().response(towards * (1 / distance)).value * std::numbers::pi;
     } else if (cosine > 0) {
       const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
       const double highlight = touch.specular == Vec3d{} ? 0 : std::pow(lobe, touch.material.shine);
-      ray.weight = touch.ray.weight * light.intensity * (touch.color * (touch.diffuse * cosine) + touch.specular * highlight);
+      ray.weight =
+          touch.ray.weight * light.intensity * share * (touch.color * (touch.diffuse * cosine) + touch.specular * highlight);
     }
     if (options_.convention == core::Convention::paper || !brings_nothing(ray)) {
       rays.push_back(ray);

@@ -70,6 +70,20 @@ TEST_CASE("transforms stand before what comes behind them, in double precision")
   CHECK(put("ActiveTransform EndTime Translate 9 9 9 ActiveTransform All Translate 0.1 0.2 0") == Vec3d{1.1, 2.2, 3});
 }
 
+TEST_CASE("what is said between TransformBegin and TransformEnd ends there, as with attributes") {
+  const std::string red = "Material \"diffuse\" \"rgb reflectance\" [1 0 0]\n";
+  for (const std::string name : {"Transform", "Attribute"}) {
+    const MeshFile file =
+        read_pbrt(name + "Begin " + red + "ReverseOrientation AreaLightSource \"diffuse\" ActiveTransform EndTime " + name +
+                  "End Translate 1 2 3\n" + pbrt_triangle);
+    REQUIRE(file.scene.objects.size() == 1);
+    CHECK(tests::material_of_object(file, 0).color == Vec3d{0.5, 0.5, 0.5});
+    CHECK(!tests::material_of_object(file, 0).shines());
+    CHECK(file.scene.vertices[0] == Vec3d{1, 2, 3});
+    CHECK(file.scene.vertices[1] == Vec3d{2, 2, 3});
+  }
+}
+
 TEST_CASE("coordinates that are left-handed have x turned round, and triangles look to the side that they did") {
   const std::string left = "LookAt 0 0 10  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n";
   const MeshFile file = read_mesh("a.pbrt", left + pbrt_triangle);
@@ -93,6 +107,13 @@ TEST_CASE("an object stands wherever it is named, its own transform behind the i
   CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\""), "no object \"o\" is there"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectInstance \"o\""), "stands within an object"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectBegin \"p\""), "within another object"));
+}
+
+TEST_CASE("an object may be named before it begins") {
+  const MeshFile file = read_pbrt("Translate 0 0 5 ObjectInstance \"o\" AttributeBegin ObjectBegin \"o\" Translate 1 0 0\n" +
+                                  pbrt_triangle + "ObjectEnd AttributeEnd ObjectInstance \"o\"\n");
+  REQUIRE(file.scene.objects.size() == 2);
+  CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\"\n" + pbrt_triangle), "6:1: no object \"o\" is there"));
 }
 
 TEST_CASE("what is large and stands in several places is kept as a mesh, turned round or not, beside what is round there") {
@@ -135,12 +156,46 @@ TEST_CASE("what is said of shapes by Attribute holds for those that do not say i
   CHECK(file.scene.spheres[2].radius == 1);
 }
 
+TEST_CASE("of parameters that are said twice the last counts, whatever says it, and nothing is said of the first") {
+  const MeshFile lamp =
+      read_pbrt("AreaLightSource \"diffuse\" \"rgb L\" [1 0 0] \"bool twosided\" true \"rgb L\" [0 1 0]\n" + pbrt_triangle);
+  CHECK(tests::material_of_object(lamp, 0).emission == Vec3d{0, 1, 0});
+  CHECK(!notes(lamp, "\"L\""));
+  const std::string texture = "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0]\n";
+  const auto color = [&](const std::string& said) {
+    return tests::material_of_object(read_pbrt(texture + "Material \"diffuse\" " + said + "\n" + pbrt_triangle), 0).color;
+  };
+  CHECK(color("\"texture reflectance\" \"t\" \"rgb reflectance\" [0 0 1]") == Vec3d{0, 0, 1});
+  CHECK(color("\"rgb reflectance\" [0 0 1] \"texture reflectance\" \"t\"") == Vec3d{1, 0, 0});
+  const MeshFile attributes = read_pbrt(
+      "Attribute \"material\" \"rgb reflectance\" [1 0 0] \"rgb reflectance\" [0 1 0]\n"
+      "Material \"diffuse\"\n" +
+      pbrt_triangle);
+  CHECK(tests::material_of_object(attributes, 0).color == Vec3d{0, 1, 0});
+}
+
 TEST_CASE("text may have remarks, lines that end by two bytes, a mark in front, and no end of its last line") {
   const std::string text =
       "\xef\xbb\xbf# Stra\xc3\x9f"
       "e\r\n" +
       pbrt_camera + "# a remark [ \" \r\nShape \"trianglemesh\"\r\n\"point3 P\" [0 0 0 1 0 0 0 1 0]";
   CHECK(read_mesh("a.pbrt", text).scene.objects.size() == 1);
+}
+
+TEST_CASE("an integrator's depth is that of paths, whose bounces are one fewer, and other integrators are said") {
+  const auto read = [](const std::string& integrator) {
+    return read_mesh("a.pbrt", integrator + " WorldBegin " + pbrt_triangle);
+  };
+  CHECK(read("").scene.bounces == 4);
+  CHECK(read("Integrator \"path\"").scene.bounces == 4);
+  CHECK(read("Integrator \"bdpt\" \"integer maxdepth\" 65").scene.bounces == 64);
+  CHECK(read("Integrator \"volpath\" \"integer maxdepth\" 1").scene.bounces == 0);
+  CHECK(notes(read("Integrator \"volpath\" \"integer maxdepth\" 0"), "maxdepth is 0, shown with 0 bounces"));
+  CHECK(notes(read("Integrator \"path\" \"integer maxdepth\" 1000"), "maxdepth is 1000, shown with 253 bounces"));
+  CHECK(notes(read("Integrator \"ambientocclusion\""), "--occlusion=DISTANCE"));
+  CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Integrator \"whitted\""), "no integrator of kind 'whitted'"));
+  CHECK(notes(read("Sampler \"halton\" \"integer pixelsamples\" 128"), "128 samples a pixel: --samples=128"));
+  CHECK(notes(read("Sampler \"stratified\" \"integer xsamples\" 8 \"integer ysamples\" 2"), "16 samples a pixel"));
 }
 
 TEST_CASE("errors say file, line and column") {
@@ -163,7 +218,7 @@ TEST_CASE("errors say file, line and column") {
   CHECK(tests::contains(pbrt_refusal("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]"), "makes lines meet"));
   CHECK(tests::contains(pbrt_refusal("AttributeBegin"), "what begins here is not ended"));
   CHECK(tests::contains(pbrt_refusal("AttributeEnd"), "ends what has not begun"));
-  CHECK(tests::contains(pbrt_refusal("AttributeBegin TransformEnd"), "ends what has not begun, within what begins at"));
+  CHECK(tests::contains(pbrt_refusal("AttributeBegin ObjectEnd"), "ends what has not begun, within what begins at"));
   CHECK(tests::contains(pbrt_refusal(std::string("\x01", 1)), "a byte that no text has, 1"));
   CHECK(tests::contains(pbrt_refusal("NamedMaterial \"m\"\n" + pbrt_triangle), "6:1: the material \"m\" is not there"));
   CHECK(tests::contains(pbrt_refusal("] ["), "\"]\" is no statement"));
