@@ -100,7 +100,7 @@ RenderOptions options_of(const DueFrame& frame, const Subject& subject) {
   RenderOptions options = frame.options;
   options.database.build = subject.built;
   options.picture.depth = subject.settings.shade.depth_max;
-  if (options.picture.transport.is_by_paths() && !options.picture.transport.occlusion) {
+  if (options.picture.transport.is_by_paths()) {
     options.picture.transport.bounces = options.picture.depth - 1;
   }
   return options;

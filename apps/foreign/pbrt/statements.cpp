@@ -486,7 +486,7 @@ void Statements::integrator(const Token& name) {
                       kind == "mlt" || kind == "sppm" || kind == "lightpath" || kind == "randomwalk";
   if (kind == "ambientocclusion" || kind == "function") {
     file_.notes.push_back("the integrator \"" + kind + "\" shows something else than light, shown by paths" +
-                          (kind == "function" ? "" : "; --occlusion=DISTANCE shows what it does"));
+                          (kind == "function" ? "" : "; --sky=1 --bounces=0 shows what is near much as it does"));
   } else if (!is_one) {
     all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }

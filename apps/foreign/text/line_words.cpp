@@ -68,6 +68,9 @@ bool LineWords::is_at_remark() const {
   return rules_.remark != '\0' && text_[at_] == rules_.remark && (at_ == 0 || text_[at_ - 1] != '.');
 }
 
+/// Of a file, whose end may be far: each byte is a word of its own.
+bool LineWords::is_in_hole() const { return !rules_.are_one && at_ < text_.size() && text_[at_] == '\0'; }
+
 void LineWords::skip_line_end() {
   at_ += text_.substr(at_, 2) == "\r\n" ? 2 : 1;
   ++line_;
@@ -95,12 +98,11 @@ void LineWords::skip_to_word() {
 std::string_view LineWords::next_in_line() {
   skip_to_word();
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_]) && !is_at_remark() && !is_at_join()) {
-    if (text_[at_] == '\0' && !rules_.are_one) {  // of a hole in a file, whose end may be far
-      fail("expected text, found byte 0; write the file anew");
-    }
+  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_]) && !is_in_hole() && !is_at_remark() &&
+         !is_at_join()) {
     ++at_;
   }
+  at_ += at_ == begin && is_in_hole() ? 1 : 0;
   return text_.substr(begin, at_ - begin);
 }
 

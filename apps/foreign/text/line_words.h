@@ -30,7 +30,7 @@ class LineWords {
   explicit LineWords(std::string_view text, std::size_t first_line = 1, const WordRules& rules = one_line)
       : text_(text), line_(first_line), rules_(rules) {}
 
-  /// The next word; empty at the end of the text. Throws core::InputError for a byte 0, unless the text is one line.
+  /// The next word; empty at the end of the text.
   std::string_view next();
   /// The next word, if it stands in the line of the last one; else empty.
   std::string_view next_in_line();
@@ -56,6 +56,7 @@ class LineWords {
  private:
   bool is_at_join() const;
   bool is_at_remark() const;
+  bool is_in_hole() const;
   std::size_t end_of_line() const;
   void skip_blanks();
   void skip_to_word();

@@ -242,8 +242,8 @@ void add_options(OptionSet set, PrecisionOptions& options) {
   add_options(set, options.transport);
   set.check_in_the_end([set, &options] {
     check(set, options.transport);
-    if (options.transport.occlusion || (options.transport.sky && options.transport.sky->is_picture())) {
-      throw core::UsageError("--occlusion and a picture for --sky are not there in double: expected a sky of colours");
+    if (options.transport.sky && options.transport.sky->is_picture()) {
+      throw core::UsageError("a picture for --sky is not there in double: expected a sky of colours");
     }
   });
   add_options(set, options.table, TableExtras::none);

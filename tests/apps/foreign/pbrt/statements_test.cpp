@@ -192,7 +192,7 @@ TEST_CASE("an integrator's depth is that of paths, whose bounces are one fewer, 
   CHECK(read("Integrator \"volpath\" \"integer maxdepth\" 1").scene.bounces == 0);
   CHECK(notes(read("Integrator \"volpath\" \"integer maxdepth\" 0"), "maxdepth is 0, shown with 0 bounces"));
   CHECK(notes(read("Integrator \"path\" \"integer maxdepth\" 1000"), "maxdepth is 1000, shown with 253 bounces"));
-  CHECK(notes(read("Integrator \"ambientocclusion\""), "--occlusion=DISTANCE"));
+  CHECK(notes(read("Integrator \"ambientocclusion\""), "--sky=1 --bounces=0"));
   CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Integrator \"whitted\""), "no integrator of kind 'whitted'"));
   CHECK(notes(read("Sampler \"halton\" \"integer pixelsamples\" 128"), "128 samples a pixel: --samples=128"));
   CHECK(notes(read("Sampler \"stratified\" \"integer xsamples\" 8 \"integer ysamples\" 2"), "16 samples a pixel"));
