@@ -13,6 +13,26 @@ namespace {
 using core::RayKind;
 using core::Vec3d;
 
+/// Where a light's cone points, from the unit octahedron unfolded on a square: the corners are its lower half.
+Vec3d ahead_of(const core::LightSpread& spread) {
+  const double x = spread.ahead[0] / 32767.5 - 1, y = spread.ahead[1] / 32767.5 - 1, z = 1 - std::fabs(x) - std::fabs(y);
+  const Vec3d below{std::copysign(1 - std::fabs(y), x), std::copysign(1 - std::fabs(x), y), z};
+  return normalize(z < 0 ? below : Vec3d{x, y, z});
+}
+
+double cosine_of(std::uint16_t angle) { return std::cos((angle & 0x7fff) * (std::numbers::pi / 32767)); }
+
+/// What is left of a light, by what its record says of distance and cone: read here once more, as judges do.
+double left_of(const core::LightSpread& spread, const Vec3d& towards, double distance) {
+  const double near = spread.falls_off() ? 1 / (distance * distance) : 1;
+  if (!spread.is_cone()) {
+    return near;
+  }
+  const double cosine = -dot(towards, ahead_of(spread)), none = cosine_of(spread.none), full = cosine_of(spread.full);
+  const double t = cosine >= full ? 1 : cosine <= none ? 0 : (cosine - none) / (full - none);
+  return near * (spread.is_smooth() ? t * t * (3 - 2 * t) : t);
+}
+
 /// How far a secondary ray starts from its surface: of the body's coordinates and radius, as a point is computed to some 1e-16 of
 /// them. Nothing else in the scene, however large, moves a shadow.
 constexpr double gap = 1e-13;
@@ -277,7 +297,7 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
     const AccurateLight& light = scene_.lights[index];
     const Vec3d towards = light.position - touch.surface.point;
     const double distance = length(towards);
-    const double share = distance > 0 ? core::share_of(light.spread, towards * (1 / distance), distance) : 0;
+    const double share = distance > 0 ? left_of(light.spread, towards * (1 / distance), distance) : 0;
     const double cosine = share > 0 ? dot(towards, touch.normal) / distance : 0;
     if (!(cosine > 0) && options_.convention == core::Convention::haines) {
       continue;
