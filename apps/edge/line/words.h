@@ -22,7 +22,7 @@ inline std::vector<std::string> lines_of(std::string_view text) {
 }
 
 /// All of the words, or what `text_of` has of them, with `between` between them.
-template <class Words, class TextOf = std::identity>
+template <class Words = std::vector<std::string>, class TextOf = std::identity>
 std::string joined(const Words& words, const std::string& between, const TextOf& text_of = {}) {
   std::string text;
   for (const auto& word : words) {

@@ -142,7 +142,7 @@ bool GeometryWriter::has_area_in(const core::SharedMesh& mesh, const core::Trans
 
 /// Vertices may be anything where no face has them: they become one that a face has.
 void GeometryWriter::settle_vertices(PolygonMesh& mesh) {
-  if (std::ranges::all_of(mesh.vertices, is_usable)) {
+  if (std::ranges::all_of(mesh.vertices, [](const Vec3d& vertex) { return is_in_reach(vertex); })) {
     return;
   }
   std::vector<bool> is_seen(mesh.vertices.size());
@@ -150,7 +150,7 @@ void GeometryWriter::settle_vertices(PolygonMesh& mesh) {
     is_seen[corner] = true;
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (is_usable(mesh.vertices[i])) {
+    if (is_in_reach(mesh.vertices[i])) {
       continue;
     }
     const std::string name = mesh.name + ": vertex " + std::to_string(i);

@@ -179,7 +179,7 @@ void Parser::keep_stray(Named what, std::size_t count, const LineWords& words) {
 }
 
 void Parser::judge_strays() {
-  const std::array<const std::vector<std::uint32_t>*, named_count> lists{&result_.faces.vertices, &result_.faces.places,
+  const std::array<const std::vector<std::uint32_t>*, named_count> lists{&result_.faces.corners, &result_.faces.places,
                                                                          &result_.faces.normals};
   const std::array<const char*, named_count> names{"vertices", "texture coordinates", "normals"};
   for (std::size_t kind = 0; kind < named_count; ++kind) {
