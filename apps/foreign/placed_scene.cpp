@@ -269,7 +269,8 @@ class PlacedScene {
         writer.strays());
   }
 
-  /// A frame of an animation may show nothing, and a sky may be all there is; the view of a whole that is but a point is one of unit size.
+  /// A frame of an animation may show nothing, and a sky may be all there is; the view of a whole that is but a point is one of
+  /// unit size.
   void settle_empty(bool has_area) {
     const bool is_sky_alone = file_.places.empty() && (file_.background != Vec3d{} || !file_.skies.empty());
     if (!has_area && !is_sky_alone && (file_.shapes.empty() || !options_.animation)) {

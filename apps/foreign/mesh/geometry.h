@@ -47,8 +47,8 @@ class GeometryWriter {
       : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
   /// `materials`: of which its faces name some; one without places loses its texture. Throws core::InputError with the mesh's
-  /// name for a corner's coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too
-  /// many corners.
+  /// name for a corner's coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon
+  /// with too many corners.
   void add(PolygonMesh mesh, std::span<const FileMaterial> materials);
 
   /// Adds a mesh in coordinates of its own, which stands nowhere yet. Returns what place() calls it; nothing if it has no faces.

@@ -28,8 +28,9 @@ struct Precision {
 };
 
 /// Renders `scene` in float, as every strategy does to the last bit, and in double with the same samples; judges every pixel that
-/// differs in 8 bits; by paths, which rounding leads elsewhere, all of them by their mean. Uses all cores; the same for every number of them. `picture` asks for one sample a pixel. Progress counts
-/// rows of the accurate picture. Throws Interrupted when a stop is requested.
+/// differs in 8 bits; by paths, which rounding leads elsewhere, all of them by their mean. Uses all cores; the same for every
+/// number of them. `picture` asks for one sample a pixel. Progress counts rows of the accurate picture. Throws Interrupted when a
+/// stop is requested.
 Precision measure_precision(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance = {});
 
 }  // namespace dmpc::apps
