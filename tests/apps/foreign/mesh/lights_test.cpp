@@ -6,6 +6,7 @@
 
 #include "apps/formats/mesh_file.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -171,7 +172,7 @@ TEST_CASE("what shines with more than 1e12 is brought down to that in all format
   for (const char* const name : {"a.obj", "a.gltf", "a.pbrt"}) {
     CAPTURE(name);
     const MeshFile file = read_mesh_file(folder / name, {.is_by_paths = true});
-    CHECK(says(file, "materials that shine with more than 1e12, the brightest light there is, brought down to it: 1"));
+    CHECK(tests::notes(file, "materials that shine with more than 1e12, the brightest light there is, brought down to it: 1"));
     const Vec3d light = file.scene.materials.at(file.scene.objects.at(0).material).emission;
     CHECK(light.x == Approx(1e12).epsilon(1e-12));
     CHECK(light.y == Approx(5e11).epsilon(1e-12));
