@@ -107,7 +107,8 @@ bool is_refused(const std::function<void(core::Scene&)>& spoil) {
 std::string head_of(std::uint64_t materials) {
   const core::Scene scene = three_triangles();
   Packer head;
-  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding).add(materials);
+  constexpr int no_bounces = -1;
+  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding).add(no_bounces).add(materials);
   for (int pool = 1; pool < 8; ++pool) {
     head.add(std::uint64_t{1});
   }
