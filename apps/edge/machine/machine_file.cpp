@@ -278,9 +278,9 @@ std::string read_text(const std::string& path) {
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
   } catch (const core::InputError& error) {
-    const std::string meant = name_meant(path);
-    throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
-                           ") nor a file that can be read: " + error.what() + (meant.empty() ? "" : ".") + meant);
+    const std::string meant = name_meant(path), what = error.what(), named = path + ": ";
+    throw core::InputError(named + "this is neither a machine (" + machine_preset_names() + ") nor a file that can be read: it " +
+                           what.substr(what.starts_with(named) ? named.size() : 0) + (meant.empty() ? "" : ".") + meant);
   }
   if (text.size() > file_bytes_max) {
     throw core::InputError(path + ": a machine file has 1 MiB at most");

@@ -256,10 +256,18 @@ TEST_CASE("a checkpoint of a frame that is there is removed, and that of another
   CHECK_FALSE(fs::exists(folder / "c"));
 }
 
-TEST_CASE("a frame of which nothing is left shows the background, as the frames behind it do") {
+TEST_CASE("a frame of which nothing is left shows the background, as the frames behind it do, unless its camera goes, too") {
   const TemporaryFolder folder;
   write_text(folder / "a.gltf", moved_by({.node = 0, .path = "scale", .values = {1, 1, 1, 0, 0, 0}}, "0,0,3", true));
-  const Said said = render(folder, {"--frames=4", "--animation", "--fps=1", "-o", "@a.#.png"});
+  std::vector<std::string> words = {"--frames=4", "--animation", "--fps=1", "-o", "@a.#.png"};
+  const Said blind = render(folder, words);
+  CHECK(blind.status == 1);
+  CHECK_MESSAGE(contains(blind.errors, "frame 3: "), blind.errors);
+  CHECK(contains(blind.errors, "presses it flat, so that it sees nothing"));
+  CHECK(fs::exists(folder / "a.2.png"));
+  CHECK_FALSE(fs::exists(folder / "a.3.png"));
+  words.emplace_back("--camera=0,0,30/0,0,0/0,1,0");
+  const Said said = render(folder, words);
   CHECK_MESSAGE(said.status == 0, said.errors);
   CHECK(file_text(folder / "a.2.png") != file_text(folder / "a.3.png"));
   CHECK(file_text(folder / "a.3.png") == file_text(folder / "a.4.png"));

@@ -199,8 +199,11 @@ std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {
   std::vector<std::string> words = {"render", settings.scene};
   words.insert(words.end(), settings.fixed.begin(), settings.fixed.end());
   // What a picture takes is what is swept, so a mesh file is shown as other scenes are, unless something is said of that.
-  if (is_mesh(settings.scene) && !gives_any(settings, {"--samples", "--quality", "--transport"})) {
-    words.emplace_back(gives_any(settings, {"--error"}) ? "--transport=whitted" : "--samples=1");
+  if (is_mesh(settings.scene) && !gives_any(settings, {"--transport"})) {
+    words.emplace_back("--transport=whitted");
+    if (!gives_any(settings, {"--samples", "--quality", "--error"})) {
+      words.emplace_back("--samples=1");
+    }
   }
   std::vector<SweepRun> runs = {{.values = {}, .words = words, .options = {}}};
   for (const VariedOption& variation : settings.variations) {

@@ -259,7 +259,7 @@ TEST_CASE("what is no number is left out and said where no face has it, and else
   CHECK(notes(file, "texture coordinates of what is no number, left out as no face has them (the first in line 8): 1"));
   CHECK(tests::contains(refusal(coloured + "v 1 2 0 nan nan nan\nf 1 2 5\n"), "line 5: expected a number"));
   CHECK(tests::contains(refusal(square + "vn 0 0 nan\nf 1//1 2//1 3//1\n"), "line 5: expected a number"));
-  CHECK(tests::contains(refusal(square + "v 1 2 0x\n" + face), "line 5: expected a number, found '0x'"));
+  CHECK(tests::contains(refusal(square + "v 1 2 0x\n" + face), "line 5: found '0x', expected a number"));
 }
 
 }  // namespace dmpc::apps::obj_reader_test

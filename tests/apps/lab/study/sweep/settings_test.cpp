@@ -58,7 +58,8 @@ TEST_CASE("a run is a line of render: its scene, what all have, what varies, and
 TEST_CASE("a mesh file that is swept has one ray a pixel, unless something is said of that") {
   SweepSettings mesh = varying({"nodes:2"});
   mesh.scene = "a.glb";
-  CHECK(apps::sweep_runs(mesh)[0].words == std::vector<std::string>{"render", "a.glb", "--samples=1", "--nodes=2"});
+  CHECK(apps::sweep_runs(mesh)[0].words ==
+        std::vector<std::string>{"render", "a.glb", "--transport=whitted", "--samples=1", "--nodes=2"});
   CHECK_FALSE(apps::sweep_runs(mesh)[0].options.picture.transport.is_by_paths());
   mesh.fixed = {"--transport=paths"};
   CHECK(apps::sweep_runs(mesh)[0].words == std::vector<std::string>{"render", "a.glb", "--transport=paths", "--nodes=2"});
