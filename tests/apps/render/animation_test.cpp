@@ -266,11 +266,12 @@ TEST_CASE("a frame of which nothing is left shows the background, as the frames 
   CHECK(contains(blind.errors, "presses it flat, so that it sees nothing"));
   CHECK(fs::exists(folder / "a.2.png"));
   CHECK_FALSE(fs::exists(folder / "a.3.png"));
+  words.back() = "@b.#.png";
   words.emplace_back("--camera=0,0,30/0,0,0/0,1,0");
   const Said said = render(folder, words);
   CHECK_MESSAGE(said.status == 0, said.errors);
-  CHECK(file_text(folder / "a.2.png") != file_text(folder / "a.3.png"));
-  CHECK(file_text(folder / "a.3.png") == file_text(folder / "a.4.png"));
+  CHECK(file_text(folder / "b.2.png") != file_text(folder / "b.3.png"));
+  CHECK(file_text(folder / "b.3.png") == file_text(folder / "b.4.png"));
 }
 
 TEST_CASE("what an animation cannot do is refused, and says what can be done") {
