@@ -70,21 +70,20 @@ void open_input_file(InputFile& file) {
 
 std::uint64_t bytes_without_holes(const Descriptor& file, std::uint64_t bytes) {
   constexpr int pieces_max = 1000;  // of a file that is more of a sieve the rest counts as it is
-  std::uint64_t count = 0, at = 0;
+  std::uint64_t holes = 0, at = 0;
   for (int piece = 0; piece < pieces_max && at < bytes; ++piece) {
-    const off_t begin = ::lseek(file.number(), static_cast<off_t>(at), SEEK_DATA);
-    if (begin < 0) {
-      return errno == ENXIO ? count : bytes;
+    const off_t data = ::lseek(file.number(), static_cast<off_t>(at), SEEK_DATA);
+    if (data < 0 && errno != ENXIO) {
+      holes = 0;  // a file system that does not tell
+      break;
     }
-    const off_t end = ::lseek(file.number(), begin, SEEK_HOLE);
-    if (end < 0) {
-      return bytes;
-    }
-    count += static_cast<std::uint64_t>(end - begin);
-    at = static_cast<std::uint64_t>(end);
+    const std::uint64_t begin = data < 0 ? bytes : static_cast<std::uint64_t>(data);
+    holes += begin - at;
+    const off_t end = data < 0 ? -1 : ::lseek(file.number(), data, SEEK_HOLE);
+    at = end < 0 ? bytes : static_cast<std::uint64_t>(end);
   }
   ::lseek(file.number(), 0, SEEK_SET);
-  return count + (bytes - std::min(at, bytes));
+  return bytes - std::min(holes, bytes);
 }
 
 }  // namespace dmpc::apps

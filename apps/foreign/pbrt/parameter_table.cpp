@@ -142,6 +142,13 @@ std::size_t place_of(char letter, std::string_view text) {
   return at;
 }
 
+/// Null if there is none.
+const ParameterRow* find_row(std::string_view statement, std::string_view kind) {
+  const auto* const row = std::find_if(table.begin(), table.end(),
+                                       [&](const ParameterRow& one) { return one.statement == statement && one.kind == kind; });
+  return row == table.end() ? nullptr : row;
+}
+
 bool has(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     if (next_of(list).name == name) {
@@ -163,10 +170,11 @@ ListedParameter next_of(std::string_view& list) {
   return {both.substr(0, blank), both.substr(std::min(blank + 1, both.size()))};
 }
 
+bool has_row(std::string_view statement, std::string_view kind) { return find_row(statement, kind) != nullptr; }
+
 ParameterFate fate_of(std::string_view statement, std::string_view kind, std::string_view name) {
-  const auto row = std::find_if(table.begin(), table.end(),
-                                [&](const ParameterRow& one) { return one.statement == statement && one.kind == kind; });
-  if (row == table.end()) {
+  const ParameterRow* const row = find_row(statement, kind);
+  if (row == nullptr) {
     return ParameterFate::unknown;
   }
   return has(row->used, name)     ? ParameterFate::used

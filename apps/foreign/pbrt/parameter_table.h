@@ -16,6 +16,8 @@ struct ParameterRow {
   std::string_view silent;  ///< how pbrt renders, or what other words of ours are said of already: no picture of ours is another
 };
 std::span<const ParameterRow> parameter_table();
+/// Whether pbrt-v4 has such a statement of this kind.
+bool has_row(std::string_view statement, std::string_view kind);
 
 enum class ParameterFate : std::uint8_t { used, said, silent, unknown };
 ParameterFate fate_of(std::string_view statement, std::string_view kind, std::string_view name);

@@ -482,13 +482,12 @@ void Statements::integrator(const Token& name) {
     file_.notes.push_back("the integrator's maxdepth is " + std::to_string(depth) + ", shown with " +
                           counted(static_cast<std::uint64_t>(*file_.bounces), "bounce"));
   }
-  const bool is_one = kind == "path" || kind == "volpath" || kind == "simplepath" || kind == "simplevolpath" || kind == "bdpt" ||
-                      kind == "mlt" || kind == "sppm" || kind == "lightpath" || kind == "randomwalk";
+  if (!has_row(name.text, kind)) {
+    all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+  }
   if (kind == "ambientocclusion" || kind == "function") {
     file_.notes.push_back("the integrator \"" + kind + "\" shows something else than light, shown by paths" +
                           (kind == "function" ? "" : "; --sky=1 --bounces=0 shows what is near much as it does"));
-  } else if (!is_one) {
-    all.fail("there is no integrator of kind '" + clipped(kind, 40) + "' in pbrt-v4");
   }
   finish(all, name.text, kind);
 }
