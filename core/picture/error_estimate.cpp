@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
@@ -57,6 +58,20 @@ Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, d
 std::array<float, 3> as_floats(const Vec3d& color) {
   return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
 }
+
+/// What some pixels that lie together show of the error of each.
+struct Surroundings {
+  double change = 0, weight = 0;
+  Box colors;
+
+  void add(const PixelPast& past, double share) {
+    change += share * double{past.change};
+    weight += share;
+    colors.include(vector_of(past.mean));
+  }
+  /// The square of what the darkest and the brightest of them differ by.
+  double contrast() const { return square_mean(colors.high - colors.low); }
+};
 
 /// Calls visit(pixel, share) for the pixel and those around it, as far as the picture goes; shares are those of a tent, 4 to 1.
 template <class Visit>
@@ -243,28 +258,26 @@ double ErrorEstimate::unmet_detail(std::uint32_t pixel, std::uint32_t samples) c
   return contrast_ * detail_->squares(pixel) * power(1 - detail_->coverage(pixel), samples);
 }
 
+/// Of noise a pixel's own samples say nothing of when it has enough: one that has met nothing bright so far would look good and
+/// stop, and pictures would be darker than they are. Its neighbours' samples are drawn apart from its own.
 double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
-  const bool is_detail = has_detail(pixel);
-  double variance = 0, weight = 0;
-  std::array<float, 3> darkest = past_[pixel].mean, brightest = darkest;
+  const bool is_detail = has_detail(pixel), counts_itself = kind_ == ErrorKind::edges;
+  Surroundings around;
   visit_around(pixel, width_, height_, [&](std::uint32_t near, double share) {
-    if (has_detail(near) != is_detail) {
-      return;
-    }
-    variance += share * double{past_[near].change};
-    weight += share;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      darkest[channel] = std::min(darkest[channel], past_[near].mean[channel]);
-      brightest[channel] = std::max(brightest[channel], past_[near].mean[channel]);
+    if (has_detail(near) == is_detail && (near != pixel || counts_itself)) {
+      around.add(past_[near], share);
     }
   });
-  variance /= fall(pixel);
+  if (around.weight == 0) {  // there is no other of its kind
+    around.add(past_[pixel], own_share);
+  }
+  double variance = around.change / fall(pixel), weight = around.weight;
   const double samples_spread = spread(film.samples(pixel));
   if (is_detail) {
     variance += own_share * detail_variance(pixel, film.samples(pixel)) * samples_spread;
     weight += own_share;
   }
-  return std::max(variance / weight, contrast_share * square_mean(vector_of(brightest) - vector_of(darkest))) / samples_spread;
+  return std::max(variance / weight, contrast_share * around.contrast()) / samples_spread;
 }
 
 double ErrorEstimate::square_error(const Film& film, std::uint32_t pixel) const {

@@ -46,7 +46,8 @@ double spread(std::uint32_t samples, ErrorKind kind = ErrorKind::edges);
 /// So many pixels as have got three quarters of their samples in a pass tell: (V(n) - V(4n)) / (V(2n) - V(4n)) is one more than
 /// that ratio, if it is the same for both doublings. One that outshines the others says little. One difference says little, and
 /// may be 0 by chance; so a pixel's variance is the mean over it and its neighbours, and at least what the contrast between them
-/// suggests.
+/// suggests. Of noise the pixel itself is left out of both: who stops by what he has seen is biased (D. Kirk, J. Arvo, "Unbiased
+/// Sampling Techniques for Image Synthesis", SIGGRAPH 1991).
 ///
 /// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours without. In the
 /// mean only those that have some count, and what the pixel's detail would make counts as much as the pixel itself; as long as it

@@ -25,6 +25,9 @@ constexpr double explored_share = 0.06;
 /// more where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a
 /// share.
 constexpr double explored_first_share = 0.03, explored_pixels = 16384, explored_error = 4.0 / 255, explored_share_max = 0.25;
+/// A promise that is worth less than the mean of those that are taken over this waits for the next pass, which knows more of it:
+/// where all were taken that a pass could, pixels that need no samples had most of them.
+constexpr double worth_of_waiting = 12;
 /// Promises that are worth the same are not all taken or all left.
 constexpr double worth_spread = 0.2;
 
@@ -41,13 +44,19 @@ class Refinement::Promises {
   static std::size_t bin_of(double worth) { return std::bit_cast<std::uint64_t>(worth) >> 47U; }
 
   void add(double worth, double less_error) { weights_[bin_of(worth)] += less_error; }
-  /// The highest bin above which, itself included, square errors become less by `sum`; 0 if all together do not.
+  /// The highest bin above which, itself included, square errors become less by `sum`, or whose next is worth too little.
   std::size_t threshold(double sum) const {
-    std::size_t bin = weights_.size();
-    while (bin > 0 && sum > 0) {
-      sum -= weights_[--bin];
+    std::size_t lowest = weights_.size();
+    double less_error = 0, samples = 0;
+    for (std::size_t bin = lowest; bin-- > 0 && less_error < sum;) {
+      const double worth = std::bit_cast<double>(std::uint64_t{bin} << 47U);
+      if (weights_[bin] > 0 && worth * samples * worth_of_waiting >= less_error) {
+        less_error += weights_[bin];
+        samples += weights_[bin] / worth;
+        lowest = bin;
+      }
     }
-    return bin;
+    return lowest;
   }
 
  private:

@@ -55,8 +55,8 @@ struct RefinementResult {
 ///
 /// Every pixel has the camera's samples or those doubled a number of times. Each doubling of a pixel's samples promises so much
 /// less error (ErrorEstimate) for so many samples: the best promises are taken, as many as are needed for the picture's estimate
-/// to come down to the error asked for, at once and for all levels. Besides, some of the pixels that look even, chosen by a hash,
-/// get four times their samples, for what they show of the others.
+/// to come down to the error asked for, at once and for all levels; those that are worth far less than the others wait. Besides,
+/// some of the pixels that look even, chosen by a hash, get four times their samples, for what they show of the others.
 class Refinement {
  public:
   /// `samples`: of every pixel in the first pass, which is under way from the start. Requires two, and a film of this size and

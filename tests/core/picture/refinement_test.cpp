@@ -174,6 +174,25 @@ TEST_CASE("one pass brings pixels of all levels as many samples as each of them 
   CHECK(refinement.pass().samples(29) == SampleRange{4, 12});
 }
 
+TEST_CASE("what is worth far less than the rest waits for the next pass, though all is needed") {
+  // Of every ten pixels one has an error, and another a fainter one.
+  const auto is_chosen = [](float faint) {
+    Film film(400, 1);
+    Refinement refinement({.error = 1e-4}, 2, 400, 1);
+    for (std::uint32_t pixel = 0; pixel < 400; pixel += 5) {
+      shine(film, pixel, pixel % 10 == 0 ? 1 : faint, 0);
+    }
+    CHECK(refinement.next_pass(film));
+    std::uint32_t chosen = 0;
+    for (std::uint32_t pixel = 5; pixel < 400; pixel += 10) {
+      chosen += refinement.pass().has(pixel) ? 1 : 0;
+    }
+    return chosen > 20;
+  };
+  CHECK(is_chosen(0.7F));
+  CHECK_FALSE(is_chosen(0.1F));
+}
+
 TEST_CASE("no pass goes beyond the samples a pixel may have, and twelve passes end any picture") {
   Film film(20, 20);
   Refinement refinement({.error = 1e-6, .samples_max = 32768}, 2, 20, 20);
