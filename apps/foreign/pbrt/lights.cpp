@@ -61,7 +61,7 @@ core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
   if (!(length(ahead) > 0 && length(ahead) < 1e30)) {
     parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
   }
-  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .is_smooth = true};
+  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .edge = core::ConeEdge::smooth};
 }
 
 void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, FileLightKind kind,

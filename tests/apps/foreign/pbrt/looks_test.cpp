@@ -262,7 +262,7 @@ TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
   CHECK(is_near(light.cone.ahead, {0, -1, 0}));
   CHECK(light.cone.full_degrees == 15);
   CHECK(light.cone.none_degrees == 20);
-  CHECK(light.cone.is_smooth);
+  CHECK(light.cone.edge == core::ConeEdge::smooth);
   CHECK(is_near(light.color * pi, {3, 3, 3}));
   const MeshFile strong = read_pbrt("LightSource \"spot\" \"float power\" 10\n" + pbrt_triangle, by_paths);
   const double full = std::cos(25 * pi / 180), none = std::cos(30 * pi / 180);
