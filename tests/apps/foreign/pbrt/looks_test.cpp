@@ -270,6 +270,20 @@ TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
   CHECK(tests::contains(pbrt_refusal("LightSource \"spot\" \"float coneangle\" 0"), "its cone ends at 0 degrees"));
 }
 
+// Over as many directions as a square of 90 degrees: a sixth of all, 1 - cos = 1/3.
+TEST_CASE("a projection shines in a cone of as many directions as its picture") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
+  const std::string light = "Rotate 90 1 0 0 LightSource \"projection\" \"string filename\" \"a.png\" ";
+  const MeshFile file = read_pbrt(pbrt_triangle + light + "\"float power\" 10\n", by_paths);
+  const core::LightCone& cone = file.scene.lights.at(0).cone;
+  CHECK(is_near(cone.ahead, {0, -1, 0}));
+  CHECK(cone.none_degrees == doctest::Approx(std::acos(2.0 / 3) * 180 / pi));
+  CHECK(cone.full_degrees == cone.none_degrees);
+  CHECK(is_near(file.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (4 * pi / 6))));
+  CHECK(notes(file, "lights of kind 'projection', which shine in a cone here, without their picture: 1"));
+  CHECK(tests::contains(pbrt_refusal(light + "\"float fov\" 180"), "its picture spans 180 degrees"));
+}
+
 TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as points") {
   const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
   const std::string lamp = pbrt_triangle + "AreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n";
