@@ -284,6 +284,38 @@ TEST_CASE("a projection shines in a cone of as many directions as its picture") 
   CHECK(tests::contains(pbrt_refusal(light + "\"float fov\" 180"), "its picture spans 180 degrees"));
 }
 
+// As in pbrt-v4, which makes pictures first, other textures of numbers and of colours in their order, and materials at last.
+TEST_CASE("materials name textures of any line, textures pictures of any line, and others those before them") {
+  const std::string grey = "Texture \"g\" \"spectrum\" \"constant\" \"rgb value\" [0.2 0.4 0.6]\n",
+                    twice = "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"g\" \"texture scale\" \"n\"\n",
+                    number = "Texture \"n\" \"float\" \"constant\" \"float value\" 0.5\n",
+                    named = "\"texture reflectance\" \"t\"\n";
+  CHECK(is_near(material_of("Material \"diffuse\" " + named + grey + twice + number).color, {0.1, 0.2, 0.3}));
+  CHECK(is_near(material_of("MakeNamedMaterial \"m\" \"string type\" \"diffuse\" " + named + "NamedMaterial \"m\"\n" + grey +
+                            twice + number)
+                    .color,
+                {0.1, 0.2, 0.3}));
+  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" " + named + twice + number + grey), "the texture \"g\" is not there"));
+  CHECK(tests::contains(pbrt_refusal(grey + grey), "there is a texture of this name already"));
+  CHECK(tests::contains(pbrt_refusal("MakeNamedMaterial \"m\" \"float roughness\" 0"), "has no \"string type\""));
+  CHECK(tests::contains(pbrt_refusal("Material \"matte\" \"texture Kd\" \"x\""), "is one of pbrt-v3"));
+}
+
+TEST_CASE("a picture of a later line lies on triangles that say no places as one of an earlier line does") {
+  const tests::TemporaryFolder folder;
+  write_image(folder / "grey.exr", Image(1, 1));
+  const std::string picture = "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.exr\"\n",
+                    twice = "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"w\" \"float scale\" 0.5\n",
+                    material = "Material \"diffuse\" \"texture reflectance\" \"t\"\n";
+  for (const std::string& text : {picture + twice + material + pbrt_triangle, twice + material + pbrt_triangle + picture}) {
+    tests::write_text(folder / "a.pbrt", tests::pbrt_camera + text);
+    const MeshFile file = read_mesh_file(folder / "a.pbrt");
+    REQUIRE(file.scene.objects.size() == 1);
+    CHECK(file.scene.objects[0].kind == core::ObjectKind::textured);
+    CHECK(tests::material_of_object(file, 0).texture != Material::no_texture);
+  }
+}
+
 TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as points") {
   const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
   const std::string lamp = pbrt_triangle + "AreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n";
