@@ -21,8 +21,8 @@ std::vector<core::PointLight> lights_of(const std::vector<FileLight>& lights, co
 /// A point or a spot that falls off with the square of the distance.
 core::PointLight falling(const FileLight& light, const BoundingSphere& bounds, double scale);
 
-/// By how much lights have to be weaker, at most 1, for half of these places to get no more of them than shows a white surface
-/// as 1, by the root of the sum of squares; wherever they are directed to.
+/// By how much lights have to be weaker, at most 1, for half of these places to get no more than a white surface shows as 1 of
+/// them, by the root of the sum of squares.
 double share_for(const std::vector<core::PointLight>& lights, const std::vector<core::Vec3d>& places);
 
 /// A distant light as a point far away.

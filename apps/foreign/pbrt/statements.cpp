@@ -554,8 +554,7 @@ void Statements::texture(const Token& name) {
   }
 }
 
-std::uint32_t Statements::announced_material(const std::optional<std::string>& material, const std::string& kind,
-                                             const Parameters& all) {
+std::uint32_t Statements::announced(const std::optional<std::string>& material, const std::string& kind, const Parameters& all) {
   const std::uint32_t number = surfaces_.announce(material, kind, all);
   const auto make = [this, number, kind, all] {
     surfaces_.make(number, kind, all);
@@ -571,13 +570,13 @@ std::uint32_t Statements::announced_material(const std::optional<std::string>& m
 
 void Statements::material(const Token& name) {
   const std::string kind = text(name, "its kind");
-  state_.surface = announced_material(std::nullopt, kind, parameters(kind, name, "material"));
+  state_.surface = announced(std::nullopt, kind, parameters(kind, name, "material"));
 }
 
 void Statements::make_named_material(const Token& name) {
   const std::string material = text(name, "its name");
   const Parameters all = parameters(material, name, "material");
-  announced_material(material, all.text("type", ""), all);
+  announced(material, all.text("type", ""), all);
 }
 
 void Statements::named_material(const Token& name) { state_.surface = surfaces_.named(text(name, "its name"), name.place); }

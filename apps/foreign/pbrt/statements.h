@@ -108,7 +108,7 @@ class Statements {
   void texture(const Token& name);
   void material(const Token& name);
   void make_named_material(const Token& name);
-  std::uint32_t announced_material(const std::optional<std::string>& material, const std::string& kind, const Parameters& all);
+  std::uint32_t announced(const std::optional<std::string>& material, const std::string& kind, const Parameters& all);
   void named_material(const Token& name);
   void area_light(const Token& name);
   void light(const Token& name);

@@ -338,7 +338,8 @@ TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as poin
 
 TEST_CASE("an area light of the material interface shines nowhere, named before or after") {
   const std::string light = "AreaLightSource \"diffuse\" \"bool twosided\" true\n", sphere = "Shape \"sphere\"\n";
-  for (const std::string interface : {"Material \"interface\"\n", "Material \"\"\n", "NamedMaterial \"air\"\n"}) {
+  for (const std::string interface :
+       {"Material \"interface\"\n", "Material \"\"\n", "Material \"none\"\n", "NamedMaterial \"air\"\n"}) {
     const MeshFile file =
         read_pbrt(sphere + interface + light + pbrt_triangle + "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n");
     CHECK(file.scene.objects.size() == 1);
