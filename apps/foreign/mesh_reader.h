@@ -18,6 +18,7 @@ struct MeshScene {
   IndexedVertices vertices;        ///< of the scene
   core::Instances instances;       ///< of what stands in several places, still to be expanded
   BoundingSphere bounds;           ///< of all of it, where an animation is asked for
+  double light_share = 1;          ///< likewise, of the file's own lights
   std::vector<FileSky> skies;      ///< pictures, which who has the files shows
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
 };

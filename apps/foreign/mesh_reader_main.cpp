@@ -46,7 +46,7 @@ void serve_mesh(const Message& request, Line& line) {
     line.send(Saying::note, Packer().add_text(note));
   }
   if (options.animation) {
-    line.send(Saying::bounds, Packer().add(mesh.bounds.center).add(mesh.bounds.radius));
+    line.send(Saying::bounds, Packer().add(mesh.bounds.center).add(mesh.bounds.radius).add(mesh.light_share));
   }
   for (const FileSky& sky : options.is_below_own_sky ? mesh.skies : std::vector<FileSky>()) {
     Packer fields_of_sky;

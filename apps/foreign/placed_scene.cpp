@@ -27,7 +27,6 @@ namespace {
 using core::Vec3d;
 
 constexpr double pi = std::numbers::pi;
-constexpr double light_share = 1.0 / 1000;
 
 Transform scaled(const Transform& world, double scale) {
   return {{{world.rows[0] * scale, world.rows[1] * scale, world.rows[2] * scale}}, world.shift * scale};
@@ -286,13 +285,14 @@ class PlacedScene {
       writer.leave_out();
       return;
     }
+    const Transform world = scaled(place.world, scale_);
+    note_places(shape.mesh.vertices, world);
     if (shape.uses > 1 && !shape.sphere && !shape.back && !options_.smooth_degrees && !shared_.contains(place.shape)) {
       PolygonMesh mesh = std::move(shape.mesh);
       shape.mesh.material = mesh.material;
       put_in_place(mesh, {}, 1, shape.is_turned, material);
       shared_.emplace(place.shape, writer.add_shared(std::move(mesh), file_.materials));
     }
-    const Transform world = scaled(place.world, scale_);
     if (const auto shared = shared_.find(place.shape); shared != shared_.end()) {
       if (shared->second) {
         writer.place(*shared->second, world);
@@ -312,6 +312,17 @@ class PlacedScene {
       backs_.back().material = *shape.back;
     }
     writer.add(std::move(mesh), file_.materials);
+  }
+
+  /// A few of each mesh where it comes first.
+  void note_places(const std::vector<Vec3d>& vertices, const Transform& world) {
+    constexpr std::size_t of_each = 8, most = 4096;
+    for (std::size_t i = 0; i < vertices.size() && lit_places_.size() < most; i += vertices.size() / of_each + 1) {
+      const Vec3d place = world.point(vertices[i]);
+      if (is_in_reach(place)) {
+        lit_places_.push_back(place);
+      }
+    }
   }
 
   /// In its own coordinates, of which nothing is left behind in its last place.
@@ -385,18 +396,42 @@ class PlacedScene {
   void add_lights() {
     if (file_.is_lit_whole) {
       add_physical_lights();
-      return;
+    } else {
+      add_other_lights();
     }
+    constexpr double most = 1e29;
+    for (const core::PointLight& light : result_.scene.lights) {
+      if (!(largest_component(light.color) < most) || !is_in_reach(light.position)) {
+        throw core::InputError("a light is too strong, or too far away; correct the file");
+      }
+    }
+  }
+
+  void add_other_lights() {
     core::Scene& scene = result_.scene;
     scene.background = plain_background;
     // By a sky, or, by paths, by what shines in it: other transports show that, but not what it lights.
     const bool is_lit_else =
         options_.is_below_sky || (options_.is_by_paths && std::ranges::any_of(scene.materials, &core::Material::shines));
     std::vector<std::string> unsaid;  // of lights that others are put in place of
-    scene.lights =
-        lights_of(file_.lights, still_bounds(), scale_, is_lit_else, options_.is_lit_otherwise ? unsaid : result_.notes);
+    std::vector<std::string>& notes = options_.is_lit_otherwise ? unsaid : result_.notes;
+    scene.lights = lights_of(file_.lights, still_bounds(), scale_, options_.is_by_paths, is_lit_else, notes);
+    if (options_.is_by_paths) {
+      weaken_lights(notes);
+    }
     if (scene.lights.empty() && !is_lit_else) {
       scene.lights = plain_lights(still_bounds(), still() != nullptr && has_own_view_ ? still()->view : scene.view);
+    }
+  }
+
+  /// Nobody says how long a file's lights expose a picture: so that it is white at most where half of it is.
+  void weaken_lights(std::vector<std::string>& notes) {
+    std::vector<core::PointLight>& lights = result_.scene.lights;
+    result_.light_share = still() != nullptr ? still()->light_share : share_for(lights, lit_places_);
+    if (result_.light_share < 1) {
+      std::ranges::for_each(lights, [&](core::PointLight& light) { light.color = light.color * result_.light_share; });
+      notes.push_back("the file's lights are too bright for a picture, and are shown by " + rounded(result_.light_share) +
+                      " of what they are");
     }
   }
 
@@ -418,13 +453,12 @@ class PlacedScene {
       }
       if (light.kind == FileLightKind::distant) {
         points.push_back({far_position(light, result_.bounds), light.intensity * (1 / pi), true});
-      } else if (is_by_paths) {
-        points.push_back(falling(light));
-      } else {
-        const Vec3d position = light.position * scale_;
-        const double way = std::max(length(position - result_.bounds.center), light_share * result_.bounds.radius);
-        points.push_back({position, light.intensity * (scale_ * scale_ / (pi * way * way)), true});
-        points.back().cone = light.cone;
+        continue;
+      }
+      core::PointLight& point = points.emplace_back(falling(light, result_.bounds, scale_));
+      if (!is_by_paths) {
+        const double way = std::max(length(point.position - result_.bounds.center), std::exchange(point.falls_off_from, 0));
+        point.color = point.color * (1 / (way * way));
         ++unfallen;
       }
     }
@@ -433,18 +467,6 @@ class PlacedScene {
     }
     result_.scene.lights = std::move(points);
     note_count(result_.notes, "point lights whose fall-off with distance is ignored", unfallen);
-  }
-
-  /// Of ours an irradiance of pi is 1.
-  core::PointLight falling(const FileLight& light) const {
-    constexpr double most = 1e29;
-    core::PointLight result{light.position * scale_, light.intensity * (scale_ * scale_ / pi), true};
-    if (!(largest_component(result.color) < most) || !is_in_reach(result.position)) {
-      throw core::InputError("a point light is too strong, or too far away; correct the file");
-    }
-    result.falls_off_from = std::max(result_.bounds.radius * light_share, 1 / most);
-    result.cone = light.cone;
-    return result;
   }
 
   PlacedFile file_;
@@ -456,6 +478,7 @@ class PlacedScene {
   std::uint64_t inside_out_ = 0;                                  ///< spheres
   bool has_own_view_ = false;
   std::vector<PolygonMesh> backs_;  ///< where their fronts are
+  std::vector<Vec3d> lit_places_;   ///< some vertices, by which the strength of lights is judged
 };
 
 }  // namespace

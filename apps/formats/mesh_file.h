@@ -18,7 +18,7 @@ struct MeshFile {
   core::Scene scene;
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
   std::vector<MeshSky> skies;      ///< whose lights add up; none unless the options say that they are shown
-  BoundingSphere bounds;           ///< where an animation is asked for: of the whole at its moment
+  StillScene still;                ///< where an animation is asked for, but for its view: at its moment
   OpenedFiles opened;              ///< with those of the textures
 };
 

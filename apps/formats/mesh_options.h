@@ -13,10 +13,11 @@
 
 namespace dmpc::apps {
 
-/// What a file without a camera or lights is seen and lit by: else they would sway with what moves.
+/// What a file without a camera or lights is seen and lit by: else they would sway with what moves. All at 0 seconds.
 struct StillScene {
-  BoundingSphere bounds;  ///< of all, at 0 seconds
-  core::View view;        ///< the file's or ours, at 0 seconds
+  BoundingSphere bounds;   ///< of all
+  core::View view;         ///< the file's or ours
+  double light_share = 1;  ///< by which lights of its own shine that are too bright
 };
 
 struct AnimationMoment {

@@ -335,10 +335,12 @@ void MeshSession::add_sky(const Message& message) {
 void MeshSession::take_bounds(const Message& message) {
   Unpacker fields(message.bytes);
   const auto center = fields.take<core::Vec3d>();
-  const auto radius = fields.take<double>();
+  const auto radius = fields.take<double>(), light_share = fields.take<double>();
   fields.finish();
   Unpacker::require(options_.animation && is_in_reach(center) && radius >= 0 && radius <= 2 * view_coordinate_max);
-  result_.bounds = {center, radius};
+  Unpacker::require(light_share >= 0 && light_share <= 1);
+  result_.still.bounds = {center, radius};
+  result_.still.light_share = light_share;
 }
 
 void MeshSession::add_note(const Message& message) {

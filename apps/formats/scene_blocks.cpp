@@ -89,7 +89,7 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
     for (const core::PointLight& light : std::span(lights).subspan(first, std::min(lights_a_message, lights.size() - first))) {
       fields.add(light.position).add(light.color).add_flag(light.has_color);
       fields.add(light.falls_off_from).add(light.cone.ahead).add(light.cone.full_degrees).add(light.cone.none_degrees);
-      fields.add_flag(light.cone.is_smooth);
+      fields.add(light.cone.edge);
     }
     if (!line.send(Saying::lights, fields)) {
       return false;
@@ -200,7 +200,7 @@ void SceneReceiver::take_lights(Unpacker fields) {
     light.cone.ahead = fields.take<Vec3d>();
     light.cone.full_degrees = fields.take<double>();
     light.cone.none_degrees = fields.take<double>();
-    light.cone.is_smooth = fields.take_flag();
+    light.cone.edge = fields.take_choice(core::ConeEdge::square);
     const core::LightCone& cone = light.cone;
     Unpacker::require(is_weight(light.falls_off_from) && is_angle(cone.full_degrees) && is_angle(cone.none_degrees) &&
                       (cone.none_degrees == 0 || std::abs(length(cone.ahead) - 1) < 1e-6));

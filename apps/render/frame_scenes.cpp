@@ -53,11 +53,11 @@ core::Scene FrameScenes::load(std::optional<std::uint64_t> frame, OpenedFiles& o
 
 /// Nothing has moved yet: what is looked at by whoever has no camera of its own.
 core::Scene FrameScenes::load_still(OpenedFiles& opened) {
-  BoundingSphere bounds;
-  core::Scene scene = are_animated() ? load_at(0, opened, &bounds) : load_scene(asked_.picture, notes_for(asked_), &opened);
+  StillScene still;
+  core::Scene scene = are_animated() ? load_at(0, opened, &still) : load_scene(asked_.picture, notes_for(asked_), &opened);
   own_view_ = moved_view_ = scene.view;
   if (are_animated()) {
-    still_ = {bounds, own_view_};
+    still_ = still;
   }
   if (path_) {
     path_->set_scene(own_view_, core::bounds_of(scene, core::Parallel(0)));
@@ -66,10 +66,10 @@ core::Scene FrameScenes::load_still(OpenedFiles& opened) {
   return scene;
 }
 
-core::Scene FrameScenes::load_at(double seconds, OpenedFiles& opened, BoundingSphere* bounds) {
+core::Scene FrameScenes::load_at(double seconds, OpenedFiles& opened, StillScene* still) {
   PictureOptions picture = asked_.picture;
   picture.staging.mesh.animation = {*asked_.frames.animation, seconds, asked_.frames.per_second, still_};
-  return load_scene(picture, notes_for(asked_), &opened, bounds);
+  return load_scene(picture, notes_for(asked_), &opened, still);
 }
 
 }  // namespace dmpc::apps

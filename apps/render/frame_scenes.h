@@ -35,7 +35,7 @@ class FrameScenes {
 
  private:
   core::Scene load_still(OpenedFiles& opened);
-  core::Scene load_at(double seconds, OpenedFiles& opened, BoundingSphere* bounds);
+  core::Scene load_at(double seconds, OpenedFiles& opened, StillScene* still);
 
   const RenderOptions& asked_;
   std::optional<CameraPath> path_;

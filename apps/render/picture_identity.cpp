@@ -157,7 +157,7 @@ std::string lights_text(const core::Scene& scene) {
       add(digest, light.cone.ahead);
       digest.add(light.cone.full_degrees);
       digest.add(light.cone.none_degrees);
-      digest.add(std::uint64_t{light.cone.is_smooth});
+      digest.add(static_cast<std::uint64_t>(light.cone.edge));
     }
   }
   return text_of(digest);

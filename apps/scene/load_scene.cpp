@@ -71,7 +71,7 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
 /// What comes of a mesh file beside its scene.
 struct Surroundings {
   std::vector<MeshSky> skies;
-  BoundingSphere bounds;  ///< if an animation is asked for
+  StillScene still;  ///< if an animation is asked for, but for its view
 };
 
 core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened,
@@ -82,7 +82,7 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   if (says) {
     say_once(file.notes);
   }
-  around = {std::move(file.skies), file.bounds};
+  around = {std::move(file.skies), file.still};
   return std::move(file.scene);
 }
 
@@ -196,7 +196,7 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
   }
 }
 
-core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, BoundingSphere* bounds) {
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, StillScene* still) {
   check_mesh_options(picture.scene, picture.staging.mesh);
   MeshOptions mesh = picture.staging.mesh;
   mesh.size = picture.resolution;
@@ -222,8 +222,9 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   if (opened != nullptr) {
     opened->add(read);
   }
-  if (bounds != nullptr) {
-    *bounds = around.bounds;
+  if (still != nullptr) {
+    *still = around.still;
+    still->view = scene.view;
   }
   const std::uint64_t points_left =
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;

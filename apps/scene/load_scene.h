@@ -35,9 +35,9 @@ enum class LoadNotes : std::uint8_t { said, silent };
 
 /// The scene of a picture, seen and lit as its options say; its view may be of any size if the options give another one. Throws
 /// core::UsageError, too, for options of mesh files with another scene, and if the camera does not go with the scene. `opened`,
-/// if given, gets all files that were read, `bounds`, if an animation is asked for, the sphere around the whole at its moment.
+/// if given, gets all files that were read, `still`, if an animation is asked for, what holds for its frames.
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes = LoadNotes::said, OpenedFiles* opened = nullptr,
-                       BoundingSphere* bounds = nullptr);
+                       StillScene* still = nullptr);
 
 /// Loads the scene, and says the notes; throws core::UsageError, too, if one of the outputs is a file that the scene is read
 /// from.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/elementary.h"
 
@@ -46,9 +47,13 @@ LightSpread spread_of(const LightCone& cone, bool falls_off) {
   const Vec3d on = cone.ahead * (sum > 0.0 ? 1.0 / sum : 0.0);
   const std::array<double, 2> place = on.z < 0.0 ? folded(on.x, on.y) : std::array{on.x, on.y};
   spread.ahead = {place_bits(place[0]), place_bits(place[1])};
-  const std::uint16_t none = std::max<std::uint16_t>(angle_bits(cone.none_degrees), 1);
-  spread.full = static_cast<std::uint16_t>(spread.full | std::min(angle_bits(cone.full_degrees), none));
-  spread.none = static_cast<std::uint16_t>(none | (cone.is_smooth ? LightSpread::flag : 0U));
+  std::uint16_t none = std::max<std::uint16_t>(angle_bits(cone.none_degrees), 1);
+  std::uint16_t full = std::min(angle_bits(cone.full_degrees), none);
+  if (cone.edge == ConeEdge::square) {
+    std::swap(full, none);
+  }
+  spread.full = static_cast<std::uint16_t>(spread.full | full);
+  spread.none = static_cast<std::uint16_t>(none | (cone.edge == ConeEdge::smooth ? LightSpread::flag : 0U));
   return spread;
 }
 
@@ -57,13 +62,15 @@ double share_of(const LightSpread& spread, const Vec3d& towards, double distance
   if (!spread.is_cone()) {
     return fall;
   }
-  const double cosine = -dot(towards, direction_of(spread.ahead)), none = cos_degrees(degrees_of(spread.none)),
-               full = cos_degrees(degrees_of(spread.full));
+  const bool is_square = spread.is_square();
+  const double cosine = -dot(towards, direction_of(spread.ahead)),
+               none = cos_degrees(degrees_of(is_square ? spread.full : spread.none)),
+               full = cos_degrees(degrees_of(is_square ? spread.none : spread.full));
   if (cosine >= full || !(cosine > none)) {
     return cosine >= full ? fall : 0.0;
   }
   const double t = (cosine - none) / (full - none);
-  return fall * (spread.is_smooth() ? t * t * (3.0 - 2.0 * t) : t);
+  return fall * (is_square ? t * t : spread.is_smooth() ? t * t * (3.0 - 2.0 * t) : t);
 }
 
 }  // namespace dmpc::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
@@ -14,6 +15,7 @@ using core::Vec3d;
 
 constexpr int shorter_side = 512;
 constexpr double aspect_max = 16;
+constexpr double pi = std::numbers::pi, degrees_of_radian = 57.295779513082320877;
 
 /// Translation after rotation after scale. `where` names it. A quaternion that is rounded to bytes is of length 1 but for this.
 Transform transform_of(const std::vector<double>& translation, const std::vector<double>& q, const std::vector<double>& scale,
@@ -175,7 +177,6 @@ double with_tangent_times(double angle, double share) {
 }
 
 FileView view_of(const Part& source, const Standing& at, const std::optional<Resolution>& size) {
-  constexpr double degrees_of_radian = 57.295779513082320877;
   FileView result{.name = at.node, .view = {}};
   const auto perspective = source.find("perspective");
   if (source.get("type").as_text() != "perspective" || !perspective) {
@@ -204,14 +205,32 @@ FileLightKind kind_of(const Part& source) {
   return text == "point" ? FileLightKind::point : text == "spot" ? FileLightKind::spot : FileLightKind::distant;
 }
 
+/// Its strength is the square of t (KHR_lights_punctual, "Inner and Outer Cone Angles"). What is out of range is brought into it.
+core::LightCone cone_of(const Part& source, const Vec3d& ahead) {
+  const auto spot = source.find("spot");
+  const double outer = spot ? spot->number("outerConeAngle", pi / 4) : pi / 4,
+               inner = spot ? spot->number("innerConeAngle", 0) : 0;
+  const double none = std::clamp(outer * degrees_of_radian, 0.0, 180.0);
+  return {.ahead = ahead,
+          .full_degrees = std::clamp(inner * degrees_of_radian, 0.0, none),
+          .none_degrees = none,
+          .edge = core::ConeEdge::square};
+}
+
 FileLight light_of(const Part& source, const Standing& at) {
   const std::vector<double> color = source.numbers("color", {1, 1, 1});
   FileLight light{.kind = kind_of(source),
                   .position = at.world.shift,
                   .intensity = Vec3d{color[0], color[1], color[2]} * source.number("intensity", 1)};
+  const Vec3d way = at.world.direction({0, 0, -1}), ahead = way * (1 / length(way));
   if (light.kind == FileLightKind::distant) {
-    const Vec3d way = at.world.direction({0, 0, -1});
-    light.position = way * (1 / length(way));
+    light.position = ahead;
+    return light;
+  }
+  light.has_range = source.find("range").has_value();
+  if (light.kind == FileLightKind::spot) {
+    light.cone = cone_of(source, ahead);
+    light.intensity = light.cone.none_degrees > 0 ? light.intensity : Vec3d{};
   }
   return light;
 }

@@ -11,12 +11,19 @@
 
 namespace dmpc::apps {
 
-/// Point lights as they are, spots as if they shone all round, distant ones as points 1,000 radii of the scene away. Fall-off is
-/// ignored, since ours have none; so colours are scaled down together until the squares of their brightest channels sum up to 1,
-/// as lights without a colour do. What is dark or nowhere is left out. `notes` gets a sentence for each kind that is not shown as
-/// it is; where the scene is lit by something else, none take the place of those that cannot be.
+/// Points and spots as they are, distant ones as points 1,000 radii of the scene away. By paths their intensities are what the
+/// file says. Else fall-off is ignored; so colours are scaled down together until the squares of their brightest channels sum up
+/// to 1, as lights without a colour do. What is dark or nowhere is left out. `notes` gets a sentence for each kind that is not
+/// shown as it is; where the scene is lit by something else, none take the place of those that cannot be.
 std::vector<core::PointLight> lights_of(const std::vector<FileLight>& lights, const BoundingSphere& bounds, double scale,
-                                        bool is_lit_else, std::vector<std::string>& notes);
+                                        bool is_by_paths, bool is_lit_else, std::vector<std::string>& notes);
+
+/// A point or a spot that falls off with the square of the distance.
+core::PointLight falling(const FileLight& light, const BoundingSphere& bounds, double scale);
+
+/// By how much lights have to be weaker, at most 1, for half of these places to get no more than a white surface shows as 1 of
+/// them, by the root of the sum of squares.
+double share_for(const std::vector<core::PointLight>& lights, const std::vector<core::Vec3d>& places);
 
 /// A distant light as a point far away.
 core::Vec3d far_position(const FileLight& light, const BoundingSphere& bounds);

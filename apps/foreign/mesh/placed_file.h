@@ -68,6 +68,7 @@ struct FileLight {
   core::Vec3d position;    ///< of a distant one: the way that its light goes, of unit length if it goes anywhere
   core::Vec3d intensity;   ///< of a distant one: what a surface gets that faces it
   core::LightCone cone{};  ///< of what does not shine all round
+  bool has_range = false;  ///< beyond which its file has it not shine
 };
 
 /// All directions, as a square picture shows them in equal areas.

@@ -61,15 +61,27 @@ core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
   if (!(length(ahead) > 0 && length(ahead) < 1e30)) {
     parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
   }
-  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .is_smooth = true};
+  return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .edge = core::ConeEdge::smooth};
 }
 
-void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, FileLightKind kind,
+/// That of a square picture, as if it were round, of as many directions.
+core::LightCone projector_of(const Parameters& parameters, const Transform& world) {
+  const double fov = parameters.number("fov", 90);
+  const Vec3d ahead = world.direction({0, 0, 1});
+  if (!(fov > 0 && fov < 180 && length(ahead) > 0 && length(ahead) < 1e30)) {
+    parameters.fail("its picture spans " + rounded(fov) +
+                    " degrees, expected between 0 and 180, in coordinates not pressed flat");
+  }
+  const double t = core::tan_degrees(fov / 2), cosine = 1 - core::angle_of(t * t, std::sqrt(1 + 2 * t * t)) * (2 / pi);
+  const double degrees = core::angle_of(std::sqrt(1 - cosine * cosine), cosine) * (180 / pi);
+  return {.ahead = normalize(ahead), .full_degrees = degrees, .none_degrees = degrees};
+}
+
+void add_point(const Parameters& parameters, const Transform& world, const Exposure& exposure, const core::LightCone& cone,
                PlacedFile& file) {
-  const bool is_spot = kind == FileLightKind::spot;
-  const core::LightCone cone = is_spot ? cone_of(parameters, world) : core::LightCone{};
+  const bool is_spot = cone.none_degrees > 0;
   const double factor = scale_of(parameters) * factor_of(parameters, "power", is_spot ? filled(cone) : 4 * pi);
-  FileLight result{.kind = kind,
+  FileLight result{.kind = is_spot ? FileLightKind::spot : FileLightKind::point,
                    .position = world.point(parameters.point("from").value_or(Vec3d{})),
                    .intensity = light(parameters, "I", exposure, factor),
                    .cone = cone};
@@ -205,13 +217,15 @@ std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& 
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
                const Exposure& exposure, PlacedFile& file, Notes& notes) {
   if (kind == "point") {
-    add_point(parameters, world, exposure, FileLightKind::point, file);
+    add_point(parameters, world, exposure, {}, file);
   } else if (kind == "spot") {
-    add_point(parameters, world, exposure, FileLightKind::spot, file);
+    add_point(parameters, world, exposure, cone_of(parameters, world), file);
   } else if (kind == "goniometric" || kind == "projection") {
-    notes.count("lights of kind '" + kind + "', which shine all round here, without their picture");
+    const bool is_projection = kind == "projection";
+    notes.count("lights of kind '" + kind + "', which shine " + (is_projection ? "in a cone" : "all round") +
+                " here, without their picture");
     parameters.text("filename", "");
-    add_point(parameters, world, exposure, FileLightKind::point, file);
+    add_point(parameters, world, exposure, is_projection ? projector_of(parameters, world) : core::LightCone{}, file);
   } else if (kind == "distant") {
     add_distant(parameters, world, exposure, file);
   } else if (kind == "infinite") {

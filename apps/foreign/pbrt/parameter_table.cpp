@@ -67,7 +67,7 @@ constexpr std::array table{
     ParameterRow{"LightSource", "spot",
                  "rgb I, float scale, float power, point3 from, point3 to, float coneangle, float conedeltaangle", "", ""},
     ParameterRow{"LightSource", "goniometric", "rgb I, float scale, float power, string filename", "", ""},
-    ParameterRow{"LightSource", "projection", "float scale, float power, string filename", "float fov", ""},
+    ParameterRow{"LightSource", "projection", "float scale, float power, float fov, string filename", "", ""},
     ParameterRow{"LightSource", "distant", "rgb L, float scale, point3 from, point3 to, float illuminance", "", ""},
     ParameterRow{"LightSource", "infinite", "rgb L, float scale, string filename, float illuminance, point3 portal", "", ""},
     ParameterRow{"AreaLightSource", "diffuse", "rgb L, float scale, bool twosided, string filename, float power", "", ""},

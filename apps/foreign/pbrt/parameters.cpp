@@ -215,6 +215,11 @@ std::vector<core::Vec3d> Parameters::points(std::string_view name, std::initiali
   return triples(numbers);
 }
 
+bool Parameters::name_textures() const {
+  const auto is_one = [](const Parameter& one) { return one.type == texture; };
+  return std::ranges::any_of(list_, is_one) || (defaults_ && std::ranges::any_of(*defaults_, is_one));
+}
+
 std::vector<std::string> Parameters::unused() const {
   std::vector<std::string> names;
   for (const Parameter& parameter : list_) {

@@ -53,6 +53,8 @@ class Parameters {
   /// Of this name and one of these types the last; nothing if there is none. Of another type it stays unused.
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types) const;
 
+  bool name_textures() const;
+
   /// Throw core::InputError at the parameter's place if it has not one value.
   double number(std::string_view name, double fallback) const;
   std::optional<double> number(std::string_view name) const;

@@ -107,6 +107,9 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   end_imports();
   check_ended();
   add_awaited();
+  for (const auto& list : awaited_looks_) {
+    std::ranges::for_each(list, [](const auto& make) { make(); });
+  }
   surfaces_.settle(tokens_);
   give_materials();
   add_unseen_lights();
@@ -540,22 +543,40 @@ void Statements::of_older_versions(const Token& name) {
 void Statements::texture(const Token& name) {
   const std::string texture = text(name, "its name"), type = text(name, "what it is of"), kind = text(name, "its kind");
   const Parameters all = parameters(texture, name, "texture");
-  textures_.add(texture, type, kind, all);
-  finish(all, name.text, kind);
+  const auto add = [this, texture, type, kind, all] {
+    textures_.add(texture, type, kind, all);
+    finish(all, "Texture", kind);
+  };
+  if (kind == "imagemap" || kind == "ptex") {
+    add();
+  } else {
+    awaited_looks_[type == "float" ? 0 : 1].emplace_back(add);
+  }
+}
+
+std::uint32_t Statements::announced(const std::optional<std::string>& material, const std::string& kind, const Parameters& all) {
+  const std::uint32_t number = surfaces_.announce(material, kind, all);
+  const auto make = [this, number, kind, all] {
+    surfaces_.make(number, kind, all);
+    finish(all, "Material", kind);
+  };
+  if (all.name_textures()) {
+    awaited_looks_[2].emplace_back(make);
+  } else {
+    make();
+  }
+  return number;
 }
 
 void Statements::material(const Token& name) {
   const std::string kind = text(name, "its kind");
-  const Parameters all = parameters(kind, name, "material");
-  state_.surface = surfaces_.add(kind, all, tokens_);
-  finish(all, name.text, kind);
+  state_.surface = announced(std::nullopt, kind, parameters(kind, name, "material"));
 }
 
 void Statements::make_named_material(const Token& name) {
   const std::string material = text(name, "its name");
   const Parameters all = parameters(material, name, "material");
-  surfaces_.add_named(material, all, tokens_);
-  finish(all, "Material", all.text("type", ""));
+  announced(material, all.text("type", ""), all);
 }
 
 void Statements::named_material(const Token& name) { state_.surface = surfaces_.named(text(name, "its name"), name.place); }
@@ -580,7 +601,7 @@ void Statements::shape(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "shape");
   std::optional<PlacedShape> shape =
-      shape_of(kind, all, tokens_, files_, notes_, !file_.pictures.empty() || textures_.have_files());
+      shape_of(kind, all, tokens_, files_, notes_, !surfaces_.is_made(state_.surface));  // one of textures is made later
   if (shape) {
     add_shape(*std::move(shape), all);
     finish(all, name.text, kind);

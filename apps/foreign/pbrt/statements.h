@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -107,6 +108,7 @@ class Statements {
   void texture(const Token& name);
   void material(const Token& name);
   void make_named_material(const Token& name);
+  std::uint32_t announced(const std::optional<std::string>& material, const std::string& kind, const Parameters& all);
   void named_material(const Token& name);
   void area_light(const Token& name);
   void light(const Token& name);
@@ -150,6 +152,8 @@ class Statements {
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;
   std::vector<Awaited> awaited_;
+  /// Pbrt makes textures of pictures first, then others of numbers and of colours, each in their order, and materials at last.
+  std::array<std::vector<std::function<void()>>, 3> awaited_looks_;
   std::vector<Look> looks_;
   std::vector<std::pair<std::uint32_t, FileLight>> unseen_;  ///< with their surfaces
   std::map<std::array<double, 6>, std::size_t> look_numbers_;

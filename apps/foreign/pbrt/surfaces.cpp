@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "apps/edge/line/shown_text.h"
 #include "core/base/elementary.h"
@@ -14,8 +15,8 @@ using core::Vec3d;
 using enum ParameterType;
 
 /// Of pbrt-v3.
-constexpr std::array<std::string_view, 12> old_kinds{"matte",     "plastic",     "metal",  "glass",        "mirror",  "uber",
-                                                     "substrate", "translucent", "disney", "kdsubsurface", "fourier", "none"};
+constexpr std::array<std::string_view, 11> old_kinds{"matte",     "plastic",     "metal",  "glass",        "mirror", "uber",
+                                                     "substrate", "translucent", "disney", "kdsubsurface", "fourier"};
 
 double mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
@@ -73,12 +74,23 @@ Surfaces::Surfaces(Notes& notes, const Textures& textures) : notes_(notes), text
   slots_[0].surface = Surface{.color = {.color = {0.5, 0.5, 0.5}, .picture = {}, .place = {}}, .facets = {}};
 }
 
-std::uint32_t Surfaces::add(const std::string& kind, const Parameters& parameters, const Tokens& tokens) {
-  Slot slot;
-  slot.place = parameters.place();
-  fill(slot, kind, parameters, tokens);  // which may make slots of the names that it mixes
-  slots_.push_back(std::move(slot));
-  return static_cast<std::uint32_t>(slots_.size() - 1);
+std::uint32_t Surfaces::announce(const std::optional<std::string>& name, const std::string& kind, const Parameters& parameters) {
+  if (std::find(old_kinds.begin(), old_kinds.end(), kind) != old_kinds.end()) {
+    parameters.fail("the material '" + kind + "' is one of pbrt-v3: turn the scene into one of version 4 by pbrt --upgrade");
+  }
+  if (!name) {
+    slots_.emplace_back();
+    slots_.back().place = parameters.place();
+    return static_cast<std::uint32_t>(slots_.size() - 1);
+  }
+  const std::uint32_t number = named(*name, parameters.place());
+  if (kind.empty()) {
+    parameters.fail("has no \"string type\", as each material that is named has one");
+  }
+  if (std::exchange(slots_[number].is_announced, true)) {
+    parameters.fail("there is a material of this name already");
+  }
+  return number;
 }
 
 std::uint32_t Surfaces::named(const std::string& name, const Place& place) {
@@ -91,30 +103,16 @@ std::uint32_t Surfaces::named(const std::string& name, const Place& place) {
   return found->second;
 }
 
-void Surfaces::add_named(const std::string& name, const Parameters& parameters, const Tokens& tokens) {
-  const std::uint32_t number = named(name, parameters.place());
-  if (slots_[number].surface || slots_[number].mixture) {
-    parameters.fail("there is a material of this name already");
-  }
-  Slot slot = slots_[number];
-  fill(slot, parameters.text("type", ""), parameters, tokens);
-  slots_[number] = slot;
-}
-
-void Surfaces::fill(Slot& slot, const std::string& kind, const Parameters& parameters, const Tokens& tokens) {
-  const bool is_old = std::find(old_kinds.begin(), old_kinds.end(), kind) != old_kinds.end();
-  if (is_old) {
-    tokens.fail(parameters.place(),
-                "the material '" + kind + "' is one of pbrt-v3: turn the scene into one of version 4 by pbrt --upgrade");
-  }
+void Surfaces::make(std::uint32_t slot, const std::string& kind, const Parameters& parameters) {
   for (const char* const map : {"displacement", "normalmap"}) {
     const bool is_there = parameters.find(map, {texture, text, number}) != nullptr;
     notes_.count("materials with displacement or a map of normals, shown without", is_there ? 1 : 0);
   }
   if (kind == "mix") {
-    slot.mixture = mixture_of(parameters);
+    const Mixture mixture = mixture_of(parameters);  // which may make slots of the names that it mixes
+    slots_[slot].mixture = mixture;
   } else {
-    slot.surface = surface_of(kind, parameters);
+    slots_[slot].surface = surface_of(kind, parameters);
   }
 }
 
@@ -241,7 +239,7 @@ Surface Surfaces::surface_of(const std::string& kind, const Parameters& paramete
   if (kind == "dielectric" || kind == "thindielectric") {
     return glass(parameters, kind == "thindielectric");
   }
-  if (kind == "interface" || kind.empty()) {
+  if (kind == "interface" || kind == "none" || kind.empty()) {
     Surface surface;
     surface.is_drawn = false;
     return surface;

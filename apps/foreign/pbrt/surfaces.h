@@ -28,10 +28,12 @@ class Surfaces {
   /// The first surface, 0, is what pbrt gives shapes before any Material statement.
   Surfaces(Notes& notes, const Textures& textures);
 
-  /// A Material statement's; returns its number. Throws core::InputError for a kind that pbrt-v4 does not have.
-  std::uint32_t add(const std::string& kind, const Parameters& parameters, const Tokens& tokens);
-  /// A MakeNamedMaterial statement's. Throws core::InputError, too, if there is one of that name.
-  void add_named(const std::string& name, const Parameters& parameters, const Tokens& tokens);
+  /// The number of a Material statement's, or of a MakeNamedMaterial statement's of this name, which make() makes when its
+  /// textures are there. Throws core::InputError for kinds of pbrt-v3, and if there is one of that name.
+  std::uint32_t announce(const std::optional<std::string>& name, const std::string& kind, const Parameters& parameters);
+  /// Throws core::InputError for a kind that pbrt-v4 does not have.
+  void make(std::uint32_t slot, const std::string& kind, const Parameters& parameters);
+  bool is_made(std::uint32_t number) const { return slots_[number].surface.has_value(); }
   /// The number of the one of this name, which may come later.
   std::uint32_t named(const std::string& name, const Place& place);
 
@@ -52,10 +54,9 @@ class Surfaces {
     std::optional<Mixture> mixture;
     std::string name;
     Place place;
-    bool is_being_mixed = false;
+    bool is_announced = false, is_being_mixed = false;
   };
 
-  void fill(Slot& slot, const std::string& kind, const Parameters& parameters, const Tokens& tokens);
   Surface surface_of(const std::string& kind, const Parameters& parameters) const;
   core::Vec3d metal(const Parameters& parameters, const std::string& prefix, double below) const;
   Surface conductor(const Parameters& parameters, const std::string& prefix) const;

@@ -37,7 +37,9 @@ void Textures::add(const std::string& name, const std::string& type, const std::
   }
   const bool is_number = type == "float";
   auto& named = is_number ? numbers_ : colors_;
-  named.insert_or_assign(name, value_of(kind, parameters, is_number));
+  if (!named.try_emplace(name, value_of(kind, parameters, is_number)).second) {
+    parameters.fail("there is a texture of this name already");
+  }
 }
 
 TextureValue Textures::value_of(const std::string& kind, const Parameters& parameters, bool is_number) {
@@ -70,7 +72,8 @@ const TextureValue& Textures::find(const Parameter& parameter, const Parameters&
   const auto found = named.find(name);
   if (found == named.end()) {
     owner.fail(parameter.place, "the texture \"" + clipped(name, 60) + "\" is not there: no Texture statement of " +
-                                    (is_number ? "numbers" : "colours") + " before has that name");
+                                    (is_number ? "numbers" : "colours") +
+                                    " has that name, or none before, where textures that are no pictures name each other");
   }
   return found->second;
 }
@@ -157,7 +160,6 @@ TextureValue Textures::pictured(const Parameters& parameters) {
   if (path.empty()) {
     parameters.fail("a texture of a picture has no filename");
   }
-  have_files_ = true;
   value.picture = TextureUse{.path = path, .edges = {edges, edges}};
   const double scale = parameters.number("scale", 1);
   value.color = {scale, scale, scale};

@@ -27,14 +27,12 @@ class Textures {
  public:
   Textures(Notes& notes, std::vector<MadePicture>& pictures) : notes_(notes), pictures_(pictures) {}
 
-  /// A Texture statement. Throws core::InputError for what pbrt-v4 does not have.
+  /// A Texture statement. Throws core::InputError for what pbrt-v4 does not have, and for a second one of this name.
   void add(const std::string& name, const std::string& type, const std::string& kind, const Parameters& parameters);
 
-  /// A parameter's colour, by texture or by itself. Throws core::InputError for a texture that nobody has defined before.
+  /// A parameter's colour, by texture or by itself. Throws core::InputError for a texture that has not been added.
   TextureValue color(const Parameters& parameters, const char* name, const core::Vec3d& fallback, SpectrumUse use) const;
   std::optional<TextureValue> color(const Parameters& parameters, const char* name, SpectrumUse use) const;
-  /// Whether some show a picture of a file.
-  bool have_files() const { return have_files_; }
 
   /// A parameter's number; nothing where the statement has none.
   std::optional<double> number(const Parameters& parameters, const char* name) const;
@@ -53,7 +51,6 @@ class Textures {
   Notes& notes_;
   std::vector<MadePicture>& pictures_;
   std::map<std::string, TextureValue> colors_, numbers_;
-  bool have_files_ = false;
 };
 
 }  // namespace dmpc::apps::pbrt

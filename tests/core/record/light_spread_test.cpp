@@ -62,12 +62,31 @@ TEST_CASE("a cone shines ahead, and is dark beyond its end, whatever its directi
 
 TEST_CASE("a smooth cone goes from full to none as 3 t^2 - 2 t^3, and one of half a sphere by the cosine") {
   const Vec3d ahead{0, 0, -1};
-  const LightSpread smooth = spread_of({.ahead = ahead, .full_degrees = 25, .none_degrees = 30, .is_smooth = true}, true);
+  const LightSpread smooth = spread_of({.ahead = ahead, .full_degrees = 25, .none_degrees = 30, .edge = ConeEdge::smooth}, true);
   const double t = (cos_degrees(28) - cos_degrees(30)) / (cos_degrees(25) - cos_degrees(30));
   CHECK(share_of(smooth, -turned(ahead, 28), 2) == doctest::Approx(t * t * (3 - 2 * t) / 4).epsilon(0.01));
   const LightSpread half = spread_of({.ahead = ahead, .full_degrees = 0, .none_degrees = 90}, false);
   CHECK(share_of(half, -turned(ahead, 60), 1) == doctest::Approx(0.5).epsilon(0.001));
   CHECK(share_of(half, -turned(ahead, 91), 1) == 0);
+}
+
+// Its angles have changed places in the record, so that those of 0 and of all, and equal ones, are to be told apart, too.
+TEST_CASE("a square cone goes from full to none as t^2, also one that is full ahead alone, and one without an edge is sharp") {
+  const Vec3d ahead{0, 0, -1};
+  const auto share = [&](double full, double none, double degrees) {
+    const LightCone cone{.ahead = ahead, .full_degrees = full, .none_degrees = none, .edge = ConeEdge::square};
+    return share_of(spread_of(cone, true), -turned(ahead, degrees), 2) * 4;
+  };
+  for (const double full : {0.0, 20.0}) {
+    CAPTURE(full);
+    const double t = (cos_degrees(25) - cos_degrees(30)) / (cos_degrees(full) - cos_degrees(30));
+    CHECK(share(full, 30, 25) == doctest::Approx(t * t).epsilon(0.01));
+    CHECK(share(full, 30, full * 0.9) == doctest::Approx(1));
+    CHECK(share(full, 30, 31) == 0);
+  }
+  CHECK(share(30, 30, 29.9) == 1);
+  CHECK(share(30, 30, 30.1) == 0);
+  CHECK(share(40, 30, 30.1) == 0);
 }
 
 // R I cos / (pi d^2), straight below: 0.5 * 10 / pi / 4. Nothing is seen of a light that stands before the eye.
@@ -80,10 +99,14 @@ TEST_CASE("by paths a point that falls off lights as the inverse square says, an
   SceneBuilder builder(large);
   builder.polygon({{-5000, -5000, -30}, {5000, -5000, -30}, {5000, 5000, -30}, {-5000, 5000, -30}});
   CHECK(Studio(large).mean(4, 1, paths, 0) == doctest::Approx(shown).epsilon(1e-3));
-  light.cone = {.ahead = {0, 0, -1}, .full_degrees = 5, .none_degrees = 10, .is_smooth = true};
+  light.cone = {.ahead = {0, 0, -1}, .full_degrees = 5, .none_degrees = 10, .edge = ConeEdge::smooth};
   CHECK(Studio(card(light)).mean(4, 1, paths, 0) == doctest::Approx(shown).epsilon(1e-3));
   light.cone.ahead = {1, 0, 0};
   CHECK(Studio(card(light)).mean(4, 1, paths, 0) == 0);
+  light.cone = {
+      .ahead = {0, sin_degrees(20), -cos_degrees(20)}, .full_degrees = 10, .none_degrees = 40, .edge = ConeEdge::square};
+  const double t = (cos_degrees(20) - cos_degrees(40)) / (cos_degrees(10) - cos_degrees(40));
+  CHECK(Studio(card(light)).mean(4, 1, paths, 0) == doctest::Approx(shown * t * t).epsilon(2e-3));
 }
 
 }  // namespace light_spread_test

@@ -28,9 +28,10 @@ double left_of(const core::LightSpread& spread, const Vec3d& towards, double dis
   if (!spread.is_cone()) {
     return near;
   }
-  const double cosine = -dot(towards, ahead_of(spread)), none = cosine_of(spread.none), full = cosine_of(spread.full);
+  const double cosine = -dot(towards, ahead_of(spread)), first = cosine_of(spread.full), second = cosine_of(spread.none),
+               full = std::max(first, second), none = std::min(first, second);
   const double t = cosine >= full ? 1 : cosine <= none ? 0 : (cosine - none) / (full - none);
-  return near * (spread.is_smooth() ? t * t * (3 - 2 * t) : t);
+  return near * (first < second ? t * t : spread.is_smooth() ? t * t * (3 - 2 * t) : t);
 }
 
 /// How far a secondary ray starts from its surface: of the body's coordinates and radius, as a point is computed to some 1e-16 of

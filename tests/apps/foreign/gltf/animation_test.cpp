@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -117,9 +118,9 @@ TEST_CASE("a frame of an animation may show nothing, and a whole that is but a p
   const Film film{.values = {0, 0, 0, 1, 1, 1}, .path = "scale"};
   const MeshFile nothing = film.read(0);
   CHECK(nothing.scene.objects.empty());
-  CHECK(nothing.bounds.radius == 1);
+  CHECK(nothing.still.bounds.radius == 1);
   CHECK(length(nothing.scene.view.from - nothing.scene.view.at) > 1);
-  const AnimationMoment later{"", 2, 24, apps::StillScene{nothing.bounds, nothing.scene.view}};
+  const AnimationMoment later{"", 2, 24, apps::StillScene{nothing.still.bounds, nothing.scene.view}};
   check_at(read_mesh("a.gltf", film.text(), {.animation = later}).scene.vertices.at(1), {2, 0, 0});
 }
 
@@ -157,9 +158,9 @@ TEST_CASE("joints move what their skin holds, and a camera goes with its node") 
 TEST_CASE("a file without camera and lights is seen and lit as the still scene is, wherever its parts have gone") {
   const Film film;
   const MeshFile still = film.read(0);
-  check_at(still.bounds.center, {1, 0.5, 0});
-  CHECK(still.bounds.radius == doctest::Approx(std::sqrt(1.25)).epsilon(1e-9));
-  const AnimationMoment later{"", 2, 24, apps::StillScene{still.bounds, still.scene.view}};
+  check_at(still.still.bounds.center, {1, 0.5, 0});
+  CHECK(still.still.bounds.radius == doctest::Approx(std::sqrt(1.25)).epsilon(1e-9));
+  const AnimationMoment later{"", 2, 24, apps::StillScene{still.still.bounds, still.scene.view}};
   const MeshFile moved = read_mesh("a.gltf", film.text(), {.animation = later});
   CHECK(moved.scene.view.from == still.scene.view.from);
   CHECK(moved.scene.view.at == still.scene.view.at);
@@ -195,6 +196,22 @@ TEST_CASE("what is animated and not played is said with its count") {
   CHECK(notes(file, "channels of the animation that change morph weights, not played: 1"));
   CHECK(notes(file, "channels of the animation that change what extensions name, not played: 1"));
   check_at(file.scene.vertices[1], {4, 0, -1});
+}
+
+// The lamp goes from 7 away to 3: by itself the share would grow smaller.
+TEST_CASE("lights that are too bright are weakened in all frames as in the first") {
+  const Film film{.values = {0, 0, 7, 0, 0, 3},
+                  .node = R"({"mesh":0,"children":[1]},{"extensions":{"KHR_lights_punctual":{"light":0}}})",
+                  .target = R"("node":1)",
+                  .more = R"(,"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":54351}]}})"};
+  const auto read = [&](double seconds, const std::optional<apps::StillScene>& still) {
+    return read_mesh("a.gltf", film.text(), {.is_by_paths = true, .animation = AnimationMoment{"", seconds, 24, still}});
+  };
+  const MeshFile first = read(0, std::nullopt);
+  CHECK(first.still.light_share < 0.01);
+  const MeshFile moved = read(2, apps::StillScene{first.still.bounds, first.scene.view, first.still.light_share});
+  CHECK(moved.scene.lights.at(0).color == first.scene.lights.at(0).color);
+  CHECK(read(2, std::nullopt).still.light_share < first.still.light_share / 2);
 }
 
 TEST_CASE("a camera that an animation takes out of all reach is an error of that frame, and not another view") {

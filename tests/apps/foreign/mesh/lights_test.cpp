@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include "apps/formats/mesh_file.h"
@@ -25,6 +26,9 @@ MeshFile lit(const std::string& lights, const std::string& placed = R"("translat
   gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":)" + lights + "}}";
   return tests::read_mesh("a.gltf", gltf.text(), options);
 }
+
+const double pi = std::acos(-1);
+const std::string at_seven = R"("translation":[0,0,7])";
 
 /// The triangle seen by the first of `cameras`.
 MeshFile seen(const std::string& cameras, const std::string& placed = R"("translation":[0,0,5])",
@@ -56,10 +60,53 @@ TEST_CASE("a directional light stands far away on the side that it comes from") 
   CHECK(tests::notes(file, "far away: 1"));
 }
 
-TEST_CASE("a spot is taken for a point light, and that is said") {
-  const MeshFile file = lit(R"([{"type":"spot","spot":{"outerConeAngle":0.5}}])");
-  CHECK(file.scene.lights.at(0).position == Vec3d{0, 0, 7});
-  CHECK(tests::notes(file, "spot lights taken for point lights without fall-off: 1"));
+// An intensity of 1 candela shows pi times what ours do of a colour of 1. The sky is that of paths.
+TEST_CASE("by paths points and spots fall off from their candela, and directional lights have their lux") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_by_paths = true};
+  const auto light = [&](const std::string& one) { return lit("[" + one + "]", at_seven, by_paths).scene.lights.at(0); };
+  const core::PointLight point = light(R"({"type":"point","color":[1,0.5,0],"intensity":6,"range":9})");
+  CHECK(point.falls_off_from > 0);
+  CHECK(length(point.color * pi - Vec3d{6, 3, 0}) < 1e-12);
+  CHECK(point.cone.none_degrees == 0);
+  CHECK(light(R"({"type":"directional","intensity":3})").color.x * pi == Approx(3));
+  CHECK(light(R"({"type":"directional","intensity":3})").falls_off_from == 0);
+  CHECK(tests::notes(lit(R"([{"type":"point","range":9}])", at_seven, by_paths), "lights with a range, beyond which they go on"));
+  // In millimetres the same scene is as bright.
+  MeshOptions large = by_paths;
+  large.scale = 1000;
+  CHECK(lit(R"([{"type":"point"}])", at_seven, large).scene.lights.at(0).color.x * pi == Approx(1e6));
+}
+
+TEST_CASE("a spot has the cone that it says, along its node's -z, and what is out of range is brought into it") {
+  const auto spot = [&](const std::string& cone, const std::string& placed = at_seven) {
+    return lit(R"([{"type":"spot","spot":{)" + cone + "}}]", placed).scene.lights;
+  };
+  const core::LightCone known = spot(R"("innerConeAngle":0.25,"outerConeAngle":0.5)").at(0).cone;
+  CHECK(known.ahead == Vec3d{0, 0, -1});
+  CHECK(known.full_degrees == Approx(0.25 * 180 / pi));
+  CHECK(known.none_degrees == Approx(0.5 * 180 / pi));
+  CHECK(known.edge == core::ConeEdge::square);
+  CHECK(spot("").at(0).cone.full_degrees == 0);
+  CHECK(spot("").at(0).cone.none_degrees == Approx(45));
+  CHECK(spot("", R"("rotation":[0.6,0,0,0.8],"scale":[2,2,2])").at(0).cone.ahead.y == Approx(0.96));
+  CHECK(spot(R"("innerConeAngle":2,"outerConeAngle":1)").at(0).cone.full_degrees == Approx(180 / pi));
+  CHECK(spot(R"("innerConeAngle":-1,"outerConeAngle":9)").at(0).cone.none_degrees == 180);
+  CHECK(spot(R"("outerConeAngle":-1)").size() == 2);  // dark, so that plain ones take its place
+  CHECK(spot("", R"("scale":[0,0,0])").size() == 2);
+  CHECK(tests::notes(lit(R"([{"type":"spot"}])"), "spot lights whose fall-off with distance is ignored: 1"));
+}
+
+// Of the triangle's corners, some 7 away, the middle one gets 54,351 / 50 / pi.
+TEST_CASE("by paths lights that are too bright for a picture are weakened together, in an animation as they were at first") {
+  MeshOptions options{.is_by_paths = true};
+  const std::string lamps = R"([{"type":"point","intensity":54351}])";
+  const MeshFile file = lit(lamps, at_seven, options);
+  CHECK(file.scene.lights.at(0).color.x == Approx(50));
+  CHECK(tests::notes(file, "the file's lights are too bright for a picture, and are shown by 0.00289"));
+  CHECK_FALSE(tests::notes(lit(R"([{"type":"point","intensity":150}])", at_seven, options), "too bright"));
+  CHECK(lit(R"([{"type":"point","intensity":1e300}])", at_seven, options).scene.lights.at(0).color.x == Approx(50));
+  CHECK(lit(R"([{"type":"point","intensity":-1}])", at_seven, options).scene.lights.size() == 2);
+  CHECK(lit(lamps, R"("translation":[2,0,0])", options).scene.lights.size() == 1);
 }
 
 TEST_CASE("nothing is said of a file's lights where others take their place, nor of its view") {

@@ -262,12 +262,58 @@ TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
   CHECK(is_near(light.cone.ahead, {0, -1, 0}));
   CHECK(light.cone.full_degrees == 15);
   CHECK(light.cone.none_degrees == 20);
-  CHECK(light.cone.is_smooth);
+  CHECK(light.cone.edge == core::ConeEdge::smooth);
   CHECK(is_near(light.color * pi, {3, 3, 3}));
   const MeshFile strong = read_pbrt("LightSource \"spot\" \"float power\" 10\n" + pbrt_triangle, by_paths);
   const double full = std::cos(25 * pi / 180), none = std::cos(30 * pi / 180);
   CHECK(is_near(strong.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (2 * pi * ((1 - full) + (full - none) / 2)))));
   CHECK(tests::contains(pbrt_refusal("LightSource \"spot\" \"float coneangle\" 0"), "its cone ends at 0 degrees"));
+}
+
+// Over as many directions as a square of 90 degrees: a sixth of all, 1 - cos = 1/3.
+TEST_CASE("a projection shines in a cone of as many directions as its picture") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
+  const std::string light = "Rotate 90 1 0 0 LightSource \"projection\" \"string filename\" \"a.png\" ";
+  const MeshFile file = read_pbrt(pbrt_triangle + light + "\"float power\" 10\n", by_paths);
+  const core::LightCone& cone = file.scene.lights.at(0).cone;
+  CHECK(is_near(cone.ahead, {0, -1, 0}));
+  CHECK(cone.none_degrees == doctest::Approx(std::acos(2.0 / 3) * 180 / pi));
+  CHECK(cone.full_degrees == cone.none_degrees);
+  CHECK(is_near(file.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (4 * pi / 6))));
+  CHECK(notes(file, "lights of kind 'projection', which shine in a cone here, without their picture: 1"));
+  CHECK(tests::contains(pbrt_refusal(light + "\"float fov\" 180"), "its picture spans 180 degrees"));
+}
+
+// As in pbrt-v4, which makes pictures first, other textures of numbers and of colours in their order, and materials at last.
+TEST_CASE("materials name textures of any line, textures pictures of any line, and others those before them") {
+  const std::string grey = "Texture \"g\" \"spectrum\" \"constant\" \"rgb value\" [0.2 0.4 0.6]\n",
+                    twice = "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"g\" \"texture scale\" \"n\"\n",
+                    number = "Texture \"n\" \"float\" \"constant\" \"float value\" 0.5\n",
+                    named = "\"texture reflectance\" \"t\"\n";
+  CHECK(is_near(material_of("Material \"diffuse\" " + named + grey + twice + number).color, {0.1, 0.2, 0.3}));
+  CHECK(is_near(material_of("MakeNamedMaterial \"m\" \"string type\" \"diffuse\" " + named + "NamedMaterial \"m\"\n" + grey +
+                            twice + number)
+                    .color,
+                {0.1, 0.2, 0.3}));
+  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" " + named + twice + number + grey), "the texture \"g\" is not there"));
+  CHECK(tests::contains(pbrt_refusal(grey + grey), "there is a texture of this name already"));
+  CHECK(tests::contains(pbrt_refusal("MakeNamedMaterial \"m\" \"float roughness\" 0"), "has no \"string type\""));
+  CHECK(tests::contains(pbrt_refusal("Material \"matte\" \"texture Kd\" \"x\""), "is one of pbrt-v3"));
+}
+
+TEST_CASE("a picture of a later line lies on triangles that say no places as one of an earlier line does") {
+  const tests::TemporaryFolder folder;
+  write_image(folder / "grey.exr", Image(1, 1));
+  const std::string picture = "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.exr\"\n",
+                    twice = "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"w\" \"float scale\" 0.5\n",
+                    material = "Material \"diffuse\" \"texture reflectance\" \"t\"\n";
+  for (const std::string& text : {picture + twice + material + pbrt_triangle, twice + material + pbrt_triangle + picture}) {
+    tests::write_text(folder / "a.pbrt", tests::pbrt_camera + text);
+    const MeshFile file = read_mesh_file(folder / "a.pbrt");
+    REQUIRE(file.scene.objects.size() == 1);
+    CHECK(file.scene.objects[0].kind == core::ObjectKind::textured);
+    CHECK(tests::material_of_object(file, 0).texture != Material::no_texture);
+  }
 }
 
 TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as points") {
@@ -292,7 +338,8 @@ TEST_CASE("an area light of alpha 0 is not seen and lights all the same, as poin
 
 TEST_CASE("an area light of the material interface shines nowhere, named before or after") {
   const std::string light = "AreaLightSource \"diffuse\" \"bool twosided\" true\n", sphere = "Shape \"sphere\"\n";
-  for (const std::string interface : {"Material \"interface\"\n", "Material \"\"\n", "NamedMaterial \"air\"\n"}) {
+  for (const std::string interface :
+       {"Material \"interface\"\n", "Material \"\"\n", "Material \"none\"\n", "NamedMaterial \"air\"\n"}) {
     const MeshFile file =
         read_pbrt(sphere + interface + light + pbrt_triangle + "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n");
     CHECK(file.scene.objects.size() == 1);

@@ -66,13 +66,15 @@ std::string scene_of(const ParameterRow& row) {
   const bool is_first = statement == "Film" || statement == "Camera" || statement == "Sampler" || statement == "PixelFilter" ||
                         statement == "Integrator" || statement == "Accelerator" || statement == "Option";
   const std::string needed = statement == "Texture" && kind == "mix" ? "" : needed_by(kind);
-  const std::string begin = statement + (statement == "Texture" ? " \"t\" \"spectrum\"" : "") +
-                            (statement == "Option" ? "" : " \"" + kind + "\"") + needed + " ";
-  std::string words = begin + "\"float wizard\" 1\n";
+  auto begin = [&, textures = 0]() mutable {
+    return statement + (statement == "Texture" ? " \"t" + std::to_string(++textures) + "\" \"spectrum\"" : "") +
+           (statement == "Option" ? "" : " \"" + kind + "\"") + needed + " ";
+  };
+  std::string words = begin() + "\"float wizard\" 1\n";
   for (std::string_view list : {row.used, row.said, row.silent}) {
     while (!list.empty()) {
       const ListedParameter parameter = pbrt::next_of(list);
-      words += begin + "\"" + std::string(parameter.type) + " " + std::string(parameter.name) + "\" " +
+      words += begin() + "\"" + std::string(parameter.type) + " " + std::string(parameter.name) + "\" " +
                value_of(kind, parameter) + "\n";
     }
   }
