@@ -424,7 +424,7 @@ class PlacedScene {
     }
   }
 
-  /// Nobody says how long a file's lights expose a picture: so that it is white at most where half of it is.
+  /// Nobody says how long a file's lights expose a picture: what would be white all over is shown darker.
   void weaken_lights(std::vector<std::string>& notes) {
     std::vector<core::PointLight>& lights = result_.scene.lights;
     result_.light_share = still() != nullptr ? still()->light_share : share_for(lights, lit_places_);

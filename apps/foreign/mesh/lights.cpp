@@ -65,7 +65,8 @@ double share_for(const std::vector<PointLight>& lights, const std::vector<Vec3d>
   }
   const auto middle = squares.begin() + (std::ssize(squares) - 1) / 2;
   std::nth_element(squares.begin(), middle, squares.end());
-  return squares.empty() ? 1 : 1 / std::sqrt(std::max(*middle, 1.0));
+  constexpr double blinding = 16;
+  return squares.empty() || *middle <= blinding * blinding ? 1 : 1 / std::sqrt(*middle);
 }
 
 std::vector<PointLight> lights_of(const std::vector<FileLight>& lights, const BoundingSphere& bounds, double scale,

@@ -21,8 +21,8 @@ std::vector<core::PointLight> lights_of(const std::vector<FileLight>& lights, co
 /// A point or a spot that falls off with the square of the distance.
 core::PointLight falling(const FileLight& light, const BoundingSphere& bounds, double scale);
 
-/// By how much lights have to be weaker, at most 1, for half of these places to get no more than a white surface shows as 1 of
-/// them, by the root of the sum of squares.
+/// By how much lights are to be weaker, at most 1: where half of these places get more than 16 times what a white surface shows
+/// as 1 of them, by the root of the sum of squares, so that they get no more than that; else not at all.
 double share_for(const std::vector<core::PointLight>& lights, const std::vector<core::Vec3d>& places);
 
 /// A distant light as a point far away.
