@@ -31,7 +31,8 @@ class InputBytes final : public apps::FileBytes {
 class InputFiles : public apps::SceneFiles {
  public:
   /// `input` outlives it.
-  InputFiles(std::string name, std::span<const std::byte> input) : name_(std::move(name)), input_(input) {}
+  InputFiles(std::string name, std::span<const std::byte> input, std::uint64_t memory_bytes = std::uint64_t{1} << 30U)
+      : SceneFiles(apps::SceneTotals(memory_bytes)), name_(std::move(name)), input_(input) {}
 
   std::unique_ptr<apps::FileBytes> open(const std::string& path) override {
     if (path != name_) {

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/foreign/mesh/scene_totals.h"
 #include "apps/picture/texture_file.h"
 
 namespace dmpc::apps {
@@ -29,6 +29,7 @@ inline std::string_view text_of(const FileBytes& file) {
 
 class SceneFiles {
  public:
+  explicit SceneFiles(const SceneTotals& totals = SceneTotals()) : totals_(totals) {}
   virtual ~SceneFiles() = default;
 
   /// Throws core::InputError, a whole sentence, if the file cannot be had.
@@ -45,10 +46,17 @@ class SceneFiles {
   virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
                            const std::string& name, const TextureEdges& edges) = 0;
 
-  /// That the whole scene may take.
-  virtual std::uint64_t memory_bytes_max() const { return std::numeric_limits<std::uint64_t>::max(); }
+  /// Whether add_texture() adds none from now on, but has those weighed that come later: an error ends all where they have no
+  /// room.
+  virtual void only_weigh_textures(bool /*does*/) {}
+
+  /// Of the whole scene.
+  SceneTotals& totals() { return totals_; }
   /// 0 to 1.
   virtual void show_progress(float share) = 0;
+
+ private:
+  SceneTotals totals_;
 };
 
 }  // namespace dmpc::apps

@@ -19,14 +19,17 @@ std::uint32_t texel_of(const Vec3d& color) { return core::encoded(core::TexelFor
 
 MadePicture checks(const Vec3d& first, const Vec3d& second) {
   constexpr std::uint32_t side = squares * square_texels;
-  MadePicture picture{.width = side, .height = side, .texels = {}, .file = {}, .format_hint = {}};
-  for (std::uint32_t y = 0; y < side; ++y) {
-    for (std::uint32_t x = 0; x < side; ++x) {
-      const bool is_first = (x / square_texels + (side - 1 - y) / square_texels) % 2 == 0;
-      picture.texels.push_back(texel_of(is_first ? first : second));
+  const auto make = [of_first = texel_of(first), of_second = texel_of(second)] {
+    std::vector<std::uint32_t> texels;
+    for (std::uint32_t y = 0; y < side; ++y) {
+      for (std::uint32_t x = 0; x < side; ++x) {
+        const bool is_first = (x / square_texels + (side - 1 - y) / square_texels) % 2 == 0;
+        texels.push_back(is_first ? of_first : of_second);
+      }
     }
-  }
-  return picture;
+    return texels;
+  };
+  return {.width = side, .height = side, .make_texels = make, .file = {}, .format_hint = {}};
 }
 
 }  // namespace

@@ -217,6 +217,7 @@ void OffReader::read_face(std::uint64_t number) {
     return;
   }
   add_face(corners_, mesh_);
+  progress_.ask(size_of(mesh_));
   if (const auto color = off_color(0)) {
     set_last(looks_.colors, mesh_.faces.ends.size(), *color);
   }
@@ -224,7 +225,7 @@ void OffReader::read_face(std::uint64_t number) {
 
 PlacedFile OffReader::read() {
   read_header();
-  progress_.check_triangles(std::min(faces_, room()));
+  progress_.ask_for_triangles(std::min(faces_, room()));
   mesh_.vertices.reserve(std::min(vertices_, room()));
   for (std::uint64_t i = 0; i < vertices_; ++i) {
     read_vertex(i);
