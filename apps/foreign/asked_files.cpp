@@ -60,15 +60,6 @@ void AskedFiles::add_texture(std::span<const std::byte> file, const std::string&
   ask_for_texture(Saying::texture_bytes, Packer().add_flag(weighs_).add_text(name).add_text(format_hint), edges);
 }
 
-void AskedFiles::add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
-                             const std::string& name, const TextureEdges& edges) {
-  if (weighs_) {
-    return;  // they are there, and few
-  }
-  send(std::as_bytes(texels));
-  ask_for_texture(Saying::texture_texels, Packer().add_text(name).add(width).add(height), edges);
-}
-
 /// A tenth of a percent more is worth a word.
 void AskedFiles::show_progress(float share) {
   if (!(share > shown_ && share < shown_ + 0.001F)) {

@@ -19,8 +19,6 @@ class AskedFiles final : public SceneFiles {
   void add_texture(const std::string& path, const TextureEdges& edges) override;
   void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                    const TextureEdges& edges) override;
-  void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height, const std::string& name,
-                   const TextureEdges& edges) override;
   void only_weigh_textures(bool does) override { weighs_ = does; }
   void show_progress(float share) override;
 

@@ -155,7 +155,6 @@ bool MeshSession::answer(const Message& message) {
       {Saying::bytes, &MeshSession::add_bytes},
       {Saying::texture_file, &MeshSession::answer_texture},
       {Saying::texture_bytes, &MeshSession::answer_texture},
-      {Saying::texture_texels, &MeshSession::answer_texture},
       {Saying::sky, &MeshSession::add_sky},
       {Saying::bounds, &MeshSession::take_bounds},
       {Saying::note, &MeshSession::add_note}};
@@ -245,26 +244,18 @@ void MeshSession::answer_meant(Unpacker fields) {
 
 void MeshSession::answer_texture(const Message& message) {
   refuse_if_missing([&] {
-    if (message.saying == Saying::texture_texels) {
-      receiver_.add(texture_of_texels(Unpacker(message.bytes)));
+    Unpacker fields(message.bytes);
+    const bool is_weighed = fields.take_flag();
+    const PictureFile file = message.saying == Saying::texture_file ? picture_of_file(fields) : picture_of_bytes(fields);
+    const TextureEdges edges = take_edges(fields);
+    if (is_weighed) {
+      pictures_.weigh_texture(file);
     } else {
-      take_picture(message);
+      receiver_.add(pictures_.read_texture(file, edges));
     }
     process_.send(Saying::yes);
   });
   bytes_.clear();
-}
-
-void MeshSession::take_picture(const Message& message) {
-  Unpacker fields(message.bytes);
-  const bool is_weighed = fields.take_flag();
-  const PictureFile file = message.saying == Saying::texture_file ? picture_of_file(fields) : picture_of_bytes(fields);
-  const TextureEdges edges = take_edges(fields);
-  if (is_weighed) {
-    pictures_.weigh_texture(file);
-  } else {
-    receiver_.add(pictures_.read_texture(file, edges));
-  }
 }
 
 PictureFile MeshSession::picture_of_file(Unpacker& fields) {
@@ -278,24 +269,6 @@ PictureFile MeshSession::picture_of_bytes(Unpacker& fields) {
   PictureFile file = picture_of(std::as_bytes(std::span(bytes_)), name, hint);
   file.is_new = false;  // it lies in a file that has renewed the time
   return file;
-}
-
-core::Texture MeshSession::texture_of_texels(Unpacker fields) {
-  const std::string name = fields.take_text();
-  const auto width = fields.take<std::uint32_t>(), height = fields.take<std::uint32_t>();
-  const TextureEdges edges = take_edges(fields);
-  check_texture_size(name, width, height);
-  pictures_.weigh_texture(name, width, height);
-  const std::uint64_t count = std::uint64_t{width} * height;
-  Unpacker::require(bytes_.size() == count * sizeof(std::uint32_t));
-  core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{width, height, {}}}};
-  texture.levels.front().texels.resize(count);
-  std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
-  texture.format = edges.alpha == TextureAlpha::kept ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
-  put_below_coat(texture, edges.coat);
-  core::add_levels(texture);
-  core::keep_coverage(texture, edges.cutoff);
-  return texture;
 }
 
 /// Where that cannot be, the same comes in messages from then on. Copying takes time of dmpc's own, too.

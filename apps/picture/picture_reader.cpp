@@ -100,14 +100,6 @@ void PictureReader::weigh_texture(const PictureFile& file) {
        [&](const Head& head) { take_room(head.width, head.height, weighed_bytes_); });
 }
 
-void PictureReader::weigh_texture(const std::string& name, std::uint32_t width, std::uint32_t height) {
-  try {
-    take_room(width, height, weighed_bytes_);
-  } catch (const ComputerRoomError& error) {
-    throw ComputerRoomError(name + ": " + error.what());
-  }
-}
-
 Image PictureReader::read_image(const PictureFile& file) {
   return read_image(file, [](const Head&) {});
 }

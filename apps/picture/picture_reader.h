@@ -50,8 +50,6 @@ class PictureReader {
   /// Adds up what the textures of a scene take, by what stands before their pixels: read_texture() of all comes later. Throws
   /// core::RoomError at the one that is too much, named and with both sizes, core::InputError where it cannot be told.
   void weigh_texture(const PictureFile& file);
-  /// The same of texels that are there.
-  void weigh_texture(const std::string& name, std::uint32_t width, std::uint32_t height);
   /// How many of the textures had alpha that is not shown, of those where that is to be said.
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }
   /// As apps/picture/image_file.h says.

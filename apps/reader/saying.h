@@ -38,7 +38,6 @@ enum class Saying : std::uint8_t {
   bytes,           ///< more of the picture that is talked of
   texture_file,    ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
   texture_bytes,   ///< of the bytes sent, or the first where it is weighed: that, name, format hint, edges; answered likewise
-  texture_texels,  ///< of the bytes sent, four a texel: name, width, height, edges; answered likewise
   picture,         ///< width, height, format; its bytes follow, then done
   scene,           ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,

@@ -49,8 +49,6 @@ class InputFiles : public apps::SceneFiles {
   }
   void add_texture(std::span<const std::byte> /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
                    const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
   void show_progress(float share) override { core::expect(share >= 0 && share <= 1, "progress is a share"); }
 
  private:

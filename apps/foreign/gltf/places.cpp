@@ -210,7 +210,7 @@ void Placing::place(const MeshUse& use, std::size_t i, const Transform& world) {
   } else {
     PlacedShape& shape = file_.shapes[i];
     const GeometrySize size = shape.uses == 0 ? GeometrySize{} : totals_.size_of_place(size_of_copy(shape.mesh));
-    totals_.add(size, [&] { return "node '" + use.node + "', " + shape.mesh.name + ": "; });
+    totals_.add(size, [&use] { return "node '" + use.node + "': "; });
     file_.places.push_back({static_cast<std::uint32_t>(i), world});
     ++shape.uses;
   }
@@ -220,8 +220,7 @@ void Placing::place(const MeshUse& use, std::size_t i, const Transform& world) {
 void Placing::place_posed(const MeshUse& use, std::size_t i) {
   PlacedShape& shape = file_.shapes[i];
   const bool is_last = left_[i] == 1 && shape.uses == 0;
-  totals_.add(is_last ? GeometrySize{} : size_of(shape.mesh),
-              [&] { return "node '" + use.node + "', " + shape.mesh.name + ": "; });
+  totals_.add(is_last ? GeometrySize{} : size_of(shape.mesh), [&] { return "node '" + use.node + "': "; });
   PolygonMesh mesh = is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
   skins_.pose(mesh, meshes_.list[i].influences, use);
   file_.add(std::move(mesh));

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,10 +18,8 @@
 
 namespace dmpc::apps {
 
-/// A picture that a file holds itself: texels, or a picture's file.
+/// A picture's file that a file holds itself.
 struct MadePicture {
-  std::uint32_t width = 0, height = 0;
-  std::function<std::vector<std::uint32_t>()> make_texels;  ///< sRGB, red in the lowest byte
   std::vector<std::byte> file;
   std::string format_hint;  ///< how such files end
 };

@@ -38,16 +38,12 @@ class SceneFiles {
   /// As files_meant() of apps/formats/named_file.h.
   virtual std::vector<std::filesystem::path> meant(const std::filesystem::path& folder, const std::string& name) = 0;
 
-  /// The scene's next texture: a picture's file, one that lies in memory (`format_hint` is an ending, or nothing), or texels, red
-  /// in the lowest byte. Throw core::InputError "NAME: ..." if it cannot be had.
+  /// The scene's next texture: a picture's file, or one that lies in memory (`format_hint` is an ending, or nothing). Throw
+  /// core::InputError "NAME: ..." if it cannot be had.
   virtual void add_texture(const std::string& path, const TextureEdges& edges) = 0;
   virtual void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                            const TextureEdges& edges) = 0;
-  virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
-                           const std::string& name, const TextureEdges& edges) = 0;
-
-  /// Whether add_texture() adds none from now on, but has those weighed that come later: an error ends all where they have no
-  /// room.
+  /// Whether add_texture() adds none, but has those weighed that come later: where they have no room, that ends all.
   virtual void only_weigh_textures(bool /*does*/) {}
 
   /// Of the whole scene.

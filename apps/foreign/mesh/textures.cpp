@@ -44,10 +44,8 @@ void TextureReader::read(const TextureUse& use) {
   const std::string name = path_.string() + ", texture " + use.path;
   if (picture == nullptr) {
     files_.add_texture(file_of(use.path), use.edges);
-  } else if (!picture->make_texels) {
-    files_.add_texture(picture->file, name, picture->format_hint, use.edges);
   } else {
-    files_.add_texture(picture->make_texels(), picture->width, picture->height, name, use.edges);
+    files_.add_texture(picture->file, name, picture->format_hint, use.edges);
   }
 }
 
