@@ -35,8 +35,9 @@ std::vector<std::filesystem::path> AskedFiles::meant(const std::filesystem::path
   return paths;
 }
 
-void AskedFiles::ask_for_texture(Saying question, Packer fields, const TextureEdges& edges) {
-  const Message message = ask(question, fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff).add(edges.coat));
+void AskedFiles::ask_for_texture(Saying question, const Packer& fields, const TextureEdges& edges) {
+  const Message message =
+      ask(question, Packer(fields).add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff).add(edges.coat));
   if (message.saying != Saying::yes) {
     throw core::InputError(Unpacker(message.bytes).take_text());
   }
@@ -49,19 +50,14 @@ void AskedFiles::send(std::span<const std::byte> bytes) {
 }
 
 void AskedFiles::add_texture(const std::string& path, const TextureEdges& edges) {
-  ask_for_texture(Saying::texture_file, Packer().add_text(path), edges);
+  ask_for_texture(Saying::texture_file, Packer().add_flag(weighs_).add_text(path), edges);
 }
 
 void AskedFiles::add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                              const TextureEdges& edges) {
-  send(file);
-  ask_for_texture(Saying::texture_bytes, Packer().add_text(name).add_text(format_hint), edges);
-}
-
-void AskedFiles::add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
-                             const std::string& name, const TextureEdges& edges) {
-  send(std::as_bytes(texels));
-  ask_for_texture(Saying::texture_texels, Packer().add_text(name).add(width).add(height), edges);
+  constexpr std::size_t head_bytes = std::size_t{1} << 20U;
+  send(file.first(std::min(file.size(), weighs_ ? head_bytes : file.size())));
+  ask_for_texture(Saying::texture_bytes, Packer().add_flag(weighs_).add_text(name).add_text(format_hint), edges);
 }
 
 /// A tenth of a percent more is worth a word.

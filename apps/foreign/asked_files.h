@@ -11,7 +11,7 @@ struct HungUp {};
 
 class AskedFiles final : public SceneFiles {
  public:
-  AskedFiles(Line& line, std::uint64_t memory_bytes_max) : line_(line), memory_bytes_max_(memory_bytes_max) {}
+  AskedFiles(Line& line, const SceneTotals& totals) : SceneFiles(totals), line_(line) {}
 
   std::unique_ptr<FileBytes> open(const std::string& path) override;
   bool exists(const std::string& path) override;
@@ -19,18 +19,16 @@ class AskedFiles final : public SceneFiles {
   void add_texture(const std::string& path, const TextureEdges& edges) override;
   void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                    const TextureEdges& edges) override;
-  void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height, const std::string& name,
-                   const TextureEdges& edges) override;
-  std::uint64_t memory_bytes_max() const override { return memory_bytes_max_; }
+  void only_weigh_textures(bool does) override { weighs_ = does; }
   void show_progress(float share) override;
 
  private:
   Message ask(Saying question, const Packer& fields);
-  void ask_for_texture(Saying question, Packer fields, const TextureEdges& edges);
+  void ask_for_texture(Saying question, const Packer& fields, const TextureEdges& edges);
   void send(std::span<const std::byte> bytes);
 
   Line& line_;
-  std::uint64_t memory_bytes_max_;
+  bool weighs_ = false;
   float shown_ = -1;
 };
 

@@ -83,7 +83,7 @@ bool are_numbers(const RawPicture& picture) {
 }
 
 /// Throws what OpenEXR throws.
-std::optional<RawPicture> picture_of(std::span<const std::byte> file, std::uint64_t pixels_max) {
+std::optional<RawPicture> picture_of(std::span<const std::byte> file, std::uint64_t pixels_max, bool has_values) {
   BytesStream stream(file);
   Imf::MultiPartInputFile parts(stream, 0);
   if (parts.parts() != 1 || (parts.header(0).hasType() && parts.header(0).type() != "scanlineimage") ||
@@ -104,6 +104,9 @@ std::optional<RawPicture> picture_of(std::span<const std::byte> file, std::uint6
                      .channels = static_cast<int>(channels.size()),
                      .value_bytes = sizeof(float),
                      .values = {}};
+  if (!has_values) {
+    return picture;
+  }
   picture.values.resize(channels.size() * sizeof(float) * picture.width * picture.height);
   Imf::InputPart part(parts, 0);
   part.setFrameBuffer(places_for(picture, channels, window, picture.values.data()));
@@ -113,9 +116,9 @@ std::optional<RawPicture> picture_of(std::span<const std::byte> file, std::uint6
 
 }  // namespace
 
-std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max) {
+std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max, bool has_values) {
   try {
-    return picture_of(file, pixels_max);
+    return picture_of(file, pixels_max, has_values);
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -64,7 +64,7 @@ class JpegReading {
 
 }  // namespace
 
-std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uint64_t pixels_max) {
+std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uint64_t pixels_max, bool has_values) {
   JpegReading reading(file);
   if (!reading.read_head()) {
     return std::nullopt;
@@ -75,6 +75,9 @@ std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uin
     return std::nullopt;
   }
   RawPicture picture{.width = state.image_width, .height = state.image_height, .channels = state.num_components, .values = {}};
+  if (!has_values) {
+    return picture;
+  }
   picture.values.resize(std::size_t{picture.width} * picture.height * static_cast<std::size_t>(picture.channels));
   return reading.read_rows(picture.values.data()) ? std::optional(std::move(picture)) : std::nullopt;
 }

@@ -40,7 +40,7 @@ void serve_mesh(const Message& request, Line& line) {
   const std::string path = fields.take_text();
   const auto memory_bytes = fields.take<std::uint64_t>();
   const MeshOptions options = take_options(fields);
-  AskedFiles files(line, memory_bytes);
+  AskedFiles files(line, SceneTotals(memory_bytes, options.smooth_degrees ? core::Copies::put : options.copies));
   MeshScene mesh = read_mesh(path, options, files);
   for (const std::string& note : mesh.notes) {
     line.send(Saying::note, Packer().add_text(note));

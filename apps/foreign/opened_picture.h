@@ -23,6 +23,7 @@ struct EncodedPicture {
 
 /// What a picture is opened for.
 enum class PictureUse : std::uint8_t {
+  size,     ///< its form alone; no pixel is decoded
   texture,  ///< colours are as they are without alpha
   image     ///< colours are multiplied by alpha, as OpenImageIO multiplies them
 };

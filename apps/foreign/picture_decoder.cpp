@@ -156,7 +156,7 @@ core::TexelFormat format_for(const OIIO::ImageSpec& spec) {
 class OpenedByLibrary final : public OpenedPicture {
  public:
   OpenedByLibrary(const EncodedPicture& picture, PictureUse use)
-      : picture_(picture), use_(use), input_(use == PictureUse::texture ? open_texture(picture_) : open(picture_, false)) {}
+      : picture_(picture), use_(use), input_(use == PictureUse::image ? open(picture_, false) : open_texture(picture_)) {}
 
   PictureForm form() const override {
     const OIIO::ImageSpec& spec = input_.spec();

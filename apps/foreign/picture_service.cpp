@@ -34,13 +34,18 @@ void serve_picture(const Message& request, Line& line, const PictureDecoder& dec
   const std::string name = fields.take_text(), format = fields.take_text();
   const std::unique_ptr<FileBytes> file = map_file(request.file, fields.take<std::uint64_t>());
   const EncodedPicture picture{file->bytes(), name, format, fields.take_choice(TextureAlpha::kept)};
-  const bool is_texture = request.saying == Saying::read_texture;
-  const std::unique_ptr<OpenedPicture> opened = decode(picture, is_texture ? PictureUse::texture : PictureUse::image);
+  const PictureUse use = request.saying == Saying::weigh_picture  ? PictureUse::size
+                         : request.saying == Saying::read_texture ? PictureUse::texture
+                                                                  : PictureUse::image;
+  const std::unique_ptr<OpenedPicture> opened = decode(picture, use);
   if (!opened) {
     line.send(Saying::left_to_another);
     return;
   }
-  if (is_texture) {
+  if (use == PictureUse::size) {
+    const PictureForm form = opened->form();
+    send_head(form.width, form.height, form.format, false, line);
+  } else if (use == PictureUse::texture) {
     send_texture(*opened, picture, line);
   } else {
     send_image(*opened, line);

@@ -12,14 +12,12 @@
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/lights.h"
-#include "apps/foreign/mesh/round_mesh.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/formats/view_faults.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
-#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -152,27 +150,35 @@ class PlacedScene {
  private:
   /// What meshes become, each of them once, and as often as the scene has it; says what copies cost.
   void measure() {
-    GeometrySize once, all, made;
+    GeometrySize once, all;
     std::uint64_t meshes = 0, places = 0;
     std::vector<bool> is_placed(file_.shapes.size());
     for (const ShapePlace& place : file_.places) {
       const PlacedShape& shape = file_.shapes[place.shape];
-      const GeometrySize size = size_of(shape.mesh.faces);
-      const bool is_first = !is_placed[place.shape], is_mesh = !shape.sphere;
-      const bool is_left_out =
-          options_.copies == core::Copies::left_out && shape.uses > 1 && size.triangles > core::copied_triangles_max;
+      const GeometrySize size = shape.size_of_copy();
+      const bool is_first = !is_placed[place.shape], is_mesh = !shape.is_ball();
       is_placed[place.shape] = true;
+      ask_for_more(shape, place.world);
       meshes += is_mesh && is_first ? 1 : 0;
       places += is_mesh ? 1 : 0;
       all += size;
       once += is_first ? size : GeometrySize{};
-      made += is_first || !is_left_out ? size : GeometrySize{};
     }
-    check_size(made, files_.memory_bytes_max());
     result_.scene.objects.reserve(options_.smooth_degrees ? all.faces : once.faces);
     if (meshes < places && options_.copies == core::Copies::put) {
       result_.notes.push_back(grouped(meshes) + (meshes == 1 ? " mesh stands in " : " meshes stand in ") + grouped(places) +
                               " places: " + grouped(once.triangles) + " triangles become " + grouped(all.triangles));
+    }
+  }
+
+  /// Of what is made here alone: meshes in place of balls that do not stay round, and backs.
+  void ask_for_more(const PlacedShape& shape, const Transform& world) const {
+    const auto where = [&shape] { return shape.mesh.name + ": "; };
+    if (shape.is_ball() && (!even_stretch(world) || file_.materials[shape.mesh.material].texture)) {
+      files_.totals().add(size_of_copy(*shape.round), where);
+    }
+    if (shape.back) {
+      files_.totals().add(shape.round ? size_of_copy(*shape.round) : size_of(shape.mesh), where);
     }
   }
 
@@ -193,6 +199,7 @@ class PlacedScene {
   void make_materials() {
     TextureReader textures(file_.pictures, result_.scene.name, files_, result_.scene.textures);
     const std::vector<bool> used = used_materials();
+    weigh_textures(used, textures);
     std::uint64_t black = 0, means = 0, too_bright = 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const FileMaterial& known = file_.materials[i];
@@ -221,6 +228,19 @@ class PlacedScene {
     judge_missing(missing, options_, result_.notes);
   }
 
+  void weigh_textures(const std::vector<bool>& used, TextureReader& textures) const {
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const FileMaterial& material = file_.materials[i];
+      if (used[i] && !material.is_cut_away) {
+        textures.weigh(material.texture, shows_facets(material) ? material.facets : std::nullopt);
+      }
+    }
+  }
+
+  bool shows_facets(const FileMaterial& material) const {
+    return options_.is_by_paths && material.facets && material.material.microfacets.are_there();
+  }
+
   /// Keeps its colour. Returns whether it was too bright.
   static bool dim(Vec3d& emission) {
     if (!(largest_component(emission) > light_max)) {
@@ -235,8 +255,7 @@ class PlacedScene {
   /// Gives a material its texture of metal and roughness, if somebody shows it; returns whether that is shown by its mean, as it
   /// lies elsewhere than that of the colour, or there is none.
   bool add_facets(const FileMaterial& known, TextureReader& textures, core::Material& material) const {
-    const bool is_shown = options_.is_by_paths && known.facets && material.microfacets.are_there();
-    const auto texture = is_shown ? textures.find_numbers(*known.facets) : std::nullopt;
+    const auto texture = shows_facets(known) ? textures.find_numbers(*known.facets) : std::nullopt;
     if (!texture) {
       return false;
     }
@@ -287,9 +306,8 @@ class PlacedScene {
     }
     const Transform world = scaled(place.world, scale_);
     note_places(shape.mesh.vertices, world);
-    if (shape.uses > 1 && !shape.sphere && !shape.back && !options_.smooth_degrees && !shared_.contains(place.shape)) {
-      PolygonMesh mesh = std::move(shape.mesh);
-      shape.mesh.material = mesh.material;
+    if (shape.uses > 1 && !shape.is_ball() && !shape.back && !options_.smooth_degrees && !shared_.contains(place.shape)) {
+      PolygonMesh mesh = mesh_of(shape, true);
       put_in_place(mesh, {}, 1, shape.is_turned, material);
       shared_.emplace(place.shape, writer.add_shared(std::move(mesh), file_.materials));
     }
@@ -299,13 +317,13 @@ class PlacedScene {
       }
       return;
     }
-    const auto stretch = shape.sphere ? even_stretch(world) : std::nullopt;
+    const auto stretch = shape.is_ball() ? even_stretch(world) : std::nullopt;
     if (stretch && material.material.texture == core::Material::no_texture) {
       inside_out_ += shape.is_turned ? 1 : 0;
-      writer.add(core::Sphere{world.point(shape.sphere->center), shape.sphere->radius * *stretch}, material.material);
+      writer.add(core::Sphere{world.point({}), shape.round->radius * *stretch}, material.material);
       return;
     }
-    PolygonMesh mesh = mesh_of(shape);
+    PolygonMesh mesh = mesh_of(shape, --shape.uses == 0);
     put_in_place(mesh, place.world, scale_, shape.is_turned, material);
     if (shape.back) {
       backs_.push_back(mesh);
@@ -325,15 +343,14 @@ class PlacedScene {
     }
   }
 
-  /// In its own coordinates, of which nothing is left behind in its last place.
-  static PolygonMesh mesh_of(PlacedShape& shape) {
-    const bool is_last = --shape.uses == 0;
-    if (!shape.sphere) {
+  /// In its own coordinates; where nobody else wants it nothing is left behind.
+  static PolygonMesh mesh_of(PlacedShape& shape, bool is_last) {
+    if (!shape.round) {
       return is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
     }
-    const double radius = shape.sphere->radius;
-    PolygonMesh mesh = sphere_mesh({.radius = radius, .least_z = -radius, .most_z = radius, .degrees = 360});
+    PolygonMesh mesh = apps::mesh_of(*shape.round);
     mesh.name = shape.mesh.name;
+    mesh.material = shape.mesh.material;
     return mesh;
   }
 

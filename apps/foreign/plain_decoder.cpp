@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -99,9 +100,12 @@ class OpenedPlain final : public OpenedPicture {
 constexpr std::array readers{&png_picture, &jpeg_picture, &exr_picture};
 static_assert(readers.size() == plain_formats.size(), "each plain format has a reader");
 
-std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
+std::optional<RawPicture> plain_picture(const EncodedPicture& picture, PictureUse use) {
   const auto format = std::ranges::find(plain_formats, picture.format) - plain_formats.begin();
-  return format < std::ssize(readers) ? readers[static_cast<std::size_t>(format)](picture.bytes, plain_pixels_max) : std::nullopt;
+  const bool has_values = use != PictureUse::size;
+  const std::uint64_t pixels_max = has_values ? plain_pixels_max : std::numeric_limits<std::uint64_t>::max();
+  return format < std::ssize(readers) ? readers[static_cast<std::size_t>(format)](picture.bytes, pixels_max, has_values)
+                                      : std::nullopt;
 }
 
 }  // namespace
@@ -114,12 +118,12 @@ bool is_plain_size(std::uint64_t width, std::uint64_t height, std::uint64_t valu
 
 std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use) {
   try {
-    std::optional<RawPicture> plain = plain_picture(picture);
+    std::optional<RawPicture> plain = plain_picture(picture, use);
     if (!plain) {
       return nullptr;
     }
     auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
-    return use == PictureUse::texture || opened->is_without_alpha() ? std::move(opened) : nullptr;
+    return use != PictureUse::image || opened->is_without_alpha() ? std::move(opened) : nullptr;
   } catch (const std::bad_alloc&) {  // OpenImageIO takes less, or says that there is no room
     return nullptr;
   }

@@ -18,6 +18,7 @@ struct RawPicture {
   std::vector<std::uint8_t> values;
 };
 
+/// Those below are read from the front on; without values what stands before these is all that counts.
 /// Pixels of the largest that is read: beside what those take the start of OpenImageIO is little, and it takes half of the
 /// memory.
 inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 24U;
@@ -28,13 +29,16 @@ bool is_plain_size(std::uint64_t width, std::uint64_t height, std::uint64_t valu
 
 /// A PNG of any colours and depth; palettes and grey of less than 8 bits as bytes, transparent colours as alpha. What chunks
 /// say that have nothing to do with that is passed over. Nothing if libpng has any complaint.
-std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
+std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max,
+                                      bool has_values = true);
 
 /// A JPEG in grey or colours (of three channels). Nothing if it is none, or libjpeg has any complaint.
-std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
+std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max,
+                                       bool has_values = true);
 
 /// An EXR of one part in rows, whose channels are R, G and B, with A or without, or Y, of floats or halves, which become floats.
 /// Nothing if it is none, if some of it is no number, or if OpenEXR has any complaint.
-std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
+std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max,
+                                      bool has_values = true);
 
 }  // namespace dmpc::apps

@@ -81,7 +81,7 @@ bool read_rows(png_structp png, png_infop info, int passes, std::uint8_t* first,
 
 }  // namespace
 
-std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint64_t pixels_max) {
+std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint64_t pixels_max, bool has_values) {
   std::span<const std::byte> rest = file;
   const PngReading reading(rest);
   const auto png = reading.png();
@@ -99,6 +99,9 @@ std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint
   if (!is_plain_size(picture.width, picture.height, picture.value_bytes, file.size(), pixels_max) ||
       ::png_get_rowbytes(png, info) != row_bytes) {
     return std::nullopt;
+  }
+  if (!has_values) {
+    return picture;
   }
   picture.values.resize(row_bytes * picture.height);
   const bool is_read = read_rows(png, info, passes, picture.values.data(), row_bytes, picture.height);

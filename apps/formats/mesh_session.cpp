@@ -155,7 +155,6 @@ bool MeshSession::answer(const Message& message) {
       {Saying::bytes, &MeshSession::add_bytes},
       {Saying::texture_file, &MeshSession::answer_texture},
       {Saying::texture_bytes, &MeshSession::answer_texture},
-      {Saying::texture_texels, &MeshSession::answer_texture},
       {Saying::sky, &MeshSession::add_sky},
       {Saying::bounds, &MeshSession::take_bounds},
       {Saying::note, &MeshSession::add_note}};
@@ -245,50 +244,31 @@ void MeshSession::answer_meant(Unpacker fields) {
 
 void MeshSession::answer_texture(const Message& message) {
   refuse_if_missing([&] {
-    receiver_.add(texture_of(message));
+    Unpacker fields(message.bytes);
+    const bool is_weighed = fields.take_flag();
+    const PictureFile file = message.saying == Saying::texture_file ? picture_of_file(fields) : picture_of_bytes(fields);
+    const TextureEdges edges = take_edges(fields);
+    if (is_weighed) {
+      pictures_.weigh_texture(file);
+    } else {
+      receiver_.add(pictures_.read_texture(file, edges));
+    }
     process_.send(Saying::yes);
   });
   bytes_.clear();
 }
 
-core::Texture MeshSession::texture_of(const Message& message) {
-  Unpacker fields(message.bytes);
-  return message.saying == Saying::texture_file    ? texture_of_file(fields)
-         : message.saying == Saying::texture_bytes ? texture_of_bytes(fields)
-                                                   : texture_of_texels(fields);
-}
-
-core::Texture MeshSession::texture_of_file(Unpacker fields) {
-  const std::string path = fields.take_text();
-  const TextureEdges edges = take_edges(fields);
-  const PictureFile file = open_picture(path);
+PictureFile MeshSession::picture_of_file(Unpacker& fields) {
+  PictureFile file = open_picture(fields.take_text());
   budget_.add_bytes(file.is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0);
-  return pictures_.read_texture(file, edges);
+  return file;
 }
 
-core::Texture MeshSession::texture_of_bytes(Unpacker fields) {
+PictureFile MeshSession::picture_of_bytes(Unpacker& fields) {
   const std::string name = fields.take_text(), hint = fields.take_text();
-  const TextureEdges edges = take_edges(fields);
   PictureFile file = picture_of(std::as_bytes(std::span(bytes_)), name, hint);
   file.is_new = false;  // it lies in a file that has renewed the time
-  return pictures_.read_texture(file, edges);
-}
-
-core::Texture MeshSession::texture_of_texels(Unpacker fields) {
-  const std::string name = fields.take_text();
-  const auto width = fields.take<std::uint32_t>(), height = fields.take<std::uint32_t>();
-  const TextureEdges edges = take_edges(fields);
-  check_texture_size(name, width, height);
-  const std::uint64_t count = std::uint64_t{width} * height;
-  Unpacker::require(bytes_.size() == count * sizeof(std::uint32_t));
-  core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{width, height, {}}}};
-  texture.levels.front().texels.resize(count);
-  std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
-  texture.format = edges.alpha == TextureAlpha::kept ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
-  put_below_coat(texture, edges.coat);
-  core::add_levels(texture);
-  core::keep_coverage(texture, edges.cutoff);
-  return texture;
+  return file;
 }
 
 /// Where that cannot be, the same comes in messages from then on. Copying takes time of dmpc's own, too.

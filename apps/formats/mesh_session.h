@@ -37,10 +37,8 @@ class MeshSession {
   PictureFile open_picture(const std::string& path);
   void answer_meant(Unpacker fields);
   void answer_texture(const Message& message);
-  core::Texture texture_of(const Message& message);
-  core::Texture texture_of_file(Unpacker fields);
-  core::Texture texture_of_bytes(Unpacker fields);
-  core::Texture texture_of_texels(Unpacker fields);
+  PictureFile picture_of_file(Unpacker& fields);
+  PictureFile picture_of_bytes(Unpacker& fields);
   void take_over(const Message& message);
   void spend(ProcessorStopwatch& stopwatch);
   void add_bytes(const Message& message);

@@ -83,10 +83,11 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
   core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
   read(file, {Saying::read_texture, edges.alpha}, [&](const Head& head) {
     check_texture_size(file.name, head.width, head.height);
-    take_room(head);
+    take_room(head.width, head.height, texture_bytes_);
     texture.format = head.format;
     hidden_alphas_ += head.hides_alpha ? 1 : 0;
-    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
+    const std::uint64_t count = std::uint64_t{head.width} * head.height;
+    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(count, count)});  // which has its room
   });
   put_below_coat(texture, edges.coat);
   core::add_levels(texture);
@@ -94,12 +95,19 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
   return texture;
 }
 
+void PictureReader::weigh_texture(const PictureFile& file) {
+  read(file, {Saying::weigh_picture, TextureAlpha::ignored},
+       [&](const Head& head) { take_room(head.width, head.height, weighed_bytes_); });
+}
+
 Image PictureReader::read_image(const PictureFile& file) {
   return read_image(file, [](const Head&) {});
 }
 
 Image PictureReader::read_sky(const PictureFile& file) {
-  return read_image(file, [this](const Head& head) { check_sky(head); });
+  const auto check = [this](const Head& head) { check_sky(head); };
+  read(file, {Saying::weigh_picture, TextureAlpha::ignored}, check);
+  return read_image(file, check);
 }
 
 template <class Check>
@@ -109,7 +117,7 @@ Image PictureReader::read_image(const PictureFile& file, const Check& check) {
     check(head);
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
-    image.rgb = receive_values<float>(std::uint64_t{head.width} * head.height * 3);
+    image.rgb = receive_values<float>(std::uint64_t{head.width} * head.height * 3, believed_bytes_max / sizeof(float));
   });
   return image;
 }
@@ -186,13 +194,12 @@ void PictureReader::check_time() const {
 }
 
 /// Of a texel, and with all levels, which are a third more: once as it is read, and once more when records are made of it.
-void PictureReader::take_room(const Head& head) {
+void PictureReader::take_room(std::uint32_t width, std::uint32_t height, std::uint64_t& taken) const {
   const std::uint64_t most = memory_bytes_max();
-  texture_bytes_ += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);
-  if (texture_bytes_ > most) {
-    throw ComputerRoomError("with its " + size_text(head.width, head.height) + " texels the scene's textures take " +
-                            mebibytes_text(texture_bytes_) + ", and there is room for " + mebibytes_text(most) +
-                            ": make them smaller");
+  taken += 2 * (std::uint64_t{width} * height * sizeof(std::uint32_t) * 4 / 3);
+  if (taken > most) {
+    throw ComputerRoomError("with its " + size_text(width, height) + " texels the scene's textures take " +
+                            mebibytes_text(taken) + ", and there is room for " + mebibytes_text(most) + ": make them smaller");
   }
 }
 
@@ -209,9 +216,10 @@ void PictureReader::check_sky(const Head& head) const {
                            " along a side: make it smaller");
   }
   const std::uint64_t bytes = std::uint64_t{head.width} * head.height * texel_bytes;
-  if (bytes > memory_bytes_max()) {
-    throw ComputerRoomError("a sky of " + size + " texels takes " + mebibytes_text(bytes) + ", and there is room for " +
-                            mebibytes_text(memory_bytes_max()) + ": make it smaller");
+  if (bytes + texture_bytes_ > memory_bytes_max()) {
+    throw ComputerRoomError("a sky of " + size + " texels takes " + mebibytes_text(bytes) +
+                            (texture_bytes_ == 0 ? "" : ", the scene's textures " + mebibytes_text(texture_bytes_)) +
+                            ", and there is room for " + mebibytes_text(memory_bytes_max()) + ": make it smaller");
   }
 }
 
@@ -237,11 +245,11 @@ PictureReader::Head PictureReader::head_of(const Message& message, const Picture
   return head;
 }
 
-/// Believes no more of what was announced than what comes.
+/// Believes no more than `believed` of what was announced until it comes.
 template <class T>
-std::vector<T> PictureReader::receive_values(std::uint64_t count) {
+std::vector<T> PictureReader::receive_values(std::uint64_t count, std::uint64_t believed) {
   std::vector<T> values;
-  values.reserve(std::min<std::uint64_t>(count, believed_bytes_max / sizeof(T)));
+  values.reserve(std::min(count, believed));
   while (values.size() < count) {
     const Message message = receive();
     const std::size_t more = message.bytes.size() / sizeof(T), before = values.size();

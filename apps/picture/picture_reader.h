@@ -47,6 +47,9 @@ class PictureReader {
   /// Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or than any
   /// database, has no texels, several layers, or several samples a texel.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
+  /// Adds up what the textures of a scene take, by what stands before their pixels: read_texture() of all comes later. Throws
+  /// core::RoomError at the one that is too much, named and with both sizes, core::InputError where it cannot be told.
+  void weigh_texture(const PictureFile& file);
   /// How many of the textures had alpha that is not shown, of those where that is to be said.
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }
   /// As apps/picture/image_file.h says.
@@ -75,21 +78,21 @@ class PictureReader {
   Message answer_of(Program program, const PictureFile& file, const std::string& format, const Request& request);
   void start(Program program, std::uint64_t file_bytes);
   void check_time() const;
-  void take_room(const Head& head);
+  void take_room(std::uint32_t width, std::uint32_t height, std::uint64_t& taken) const;
   void check_sky(const Head& head) const;
   template <class Check>
   Image read_image(const PictureFile& file, const Check& check);
   std::uint64_t memory_bytes_max() const;
   static Head head_of(const Message& message, const PictureFile& file);
   template <class T>
-  std::vector<T> receive_values(std::uint64_t count);
+  std::vector<T> receive_values(std::uint64_t count, std::uint64_t believed);
   Message receive();
 
   ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
   Program program_ = Program::plain;  ///< of the process
   std::uint64_t hidden_alphas_ = 0;
-  std::uint64_t memory_bytes_ = 0, texture_bytes_ = 0;
+  std::uint64_t memory_bytes_ = 0, weighed_bytes_ = 0, texture_bytes_ = 0;
 };
 
 }  // namespace dmpc::apps

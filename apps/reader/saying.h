@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 14;
+inline constexpr std::uint32_t protocol = 15;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -22,6 +22,7 @@ enum class Saying : std::uint8_t {
               ///< if one is asked for
   read_texture,   ///< name, format hint, bytes of the file, whether alpha counts; with the file
   read_image,     ///< likewise
+  weigh_picture,  ///< likewise; answered by picture and done, from what stands before the pixels
   writes,         ///< an ending; answered by yes or no
   write_picture,  ///< name, width, height, whether its values are floats; these follow as bytes; answered by bytes, then done
   file,           ///< bytes of the file; with the file
@@ -35,9 +36,8 @@ enum class Saying : std::uint8_t {
   meant,           ///< a folder and a name in the scene's file; answered by names
   progress,        ///< share, 0 to 1
   bytes,           ///< more of the picture that is talked of
-  texture_file,    ///< path, edges; answered by yes, when it is the scene's next texture, or no
-  texture_bytes,   ///< of the bytes sent: name, format hint, edges; answered likewise
-  texture_texels,  ///< of the bytes sent, four a texel: name, width, height, edges; answered likewise
+  texture_file,    ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
+  texture_bytes,   ///< of the bytes sent, or the first where it is weighed: that, name, format hint, edges; answered likewise
   picture,         ///< width, height, format; its bytes follow, then done
   scene,           ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,

@@ -163,7 +163,9 @@ Database build_database(Scene&& scene, const BuildOptions& options, const CopyLi
   }
   Database database = build_database(std::as_const(scene), options);
   forget_objects(scene);
-  forget_texels(scene);
+  for (Texture& texture : scene.textures) {
+    forget_texels(texture);
+  }
   return database;
 }
 

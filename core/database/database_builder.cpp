@@ -29,11 +29,9 @@ void forget_objects(Scene& scene) {
   scene.kept.reset();
 }
 
-void forget_texels(Scene& scene) {
-  for (Texture& texture : scene.textures) {
-    for (TextureLevel& level : texture.levels) {
-      forget(level.texels);
-    }
+void forget_texels(Texture& texture) {
+  for (TextureLevel& level : texture.levels) {
+    forget(level.texels);
   }
 }
 
@@ -258,16 +256,21 @@ void DatabaseBuilder::write_sky_tiles() {
   }
 }
 
+/// Their room is made at once, and each texture's texels are forgotten when it is there: a large one is most of a scene.
 void DatabaseBuilder::write_textures() {
-  for (std::size_t i = 0; i < textures_.size(); ++i) {
-    if (!is_shown(scene_.textures[i])) {
-      continue;
-    }
-    write_tiles(scene_.textures[i], textures_[i], writer_);
-    counts().texture_tiles += tile_count(textures_[i]);
+  std::size_t tiles = 0;
+  for (const TextureReference& texture : textures_) {
+    tiles += tile_count(texture);
   }
-  if (expendable_ != nullptr) {
-    forget_texels(*expendable_);
+  writer_.reserve(tiles * sizeof(TextureTile) + textures_.size() * options_.page_size_bytes);
+  for (std::size_t i = 0; i < textures_.size(); ++i) {
+    if (is_shown(scene_.textures[i])) {
+      write_tiles(scene_.textures[i], textures_[i], writer_);
+      counts().texture_tiles += tile_count(textures_[i]);
+    }
+    if (expendable_ != nullptr) {
+      forget_texels(expendable_->textures[i]);
+    }
   }
 }
 

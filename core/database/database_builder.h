@@ -125,6 +125,6 @@ class DatabaseBuilder {
 
 /// Frees what of a scene a database has.
 void forget_objects(Scene& scene);
-void forget_texels(Scene& scene);
+void forget_texels(Texture& texture);
 
 }  // namespace dmpc::core

@@ -75,6 +75,12 @@ class RecordWriter {
     bytes_.reserve(finished_bytes());
     cover();
   }
+  /// Makes room, but writable none, for so many bytes behind what has been taken, which then is never moved.
+  void reserve(std::size_t bytes) {
+    if (keeps_ == Keeps::records) {
+      bytes_.reserve(end_ + bytes + page_size_ + overread_bytes);
+    }
+  }
   void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
     if (keeps_ == Keeps::nothing) {
       return;

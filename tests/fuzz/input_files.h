@@ -31,7 +31,8 @@ class InputBytes final : public apps::FileBytes {
 class InputFiles : public apps::SceneFiles {
  public:
   /// `input` outlives it.
-  InputFiles(std::string name, std::span<const std::byte> input) : name_(std::move(name)), input_(input) {}
+  InputFiles(std::string name, std::span<const std::byte> input, std::uint64_t memory_bytes = std::uint64_t{1} << 30U)
+      : SceneFiles(apps::SceneTotals(memory_bytes)), name_(std::move(name)), input_(input) {}
 
   std::unique_ptr<apps::FileBytes> open(const std::string& path) override {
     if (path != name_) {
@@ -48,8 +49,6 @@ class InputFiles : public apps::SceneFiles {
   }
   void add_texture(std::span<const std::byte> /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
                    const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
   void show_progress(float share) override { core::expect(share >= 0 && share <= 1, "progress is a share"); }
 
  private:

@@ -104,14 +104,6 @@ Row row_of(Buffers& buffers, const Part& part, std::uint64_t count, std::size_t 
   return {view.bytes.subspan(count > 0 ? offset : 0), stride};
 }
 
-/// An accessor without a view means zeros; a file of any size could ask for so many that there is no memory for them.
-void check_count(const Part& accessor, std::uint64_t count) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 24U;
-  if (!accessor.find("bufferView") && count > most) {
-    accessor.fail("has a count of " + std::to_string(count) + " and no bufferView, expected at most " + std::to_string(most));
-  }
-}
-
 /// Calls take(index, bytes of the value) for each element that a sparse accessor replaces.
 template <class Take>
 void for_each_replaced(Buffers& buffers, const Part& accessor, std::size_t element_bytes, const Take& take) {
@@ -136,12 +128,16 @@ void for_each_replaced(Buffers& buffers, const Part& accessor, std::size_t eleme
 
 /// The numbers of all its elements, `width` each, as `take` makes them of bytes. `stored`: the type whose bytes stay as they are.
 template <class T, class Take>
-std::vector<T> numbers_of(Buffers& buffers, const Part& accessor, std::size_t width, Number stored, const Take& take) {
+std::vector<T> numbers_of(Buffers& buffers, SceneTotals& totals, const Part& accessor, std::size_t width, Number stored,
+                          const Take& take) {
   const Number type = number_of(accessor);
   const std::uint64_t count = accessor.get("count").as_whole();
-  check_count(accessor, count);
   const std::size_t number_bytes = bytes_of(type), element_bytes = width * number_bytes;
-  const Row row = accessor.find("bufferView") ? row_of(buffers, accessor, count, element_bytes) : Row{};
+  const bool has_view = accessor.find("bufferView").has_value();
+  if (!has_view) {  // zeros, as many as it likes
+    totals.add({.bytes = count * width * sizeof(T)}, [&accessor] { return accessor.where() + ": "; });
+  }
+  const Row row = has_view ? row_of(buffers, accessor, count, element_bytes) : Row{};
   std::vector<T> numbers(count * width);
   const auto take_element = [&](std::size_t i, const std::byte* bytes) {
     for (std::size_t k = 0; k < width; ++k) {
@@ -175,7 +171,7 @@ Values Accessors::values(const Part& where, std::size_t width, std::size_t other
   const auto take = [is_normalized = part.flag("normalized")](const std::byte* bytes, Number type) {
     return float_at(bytes, type, is_normalized);
   };
-  return {numbers, numbers_of<float>(buffers_, part, numbers, Number::float32, take)};
+  return {numbers, numbers_of<float>(buffers_, totals_, part, numbers, Number::float32, take)};
 }
 
 std::vector<std::uint32_t> Accessors::indices(const Part& where) {
@@ -184,7 +180,7 @@ std::vector<std::uint32_t> Accessors::indices(const Part& where) {
     where.fail("refers to " + part.where() + ", whose type is " + part.get("type").as_text() + "; expected SCALAR");
   }
   check_is_index(part, number_of(part));
-  return numbers_of<std::uint32_t>(buffers_, part, 1, Number::uint32, index_at);
+  return numbers_of<std::uint32_t>(buffers_, totals_, part, 1, Number::uint32, index_at);
 }
 
 }  // namespace dmpc::apps::gltf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/foreign/gltf/buffers.h"
+#include "apps/foreign/mesh/scene_totals.h"
 
 namespace dmpc::apps::gltf {
 
@@ -20,10 +21,11 @@ struct Values {
 };
 
 /// Reads accessors, plain, interleaved, sparse or without a view (zeros). Throws core::InputError, by its place in the document,
-/// for what reaches beyond its view or is not of the expected kind.
+/// for what reaches beyond its view or is not of the expected kind; core::RoomError for zeros that there is no room for.
 class Accessors {
  public:
-  Accessors(const Document& document, Buffers& buffers) : buffers_(buffers), accessors_(document.root().list("accessors")) {}
+  Accessors(const Document& document, Buffers& buffers, SceneTotals& totals)
+      : buffers_(buffers), totals_(totals), accessors_(document.root().list("accessors")) {}
 
   std::size_t count() const { return accessors_.size(); }
 
@@ -39,6 +41,7 @@ class Accessors {
   const Part& accessor(const Part& where) const;
 
   Buffers& buffers_;
+  SceneTotals& totals_;
   std::vector<Part> accessors_;
 };
 

@@ -104,12 +104,13 @@ std::string ending_of(const std::vector<std::byte>& bytes) {
 
 class MaterialReader {
  public:
-  MaterialReader(const Document& document, Buffers& buffers, PlacedFile& file)
+  MaterialReader(const Document& document, Buffers& buffers, SceneTotals& totals, PlacedFile& file)
       : root_(document.root()),
         textures_(root_.list("textures")),
         samplers_(root_.list("samplers")),
         images_(root_.list("images")),
         buffers_(buffers),
+        totals_(totals),
         file_(file) {}
 
   void add(const Part& source, MaterialTraits& traits);
@@ -132,6 +133,7 @@ class MaterialReader {
   Part root_;
   std::vector<Part> textures_, samplers_, images_;
   Buffers& buffers_;
+  SceneTotals& totals_;
   PlacedFile& file_;
   std::map<std::size_t, std::size_t> numbers_;  ///< of images within the document among the file's pictures
   std::uint64_t without_picture_ = 0;
@@ -162,6 +164,7 @@ std::string MaterialReader::name_of(std::size_t image) {
     MadePicture& picture = file_.pictures.emplace_back();
     if (address.empty()) {
       const auto view = buffers_.view(part.required_index("bufferView", buffers_.view_count(), "bufferViews")).bytes;
+      totals_.add({.bytes = view.size()}, [&part] { return part.where() + ": "; });  // as others may name the same bytes
       picture.file.assign(view.begin(), view.end());
     } else {
       picture.file = bytes_of_data(address, part);
@@ -283,11 +286,11 @@ void MaterialReader::add(const Part& source, MaterialTraits& traits) {
 
 }  // namespace
 
-std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, PlacedFile& file) {
+std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, SceneTotals& totals, PlacedFile& file) {
   static const nlohmann::json nothing = nlohmann::json::object();
   std::vector<Part> sources = document.root().list("materials");
   sources.emplace_back(nothing);
-  MaterialReader reader(document, buffers, file);
+  MaterialReader reader(document, buffers, totals, file);
   std::vector<MaterialTraits> traits(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     reader.add(sources[i], traits[i]);

@@ -23,7 +23,7 @@ struct MaterialTraits {
 
 /// Gives the file its materials, and, last, that of primitives without one, with the pictures within the document for which these
 /// ask. Notes textures that name no picture. Throws core::InputError, by its place in the document.
-std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, PlacedFile& file);
+std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, SceneTotals& totals, PlacedFile& file);
 
 /// Appends a sentence, with a count, for each kind of thing that `used` materials of the file have and that is not shown.
 void note_losses(const std::vector<MaterialTraits>& materials, const std::vector<bool>& used, PlacedFile& file);

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/foreign/mesh/geometry.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -143,9 +142,8 @@ void check_size(const Part& primitive, const Primitive& source) {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
-                  std::uint64_t memory_bytes_max)
-      : buffers_(buffers), accessors_(accessors), materials_(materials), memory_bytes_max_(memory_bytes_max) {}
+  PrimitiveReader(Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials, SceneTotals& totals)
+      : buffers_(buffers), accessors_(accessors), materials_(materials), totals_(totals) {}
 
   void add(const Part& primitive, const std::string& name, Meshes& result) {
     const Mode mode = mode_of(primitive);
@@ -164,10 +162,13 @@ class PrimitiveReader {
       if (mode < Mode::triangles) {
         read.thin_faces = face_count(mode, source.indices.size());
       } else {
-        size_ += size_of_triangles(face_count(mode, source.indices.size()));
-        apps::check_size(size_, memory_bytes_max_);
+        const auto where = [&primitive] { return primitive.where() + ": "; };
+        const std::uint64_t faces = face_count(mode, source.indices.size());
+        totals_.ask(size_of_faces(faces, 3 * faces), where);
         add_vertices(source, materials_[read.mesh.material].coordinates, read.mesh);
         read.mesh.faces = triangles_of(mode, std::move(source.indices));
+        totals_.add(size_of(read.mesh), where);
+        totals_.add({.bytes = read.influences.joints.size() * read.mesh.vertices.size() * 8 * sizeof(float)}, where);
       }
     }
     result.list.push_back(std::move(read));
@@ -177,15 +178,14 @@ class PrimitiveReader {
   Buffers& buffers_;
   Accessors& accessors_;
   const std::vector<MaterialTraits>& materials_;
-  std::uint64_t memory_bytes_max_;
-  GeometrySize size_;  ///< of all so far
+  SceneTotals& totals_;
 };
 
 }  // namespace
 
 Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
-                   std::uint64_t memory_bytes_max) {
-  PrimitiveReader reader(buffers, accessors, materials, memory_bytes_max);
+                   SceneTotals& totals) {
+  PrimitiveReader reader(buffers, accessors, materials, totals);
   Meshes result;
   for (const Part& source : document.root().list("meshes")) {
     const std::size_t first = result.list.size();

@@ -9,6 +9,7 @@
 #include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/primitive.h"
 #include "apps/foreign/mesh/polygon_mesh.h"
+#include "apps/foreign/mesh/scene_totals.h"
 
 namespace dmpc::apps::gltf {
 
@@ -32,8 +33,8 @@ struct Meshes {
 };
 
 /// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by
-/// its place in the document; core::RoomError if they take more memory than that.
+/// its place in the document; core::RoomError if they take more than there is room for.
 Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
-                   std::uint64_t memory_bytes_max);
+                   SceneTotals& totals);
 
 }  // namespace dmpc::apps::gltf

@@ -69,8 +69,8 @@ struct Standing {
 
 class Tree {
  public:
-  Tree(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose)
-      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes), pose_(pose) {}
+  Tree(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, SceneTotals& totals)
+      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes), pose_(pose), totals_(totals) {}
 
   /// The node that `where` names, with all below it. A hidden one has nothing to show, and is there for the joints among them.
   void add(const Part& where, const Transform& parent, int level, bool is_below_hidden);
@@ -86,6 +86,7 @@ class Tree {
   Accessors& accessors_;
   const Meshes& meshes_;
   const Pose& pose_;
+  SceneTotals& totals_;
 };
 
 /// The numbers of one instance of many; a plain one where the attribute is not there.
@@ -112,6 +113,9 @@ std::vector<Transform> Tree::instances(const Part& instancing, const Transform& 
   read("TRANSLATION", 3, moves);
   read("ROTATION", 4, turns);
   read("SCALE", 3, scales);
+  const auto where = [&instancing] { return instancing.where() + ": "; };
+  totals_.add({.bytes = count * sizeof(Transform)}, where);
+  totals_.ask(size_of_places(count), where);  // of one primitive at least
   std::vector<Transform> places;
   places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -251,7 +255,7 @@ void for_each_standing(const std::multimap<std::size_t, Standing>& standings, co
 }  // namespace
 
 Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose,
-                 const std::optional<Resolution>& size) {
+                 const std::optional<Resolution>& size, SceneTotals& totals) {
   const Part root = document.root();
   const std::vector<Part> scenes = root.list("scenes");
   if (scenes.empty()) {
@@ -259,7 +263,7 @@ Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& m
   }
   const Part& shown = scenes[root.index("scene", scenes.size(), "scenes").value_or(0)];
   shown.text("name", "");  // which nobody shows, and which is no name if it is no text
-  Tree tree(document, accessors, meshes, pose);
+  Tree tree(document, accessors, meshes, pose, totals);
   for (const Part& where : shown.list("nodes")) {
     tree.add(where, {}, 0, false);
   }

@@ -36,6 +36,6 @@ struct Nodes {
 /// own if none is given, from edge to edge (core::View's goes between the middles of pixels). Throws core::InputError, by its
 /// place in the document, for nodes that are no tree, and for transforms that are none.
 Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose,
-                 const std::optional<Resolution>& size);
+                 const std::optional<Resolution>& size, SceneTotals& totals);
 
 }  // namespace dmpc::apps::gltf

@@ -159,10 +159,10 @@ void check(const MeshUse& use, const Transform& world) {
 /// Puts meshes in their places, one use after the other.
 class Placing {
  public:
-  Placing(const Skins& skins, Meshes& meshes, PlacedFile& file)
-      : skins_(skins), meshes_(meshes), file_(file), left_(meshes.list.size()), is_placed_(meshes.list.size()) {
+  Placing(const Skins& skins, Meshes& meshes, SceneTotals& totals, PlacedFile& file)
+      : skins_(skins), meshes_(meshes), totals_(totals), file_(file), left_(meshes.list.size()), is_placed_(meshes.list.size()) {
     for (PrimitiveMesh& primitive : meshes.list) {
-      file_.shapes.push_back({.mesh = std::move(primitive.mesh), .sphere = {}, .back = {}});
+      file_.shapes.push_back({.mesh = std::move(primitive.mesh), .round = {}, .back = {}});
     }
   }
 
@@ -191,6 +191,7 @@ class Placing {
 
   const Skins& skins_;
   const Meshes& meshes_;
+  SceneTotals& totals_;
   PlacedFile& file_;
   std::vector<std::size_t> left_;  ///< how many uses of each primitive are still to come, with that which is being placed
   std::vector<bool> is_placed_;
@@ -207,8 +208,11 @@ void Placing::place(const MeshUse& use, std::size_t i, const Transform& world) {
   if (is_posed) {
     place_posed(use, i);
   } else {
+    PlacedShape& shape = file_.shapes[i];
+    const GeometrySize size = shape.uses == 0 ? GeometrySize{} : totals_.size_of_place(size_of_copy(shape.mesh));
+    totals_.add(size, [&use] { return "node '" + use.node + "': "; });
     file_.places.push_back({static_cast<std::uint32_t>(i), world});
-    ++file_.shapes[i].uses;
+    ++shape.uses;
   }
 }
 
@@ -216,6 +220,7 @@ void Placing::place(const MeshUse& use, std::size_t i, const Transform& world) {
 void Placing::place_posed(const MeshUse& use, std::size_t i) {
   PlacedShape& shape = file_.shapes[i];
   const bool is_last = left_[i] == 1 && shape.uses == 0;
+  totals_.add(is_last ? GeometrySize{} : size_of(shape.mesh), [&] { return "node '" + use.node + "': "; });
   PolygonMesh mesh = is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
   skins_.pose(mesh, meshes_.list[i].influences, use);
   file_.add(std::move(mesh));
@@ -251,9 +256,9 @@ void Placing::finish(const std::vector<MaterialTraits>& materials) {
 }  // namespace
 
 void place_meshes(const Document& document, Accessors& accessors, const Nodes& nodes, Meshes meshes,
-                  const std::vector<MaterialTraits>& materials, PlacedFile& file) {
+                  const std::vector<MaterialTraits>& materials, SceneTotals& totals, PlacedFile& file) {
   const Skins skins(document, accessors, nodes);
-  Placing placing(skins, meshes, file);
+  Placing placing(skins, meshes, totals, file);
   for (const MeshUse& use : nodes.uses) {
     placing.expect(use);
   }

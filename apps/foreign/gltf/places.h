@@ -17,6 +17,6 @@ namespace dmpc::apps::gltf {
 /// bind matrices than joints, for joints of vertices that the skin has not, and for weights below 0 or not finite. Notes what of
 /// placed meshes and their materials is not shown.
 void place_meshes(const Document& document, Accessors& accessors, const Nodes& nodes, Meshes meshes,
-                  const std::vector<MaterialTraits>& materials, PlacedFile& file);
+                  const std::vector<MaterialTraits>& materials, SceneTotals& totals, PlacedFile& file);
 
 }  // namespace dmpc::apps::gltf

@@ -17,19 +17,18 @@ namespace fs = std::filesystem;
 /// glTF's numbers are floats, but for those of nodes.
 constexpr double float_rounding = 0x1p-25;
 
-PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options,
-                         std::uint64_t memory_bytes_max) {
+PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options, SceneTotals& totals) {
   PlacedFile file;
   file.coordinate_rounding = float_rounding;
   Buffers buffers(document, open);
-  Accessors accessors(document, buffers);
-  const std::vector<MaterialTraits> materials = read_materials(document, buffers, file);
-  Meshes meshes = read_meshes(document, buffers, accessors, materials, memory_bytes_max);
+  Accessors accessors(document, buffers, totals);
+  const std::vector<MaterialTraits> materials = read_materials(document, buffers, totals, file);
+  Meshes meshes = read_meshes(document, buffers, accessors, materials, totals);
   const Pose pose = options.animation ? pose_at(*options.animation, document, accessors, file.notes) : Pose{};
-  Nodes nodes = read_nodes(document, accessors, meshes, pose, options.size);
+  Nodes nodes = read_nodes(document, accessors, meshes, pose, options.size, totals);
   file.views = std::move(nodes.views);
   file.lights = std::move(nodes.lights);
-  place_meshes(document, accessors, nodes, std::move(meshes), materials, file);
+  place_meshes(document, accessors, nodes, std::move(meshes), materials, totals, file);
   const std::size_t animations = document.root().list("animations").size() - (options.animation ? 1 : 0);
   note_count(file.notes, "animations not played", animations);
   note_extensions(document, file.notes);
@@ -48,7 +47,7 @@ PlacedFile read_gltf(const std::string& path, const MeshOptions& options, SceneF
     const std::unique_ptr<FileBytes> file = files.open((found.empty() ? folder / name : found.front()).string());
     return std::vector<std::byte>(file->bytes().begin(), file->bytes().end());
   };
-  return read_document(document, open, options, files.memory_bytes_max());
+  return read_document(document, open, options, files.totals());
 }
 
 }  // namespace dmpc::apps::gltf

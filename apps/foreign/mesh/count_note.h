@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
@@ -19,6 +20,36 @@ inline void note_count(std::vector<std::string>& notes, const std::string& what,
     notes.push_back(what + ": " + grouped(count));
   }
 }
+
+/// Counts of each kind, in the order in which they come first: of so many kinds each, as a file may name as many as it has lines.
+class Notes {
+ public:
+  static constexpr std::size_t kinds_max = 100;
+
+  void count(const std::string& what, std::uint64_t more = 1) {
+    for (auto& [known, number] : counts_) {
+      if (known == what) {
+        number += more;
+        return;
+      }
+    }
+    if (more > 0 && counts_.size() < kinds_max) {
+      counts_.emplace_back(what, more);
+    } else {
+      others_ += more;
+    }
+  }
+  void add_to(std::vector<std::string>& notes) const {
+    for (const auto& [what, number] : counts_) {
+      note_count(notes, what, number);
+    }
+    note_count(notes, "what of more kinds is not shown as it is, or means nothing where it stands", others_);
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::uint64_t>> counts_;
+  std::uint64_t others_ = 0;
+};
 
 /// "a, b, c, d and 3 more".
 inline std::string first_of(const std::vector<std::string>& names, std::size_t shown = 4) {

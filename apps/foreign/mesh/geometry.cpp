@@ -10,7 +10,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/smooth.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/formats/reading_memory.h"
 #include "apps/formats/view_faults.h"
 #include "core/base/expect.h"
 #include "core/scene/face_normals.h"
@@ -57,28 +56,6 @@ std::vector<std::uint32_t> groups_of(const std::vector<FaceRun>& runs) {
 }
 
 }  // namespace
-
-GeometrySize size_of_face(std::uint64_t corners) { return corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners}; }
-
-GeometrySize size_of_triangles(std::uint64_t count) { return {count, count, 3 * count}; }
-
-GeometrySize size_of(const FaceList& faces) {
-  return {faces.corners.size() - 2 * faces.ends.size(), faces.ends.size(), faces.corners.size()};
-}
-
-void check_size(const GeometrySize& size, std::uint64_t memory_bytes) {
-  check_database(size.triangles);
-  if (const std::uint64_t bytes = sizeof(core::Object) * size.faces + sizeof(Vec3d) * size.corners; bytes > memory_bytes) {
-    throw core::RoomError("its " + grouped(size.triangles) + " triangles so far take at least " + bytes_text(bytes) +
-                          " of memory, and a file's scene may take " + bytes_text(memory_bytes) +
-                          ": make the scene smaller, or divide it");
-  }
-  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
-  if (size.corners > most) {
-    throw core::RoomError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
-                          grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
-  }
-}
 
 void GeometryWriter::add(PolygonMesh mesh, std::span<const FileMaterial> materials) {
   is_shared_ = false;

@@ -13,7 +13,6 @@
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/formats/indexed_vertices.h"
 #include "core/base/box.h"
-#include "core/base/counts.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
 
@@ -21,19 +20,6 @@ namespace dmpc::apps {
 
 /// As many colours of faces become materials; what has others has them at its corners.
 inline constexpr std::size_t face_colors_max = 256;
-
-/// What faces of three or more corners become.
-struct GeometrySize {
-  std::uint64_t triangles = 0, faces = 0, corners = 0;
-
-  GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
-};
-GeometrySize size_of_face(std::uint64_t corners);
-GeometrySize size_of_triangles(std::uint64_t count);
-/// Of faces of three or more corners.
-GeometrySize size_of(const FaceList& faces);
-/// Of what a scene has so far. Throws core::RoomError if a database, the indices of a scene, or memory does not reach so far.
-void check_size(const GeometrySize& size, std::uint64_t memory_bytes);
 
 /// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured
 /// ones if the material has a texture and the mesh has places on it, coloured ones if it has none and the mesh has colours. Faces

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/foreign/mesh/polygon_mesh.h"
+#include "apps/foreign/mesh/round_mesh.h"
 #include "apps/foreign/mesh/texture_place.h"
 #include "apps/foreign/mesh/transform.h"
 #include "apps/picture/texture_file.h"
@@ -17,10 +18,8 @@
 
 namespace dmpc::apps {
 
-/// A picture that a file holds itself: texels, or a picture's file.
+/// A picture's file that a file holds itself.
 struct MadePicture {
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint32_t> texels;  ///< sRGB, red in the lowest byte
   std::vector<std::byte> file;
   std::string format_hint;  ///< how such files end
 };
@@ -49,11 +48,19 @@ struct ShapePlace {
 
 /// In its own coordinates.
 struct PlacedShape {
-  PolygonMesh mesh;                    ///< with a material; without faces where it is a sphere
-  std::optional<core::Sphere> sphere;  ///< which stays round in all its places
-  std::optional<std::size_t> back;     ///< the material of what it shows behind, where it shines to the front alone
-  bool is_turned = false;              ///< its faces look to the other side
-  std::uint64_t uses = 0;              ///< how many places it has
+  PolygonMesh mesh;                 ///< with a material; without faces where it is round
+  std::optional<RoundShape> round;  ///< becomes a mesh where it stands, but for balls that stay balls
+  std::optional<std::size_t> back;  ///< the material of what it shows behind, where it shines to the front alone
+  bool is_turned = false;           ///< its faces look to the other side
+  std::uint64_t uses = 0;           ///< how many places it has
+
+  bool is_ball() const { return round && round->is_ball(); }
+  /// Of a ball that of one that stays.
+  GeometrySize size_of_copy() const {
+    return is_ball() ? GeometrySize{.bytes = sizeof(core::Object) + sizeof(core::Sphere)}
+           : round   ? apps::size_of_copy(*round)
+                     : apps::size_of_copy(mesh);
+  }
 };
 
 struct FileView {
@@ -98,7 +105,7 @@ struct PlacedFile {
   /// Adds a mesh that stands where it is.
   void add(PolygonMesh mesh) {
     places.push_back({static_cast<std::uint32_t>(shapes.size())});
-    shapes.push_back({.mesh = std::move(mesh), .sphere = {}, .back = {}, .uses = 1});
+    shapes.push_back({.mesh = std::move(mesh), .round = {}, .back = {}, .uses = 1});
   }
 };
 

@@ -43,33 +43,37 @@ int columns_of(double degrees) {
   return std::clamp(static_cast<int>(std::lround(faces_around * degrees / 360)), 3, faces_around);
 }
 
+int rows_of(RoundKind kind) { return kind == RoundKind::sphere ? faces_around / 2 : 1; }
+
+SurfacePoint on_sphere(const RoundShape& shape, double around, double v) {
+  const auto latitude_at = [r = shape.radius](double z) { return core::angle_of(z, std::sqrt(std::max(r * r - z * z, 0.0))); };
+  const double low = latitude_at(shape.least_z), high = latitude_at(shape.most_z);
+  const double latitude = low + (high - low) * v, across = core::cos_radians(latitude);
+  const Vec3d out{across * core::cos_degrees(around), across * core::sin_degrees(around), core::sin_radians(latitude)};
+  return {out * shape.radius, out};
+}
+
+SurfacePoint on_cylinder(const RoundShape& shape, double around, double v) {
+  const Vec3d out{core::cos_degrees(around), core::sin_degrees(around), 0};
+  return {out * shape.radius + Vec3d{0, 0, shape.least_z + (shape.most_z - shape.least_z) * v}, out};
+}
+
+SurfacePoint on_ring(const RoundShape& shape, double around, double v) {
+  const double out = shape.radius + (shape.inner - shape.radius) * v;
+  return {{out * core::cos_degrees(around), out * core::sin_degrees(around), shape.least_z}, {0, 0, 1}};
+}
+
 }  // namespace
 
-PolygonMesh sphere_mesh(const SpherePart& part) {
-  const double low =
-      core::angle_of(part.least_z, std::sqrt(std::max(part.radius * part.radius - part.least_z * part.least_z, 0.0)));
-  const double high =
-      core::angle_of(part.most_z, std::sqrt(std::max(part.radius * part.radius - part.most_z * part.most_z, 0.0)));
-  return grid_mesh(columns_of(part.degrees), faces_around / 2, [&](double u, double v) {
-    const double latitude = low + (high - low) * v, around = part.degrees * u, across = core::cos_radians(latitude);
-    const Vec3d out{across * core::cos_degrees(around), across * core::sin_degrees(around), core::sin_radians(latitude)};
-    return SurfacePoint{out * part.radius, out};
-  });
+PolygonMesh mesh_of(const RoundShape& shape) {
+  const auto at = shape.kind == RoundKind::sphere ? on_sphere : shape.kind == RoundKind::cylinder ? on_cylinder : on_ring;
+  return grid_mesh(columns_of(shape.degrees), rows_of(shape.kind),
+                   [&](double u, double v) { return at(shape, shape.degrees * u, v); });
 }
 
-PolygonMesh cylinder_mesh(const SpherePart& part) {
-  return grid_mesh(columns_of(part.degrees), 1, [&](double u, double v) {
-    const double around = part.degrees * u;
-    const Vec3d out{core::cos_degrees(around), core::sin_degrees(around), 0};
-    return SurfacePoint{out * part.radius + Vec3d{0, 0, part.least_z + (part.most_z - part.least_z) * v}, out};
-  });
-}
-
-PolygonMesh ring_mesh(double height, double radius, double inner, double degrees) {
-  return grid_mesh(columns_of(degrees), 1, [&](double u, double v) {
-    const double around = degrees * u, out = radius + (inner - radius) * v;
-    return SurfacePoint{{out * core::cos_degrees(around), out * core::sin_degrees(around), height}, {0, 0, 1}};
-  });
+GeometrySize size_of_copy(const RoundShape& shape) {
+  const auto faces = static_cast<std::uint64_t>(columns_of(shape.degrees) * rows_of(shape.kind));
+  return size_of_faces(faces, 4 * faces, sizeof(Vec3d));
 }
 
 }  // namespace dmpc::apps

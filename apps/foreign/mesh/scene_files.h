@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/foreign/mesh/scene_totals.h"
 #include "apps/picture/texture_file.h"
 
 namespace dmpc::apps {
@@ -29,6 +29,7 @@ inline std::string_view text_of(const FileBytes& file) {
 
 class SceneFiles {
  public:
+  explicit SceneFiles(const SceneTotals& totals = SceneTotals()) : totals_(totals) {}
   virtual ~SceneFiles() = default;
 
   /// Throws core::InputError, a whole sentence, if the file cannot be had.
@@ -37,18 +38,21 @@ class SceneFiles {
   /// As files_meant() of apps/formats/named_file.h.
   virtual std::vector<std::filesystem::path> meant(const std::filesystem::path& folder, const std::string& name) = 0;
 
-  /// The scene's next texture: a picture's file, one that lies in memory (`format_hint` is an ending, or nothing), or texels, red
-  /// in the lowest byte. Throw core::InputError "NAME: ..." if it cannot be had.
+  /// The scene's next texture: a picture's file, or one that lies in memory (`format_hint` is an ending, or nothing). Throw
+  /// core::InputError "NAME: ..." if it cannot be had.
   virtual void add_texture(const std::string& path, const TextureEdges& edges) = 0;
   virtual void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                            const TextureEdges& edges) = 0;
-  virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
-                           const std::string& name, const TextureEdges& edges) = 0;
+  /// Whether add_texture() adds none, but has those weighed that come later: where they have no room, that ends all.
+  virtual void only_weigh_textures(bool /*does*/) {}
 
-  /// That the whole scene may take.
-  virtual std::uint64_t memory_bytes_max() const { return std::numeric_limits<std::uint64_t>::max(); }
+  /// Of the whole scene.
+  SceneTotals& totals() { return totals_; }
   /// 0 to 1.
   virtual void show_progress(float share) = 0;
+
+ private:
+  SceneTotals totals_;
 };
 
 }  // namespace dmpc::apps

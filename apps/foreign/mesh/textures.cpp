@@ -16,6 +16,9 @@ std::string key_of(const TextureUse& use) {
          std::to_string(use.edges.coat);
 }
 
+/// Ends the key of a texture whose texels are no colours.
+constexpr const char* numbers = " numbers";
+
 }  // namespace
 
 std::string TextureReader::file_of(const std::string& name) {
@@ -41,16 +44,27 @@ void TextureReader::read(const TextureUse& use) {
   const std::string name = path_.string() + ", texture " + use.path;
   if (picture == nullptr) {
     files_.add_texture(file_of(use.path), use.edges);
-  } else if (picture->texels.empty()) {
-    files_.add_texture(picture->file, name, picture->format_hint, use.edges);
   } else {
-    files_.add_texture(picture->texels, picture->width, picture->height, name, use.edges);
+    files_.add_texture(picture->file, name, picture->format_hint, use.edges);
   }
+}
+
+void TextureReader::weigh(const std::optional<TextureUse>& color, const std::optional<TextureUse>& facets) {
+  files_.only_weigh_textures(true);
+  for (const auto& [use, end] : {std::pair(color, ""), {facets, numbers}}) {
+    try {
+      if (use && weighed_.insert(key_of(*use) + end).second) {
+        read(*use);
+      }
+    } catch (const core::InputError&) {  // as find() tells
+    }
+  }
+  files_.only_weigh_textures(false);
 }
 
 std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) { return find(use, key_of(use)); }
 
-std::optional<std::uint32_t> TextureReader::find_numbers(const TextureUse& use) { return find(use, key_of(use) + " numbers"); }
+std::optional<std::uint32_t> TextureReader::find_numbers(const TextureUse& use) { return find(use, key_of(use) + numbers); }
 
 std::optional<std::uint32_t> TextureReader::find(const TextureUse& use, const std::string& key) {
   const auto [known, is_new] = known_.try_emplace(key);

@@ -25,6 +25,9 @@ class TextureReader {
                 std::vector<core::Texture>& textures)
       : pictures_(pictures), path_(path), files_(files), textures_(textures) {}
 
+  /// Asks whether there is room for two more, before the first is read: an error ends all where there is none.
+  void weigh(const std::optional<TextureUse>& color, const std::optional<TextureUse>& facets);
+
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
   /// The same of one whose texels are numbers, no colours: one of the scene's by itself, whatever else shows its picture.
@@ -51,7 +54,7 @@ class TextureReader {
   SceneFiles& files_;
   std::vector<core::Texture>& textures_;
   std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges, and whether they are numbers
-  std::set<std::string> missing_, other_names_;
+  std::set<std::string> weighed_, missing_, other_names_;
 };
 
 }  // namespace dmpc::apps

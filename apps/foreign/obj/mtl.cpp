@@ -10,7 +10,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/obj/tally.h"
+#include "apps/foreign/obj/unknown_words.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/foreign/text/text_lines.h"
 

@@ -11,9 +11,8 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/count_note.h"
-#include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/obj/corner.h"
-#include "apps/foreign/obj/tally.h"
+#include "apps/foreign/obj/unknown_words.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/foreign/text/text_lines.h"
 #include "apps/formats/nff_reader.h"
@@ -78,7 +77,7 @@ constexpr std::array left_out{
 
 class Parser {
  public:
-  explicit Parser(std::uint64_t memory_bytes_max) : memory_bytes_max_(memory_bytes_max) {}
+  explicit Parser(SceneTotals& totals) : totals_(totals) {}
   Geometry read(std::string_view file, const std::function<void(float)>& passed);
 
  private:
@@ -109,13 +108,12 @@ class Parser {
   Geometry result_;
   CornerReader corner_reader_;
   std::vector<Corner> face_;  ///< the one that is read
-  GeometrySize size_;
-  std::uint64_t memory_bytes_max_;
+  SceneTotals& totals_;
   std::uint32_t group_ = 0;        ///< of smoothing, for the faces that follow
   std::uint32_t material_ = none;  ///< the same
   std::unordered_map<std::string, std::uint32_t> names_;
   std::unordered_set<std::string> libraries_;
-  Tally tally_;
+  Notes tally_;
   std::uint64_t colored_ = 0;  ///< vertices
   UnknownWords unknown_;
   /// What has no number where one is expected, by Named.
@@ -134,7 +132,7 @@ Geometry Parser::read(std::string_view file, const std::function<void(float)>& p
   }
   corner_reader_.check_named(counts());
   judge_strays();
-  tally_.note(result_.notes);
+  tally_.add_to(result_.notes);
   note_count(result_.notes, "vertices without a colour beside others that have one, shown white",
              result_.colors.empty() ? 0 : result_.vertices.size() - colored_);
   unknown_.note("unknown statements left out", result_.notes);
@@ -199,9 +197,9 @@ void Parser::judge_strays() {
                                "correct the file");
       }
     }
-    tally_.add(std::string(names[kind]) + " of what is no number, left out as no face has them (the first in line " +
-                   std::to_string(strays.front().line) + ")",
-               strays.size());
+    tally_.count(std::string(names[kind]) + " of what is no number, left out as no face has them (the first in line " +
+                     std::to_string(strays.front().line) + ")",
+                 strays.size());
   }
 }
 
@@ -247,7 +245,7 @@ void Parser::color(const Vec3d& color) {
   const auto clamped = [](double channel) { return std::clamp(channel, 0.0, 1.0); };
   const Vec3d shown{clamped(color.x), clamped(color.y), clamped(color.z)};
   if (!(shown == color)) {
-    tally_.add(strange_colors);
+    tally_.count(strange_colors);
   }
   ++colored_;
   result_.colors.resize(result_.vertices.size(), {1, 1, 1});
@@ -288,14 +286,13 @@ void Parser::face(LineWords& words) {
     }
   }
   if (face_.size() < 3) {
-    return tally_.add(face_.empty() ? "faces without a corner left out" : thin);
+    return tally_.count(face_.empty() ? "faces without a corner left out" : thin);
   }
   add_face(words);
 }
 
 void Parser::add_face(const LineWords& words) {
-  size_ += size_of_face(face_.size());
-  check_size(size_, memory_bytes_max_);
+  totals_.add(size_of_faces(1, face_.size()), [&words] { return "line " + std::to_string(words.line()) + ": "; });
   start_run();
   Faces& faces = result_.faces;
   add_named(Named::place, faces.places, words);
@@ -382,7 +379,7 @@ void Parser::other(std::string_view keyword, const LineWords& words) {
       std::find_if(left_out.begin(), left_out.end(), [keyword](const LeftOut& one) { return one.statement == keyword; });
   if (known != left_out.end()) {
     if (known->words != nullptr) {
-      tally_.add(known->words);
+      tally_.count(known->words);
     }
   } else {
     unknown_.add(keyword, words.line());
@@ -391,8 +388,8 @@ void Parser::other(std::string_view keyword, const LineWords& words) {
 
 }  // namespace
 
-Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed, std::uint64_t memory_bytes_max) {
-  return Parser(memory_bytes_max).read(file, passed);
+Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed, SceneTotals& totals) {
+  return Parser(totals).read(file, passed);
 }
 
 }  // namespace dmpc::apps::obj

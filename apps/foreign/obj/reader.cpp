@@ -17,7 +17,7 @@ namespace {
 obj::Geometry read_geometry(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> file = files.open(path);
   return obj::parse_obj(
-      text_of(*file), [&files](float share) { files.show_progress(share); }, files.memory_bytes_max());
+      text_of(*file), [&files](float share) { files.show_progress(share); }, files.totals());
 }
 
 void append(std::vector<std::string> more, std::vector<std::string>& all) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/transform.h"
-#include "apps/foreign/pbrt/notes.h"
 #include "apps/foreign/pbrt/parameters.h"
 #include "apps/formats/resolution.h"
 #include "core/scene/scene.h"

@@ -131,20 +131,28 @@ FileLight half_round(const Vec3d& centre, const Vec3d& face, const Vec3d& radian
 
 double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
 
-double area_of(const PlacedShape& shape, const Transform& world) {
-  if (shape.sphere) {
-    const double stretch = std::cbrt(std::abs(world.determinant())) * shape.sphere->radius;
-    return 4 * pi * stretch * stretch;
-  }
-  double area = 0;
+/// Calls take(a, b, c) for each triangle of a shape that is no ball.
+template <class Take>
+void for_each_triangle(const PlacedShape& shape, const Transform& world, const Take& take) {
+  const PolygonMesh made = shape.round ? mesh_of(*shape.round) : PolygonMesh{};
+  const PolygonMesh& mesh = shape.round ? made : shape.mesh;
   std::size_t first = 0;
-  const auto corner = [&](std::size_t i) { return world.point(shape.mesh.vertices[shape.mesh.faces.corners[i]]); };
-  for (const std::uint32_t end : shape.mesh.faces.ends) {
+  const auto corner = [&](std::size_t i) { return world.point(mesh.vertices[mesh.faces.corners[i]]); };
+  for (const std::uint32_t end : mesh.faces.ends) {
     for (std::size_t i = first + 2; i < end; ++i) {
-      area += triangle_area(corner(first), corner(i - 1), corner(i));
+      take(corner(first), corner(i - 1), corner(i));
     }
     first = end;
   }
+}
+
+double area_of(const PlacedShape& shape, const Transform& world) {
+  if (shape.is_ball()) {
+    const double stretch = std::cbrt(std::abs(world.determinant())) * shape.round->radius;
+    return 4 * pi * stretch * stretch;
+  }
+  double area = 0;
+  for_each_triangle(shape, world, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) { area += triangle_area(a, b, c); });
   return area;
 }
 
@@ -175,30 +183,23 @@ std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& 
   constexpr std::size_t faces_max = 16;
   const Vec3d radiance = radiance_of(light, shape, world);
   const double sides = light.is_twosided ? 2 : 1;
-  if (shape.sphere) {
-    return {{.kind = FileLightKind::point,
-             .position = world.point(shape.sphere->center),
-             .intensity = radiance * (sides * area_of(shape, world) / 4)}};
+  if (shape.is_ball()) {
+    return {
+        {.kind = FileLightKind::point, .position = world.point({}), .intensity = radiance * (sides * area_of(shape, world) / 4)}};
   }
   const double side = (world.determinant() < 0) != shape.is_turned ? -0.5 : 0.5;
   std::vector<FileLight> lights;
   Vec3d middle, across;
   double area = 0;
-  std::size_t first = 0;
-  const auto corner = [&](std::size_t i) { return world.point(shape.mesh.vertices[shape.mesh.faces.corners[i]]); };
-  for (const std::uint32_t end : shape.mesh.faces.ends) {
-    for (std::size_t i = first + 2; i < end; ++i) {
-      const Vec3d a = corner(first), b = corner(i - 1), c = corner(i), face = cross(b - a, c - a) * side;
-      const Vec3d centre = (a + b + c) * (1.0 / 3);
-      middle = middle + centre * length(face);
-      across = across + face;
-      area += length(face);
-      if (lights.size() <= faces_max && length(face) > 0) {
-        lights.push_back(half_round(centre, face, radiance));
-      }
+  for_each_triangle(shape, world, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d face = cross(b - a, c - a) * side, centre = (a + b + c) * (1.0 / 3);
+    middle = middle + centre * length(face);
+    across = across + face;
+    area += length(face);
+    if (lights.size() <= faces_max && length(face) > 0) {
+      lights.push_back(half_round(centre, face, radiance));
     }
-    first = end;
-  }
+  });
   if (lights.size() > faces_max) {
     const bool is_flat = length(across) > 0.999 * area;
     lights = {is_flat ? half_round(middle * (1 / area), across, radiance)

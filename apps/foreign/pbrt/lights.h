@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/pbrt/camera.h"
-#include "apps/foreign/pbrt/notes.h"
 #include "apps/foreign/pbrt/parameters.h"
 
 namespace dmpc::apps::pbrt {

@@ -102,9 +102,9 @@ Parameter Parameters::read(const Token& declaration) {
 
 void Parameters::read_value(Parameter& parameter, const Token& token) const {
   const bool is_of_text = parameter.type == ParameterType::text || parameter.type == texture;
-  const std::string what = "parameter \"" + clipped(parameter.name, 40) + "\"";
+  const auto what = [&parameter] { return "parameter \"" + clipped(parameter.name, 40) + "\""; };  // which millions are not
   if (token.kind == TokenKind::end) {
-    fail(parameter.place, what + " is not ended");
+    fail(parameter.place, what() + " is not ended");
   }
   if (token.kind == TokenKind::text && (is_of_text || parameter.type == spectrum)) {
     parameter.texts.push_back(token.text);
@@ -120,11 +120,11 @@ void Parameters::read_value(Parameter& parameter, const Token& token) const {
     const std::string found = token.kind == TokenKind::open    ? "["
                               : token.kind == TokenKind::close ? "]"
                                                                : clipped(token.text, 40);
-    fail(token.place, what + " has '" + found + "', expected " + expected);
+    fail(token.place, what() + " has '" + found + "', expected " + expected);
   }
   const double number = value.value_or(0);
   if (parameter.type == ParameterType::integer && std::trunc(number) != number) {
-    fail(token.place, what + " has " + clipped(token.text, 40) + ", expected a whole number");
+    fail(token.place, what() + " has " + clipped(token.text, 40) + ", expected a whole number");
   }
   parameter.numbers.push_back(number);
 }
@@ -149,13 +149,11 @@ const Parameter* Parameters::find(std::string_view name, std::initializer_list<P
   const auto is_it = [&](const Parameter& one) {
     return one.name == name && std::find(types.begin(), types.end(), one.type) != types.end();
   };
-  const auto look_in = [&](const std::vector<Parameter>& list) -> const Parameter* {
-    const auto found = std::find_if(list.rbegin(), list.rend(), is_it);
-    return found == list.rend() ? nullptr : &*found;
-  };
-  const Parameter* found = look_in(list_);
+  const auto own = std::find_if(list_.rbegin(), list_.rend(), is_it);
+  const Parameter* found = own == list_.rend() ? nullptr : &*own;
   if (found == nullptr && defaults_) {
-    found = look_in(*defaults_);
+    const auto known = std::find_if(defaults_->rbegin(), defaults_->rend(), [&](const auto& one) { return is_it(*one); });
+    found = known == defaults_->rend() ? nullptr : known->get();
   }
   if (found != nullptr) {
     found->is_used = true;
@@ -210,9 +208,11 @@ std::vector<core::Vec3d> Parameters::points(std::string_view name, std::initiali
   if (found == nullptr) {
     return {};
   }
-  std::vector<double> numbers(found->numbers.size());
-  std::transform(found->numbers.begin(), found->numbers.end(), numbers.begin(), in_single_precision);
-  return triples(numbers);
+  std::vector<core::Vec3d> points = triples(found->numbers);
+  for (core::Vec3d& point : points) {
+    point = {in_single_precision(point.x), in_single_precision(point.y), in_single_precision(point.z)};
+  }
+  return points;
 }
 
 bool Parameters::name_textures() const {

@@ -45,8 +45,9 @@ class Parameters {
   Parameters(Tokens& tokens, std::string owner, const Place& place);
 
   const Place& place() const { return place_; }
-  /// What Attribute says of all such that follow, where they do not say it themselves.
-  using Defaults = std::shared_ptr<const std::vector<Parameter>>;
+  /// What Attribute says of all such that follow, where they do not say it themselves. A list that has another's shares them.
+  using List = std::vector<std::shared_ptr<const Parameter>>;
+  using Defaults = std::shared_ptr<const List>;
   void add_defaults(const Defaults& defaults) { defaults_ = defaults; }
   std::vector<Parameter> take_list() { return std::move(list_); }
 

@@ -7,7 +7,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/foreign/mesh/round_mesh.h"
 #include "apps/foreign/pbrt/loop.h"
 #include "apps/foreign/polygon/ply.h"
 #include "core/base/expect.h"
@@ -164,6 +163,8 @@ T between(const T& p00, const T& p10, const T& p01, const T& p11, double u, doub
 /// A quad between four straight edges, flat or bent.
 class Patch {
  public:
+  static constexpr int side = 8;  ///< faces along one of a bent quad
+
   Patch(const Corners& corners, std::size_t first) : corners_(corners), first_(first) {}
 
   bool is_flat() const {
@@ -184,7 +185,6 @@ class Patch {
 
   /// As 8x8 quads, whose vertices are put behind the mesh's.
   void add_bent(PolygonMesh& mesh) const {
-    constexpr int side = 8;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int row = 0; row <= side; ++row) {
       for (int column = 0; column <= side; ++column) {
@@ -231,8 +231,13 @@ class Patch {
   std::size_t first_;
 };
 
+/// Before room is made for what a few numbers become.
+void ask(const GeometrySize& size, const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
+  files.totals().ask(size, [&] { return tokens.text_of(parameters.place()) + ": "; });
+}
+
 /// All flat, or all bent: so each corner has all that any has.
-PolygonMesh patch_mesh(const Parameters& parameters) {
+PolygonMesh patch_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
   Corners corners = corners_of(parameters, 4);
   PolygonMesh mesh;
   bool are_flat = true;
@@ -241,6 +246,10 @@ PolygonMesh patch_mesh(const Parameters& parameters) {
   }
   if (are_flat) {
     mesh.vertices = corners.points;
+  } else {
+    constexpr std::uint64_t bent_faces = Patch::side * Patch::side, corner_bytes = 2 * sizeof(Vec3d) + sizeof(PlaceOnPicture);
+    const std::uint64_t faces = corners.indices.size() / 4 * bent_faces;
+    ask(size_of_faces(faces, 4 * faces, corner_bytes), parameters, tokens, files);
   }
   for (std::size_t i = 0; i < corners.indices.size(); i += 4) {
     const Patch patch(corners, i);
@@ -254,7 +263,8 @@ PolygonMesh patch_mesh(const Parameters& parameters) {
   return mesh;
 }
 
-PolygonMesh loop_mesh(const Parameters& parameters) {
+PolygonMesh loop_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
+  constexpr std::uint64_t edge_bytes = 40;  // of a table while it is made
   const std::vector<Vec3d> points = parameters.points("P", {point3});
   if (points.empty()) {
     parameters.fail("has no \"point3 P\"");
@@ -264,6 +274,10 @@ PolygonMesh loop_mesh(const Parameters& parameters) {
     parameters.fail("has " + std::to_string(levels) + " levels, expected 0 to 100");
   }
   const std::vector<std::uint32_t> indices = indices_of(parameters, points.size(), 3);
+  const std::uint64_t faces = indices.size() / 3 << 2U * static_cast<unsigned>(std::min<std::int64_t>(levels, 12));
+  if (faces <= subdivided_max) {  // else it is refused
+    ask(size_of_faces(faces, 3 * faces, sizeof(Vec3d) + edge_bytes), parameters, tokens, files);
+  }
   try {
     return subdivided(points, indices, static_cast<int>(levels));
   } catch (const core::InputError& error) {
@@ -282,6 +296,8 @@ PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneF
   try {
     const SourceText source(tokens.path_of(name), files);
     mesh = read_ply_shape(source.text(), files, found);
+  } catch (const core::RoomError& error) {
+    throw core::RoomError(tokens.text_of(parameters.place()) + ": " + name + ": " + error.what());
   } catch (const core::InputError& error) {
     const std::string text = error.what();
     parameters.fail(text.starts_with(tokens.path_of(name)) ? text : name + ": " + text);
@@ -312,33 +328,30 @@ double angle_of(const Parameters& parameters) {
   return degrees;
 }
 
-PlacedShape sphere(const Parameters& parameters) {
+RoundShape sphere(const Parameters& parameters) {
   const double radius = length_of(parameters, "radius", 1);
   const double first = parameters.number("zmin", -radius), second = parameters.number("zmax", radius);
-  const SpherePart part{.radius = radius,
-                        .least_z = std::clamp(std::min(first, second), -radius, radius),
-                        .most_z = std::clamp(std::max(first, second), -radius, radius),
-                        .degrees = angle_of(parameters)};
-  PlacedShape shape;
-  if (part.least_z <= -radius && part.most_z >= radius && part.degrees >= 360) {
-    shape.sphere = core::Sphere{.center = {}, .radius = radius};
-  } else {
-    shape.mesh = sphere_mesh(part);
-  }
-  return shape;
+  return {.kind = RoundKind::sphere,
+          .radius = radius,
+          .least_z = std::clamp(std::min(first, second), -radius, radius),
+          .most_z = std::clamp(std::max(first, second), -radius, radius),
+          .degrees = angle_of(parameters)};
 }
 
-PolygonMesh cylinder(const Parameters& parameters) {
+RoundShape cylinder(const Parameters& parameters) {
   const double low = parameters.number("zmin", -1), high = parameters.number("zmax", 1);
-  return cylinder_mesh({.radius = length_of(parameters, "radius", 1),
-                        .least_z = std::min(low, high),
-                        .most_z = std::max(low, high),
-                        .degrees = angle_of(parameters)});
+  return {.kind = RoundKind::cylinder,
+          .radius = length_of(parameters, "radius", 1),
+          .least_z = std::min(low, high),
+          .most_z = std::max(low, high),
+          .degrees = angle_of(parameters)};
 }
 
-PolygonMesh disk(const Parameters& parameters) {
-  const double radius = length_of(parameters, "radius", 1), inner = parameters.number("innerradius", 0);
-  return ring_mesh(parameters.number("height", 0), radius, std::clamp(inner, 0.0, radius), angle_of(parameters));
+RoundShape disk(const Parameters& parameters) {
+  RoundShape ring{.kind = RoundKind::ring, .radius = length_of(parameters, "radius", 1), .degrees = angle_of(parameters)};
+  ring.least_z = parameters.number("height", 0);
+  ring.inner = std::clamp(parameters.number("innerradius", 0), 0.0, ring.radius);
+  return ring;
 }
 
 }  // namespace
@@ -351,13 +364,13 @@ std::optional<PlacedShape> shape_of(const std::string& kind, const Parameters& p
   } else if (kind == "plymesh") {
     shape.mesh = file_mesh(parameters, tokens, files, notes, has_pictures);
   } else if (kind == "bilinearmesh") {
-    shape.mesh = patch_mesh(parameters);
+    shape.mesh = patch_mesh(parameters, tokens, files);
   } else if (kind == "loopsubdiv") {
-    shape.mesh = loop_mesh(parameters);
+    shape.mesh = loop_mesh(parameters, tokens, files);
   } else if (kind == "sphere") {
-    shape = sphere(parameters);
+    shape.round = sphere(parameters);
   } else if (kind == "disk" || kind == "cylinder") {
-    shape.mesh = kind == "disk" ? disk(parameters) : cylinder(parameters);
+    shape.round = kind == "disk" ? disk(parameters) : cylinder(parameters);
     notes.count("disks and cylinders, shown as meshes of 64 sides");
   } else if (kind == "curve") {
     notes.count("curves left out");

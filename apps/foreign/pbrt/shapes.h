@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
-#include "apps/foreign/pbrt/notes.h"
 #include "apps/foreign/pbrt/parameters.h"
 
 namespace dmpc::apps::pbrt {

@@ -12,7 +12,6 @@
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
-#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -31,13 +30,10 @@ Vec3d vector_at(const std::vector<double>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// Of a sphere as of one triangle.
-GeometrySize size_of_shape(const PlacedShape& shape) { return shape.sphere ? size_of_face(3) : size_of(shape.mesh.faces); }
-
 }  // namespace
 
-Statements::Statements(const std::string& path, SceneFiles& files, core::Copies copies)
-    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {
+Statements::Statements(const std::string& path, SceneFiles& files)
+    : files_(files), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {
   file_.bounces = static_cast<int>(depth_unsaid - 1);
 }
 
@@ -308,15 +304,15 @@ void Statements::attribute(const Token& name) {
     tokens_.fail(name.place, "Attribute is of " + quoted(kind) + ", expected shape, light, material, medium or texture");
   }
   Parameters more(tokens_, "Attribute " + quoted(kind), name.place);
-  std::vector<Parameter> list = more.take_list();
-  if (const auto& known = state_.defaults[kind]) {
-    list.insert(list.begin(), known->begin(), known->end());  // what is said last counts
+  Parameters::List list = state_.defaults[kind] ? *state_.defaults[kind] : Parameters::List{};
+  for (Parameter& one : more.take_list()) {
+    list.push_back(std::make_shared<const Parameter>(std::move(one)));  // what is said last counts
   }
   constexpr std::size_t most = 1000;
   if (list.size() > most) {
     tokens_.fail(name.place, "Attribute says more than 1,000 parameters");
   }
-  state_.defaults[kind] = std::make_shared<const std::vector<Parameter>>(std::move(list));
+  state_.defaults[kind] = std::make_shared<const Parameters::List>(std::move(list));
 }
 
 // Objects.
@@ -342,17 +338,8 @@ void Statements::object_instance(const Token& name) {
   if (const auto found = objects_.find(object); found != objects_.end()) {
     add_instance(found->second, state_.ctm, name);
   } else {
+    count({.bytes = sizeof(Awaited) + object.size()}, name.place);
     awaited_.push_back({object, state_.ctm, name});
-    check_room(awaited_.size() * sizeof(Awaited), name.place);
-  }
-}
-
-/// For so many bytes of places.
-void Statements::check_room(std::uint64_t bytes, const Place& said) const {
-  if (bytes > files_.memory_bytes_max()) {
-    throw core::RoomError(tokens_.text_of(said) + ": the places of its shapes take " + bytes_text(bytes) +
-                          " of memory, and a file's scene may take " + bytes_text(files_.memory_bytes_max()) +
-                          ": give it fewer instances, or objects of fewer shapes");
   }
 }
 
@@ -369,9 +356,8 @@ void Statements::add_awaited() {
 
 /// In front of what the object's shapes have. Here alone an instance's transform is made.
 void Statements::add_instance(Object& shapes, const Transform& ctm, const Token& name) {
-  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
-  check_total(size_, name.place);
-  check_room((file_.places.size() + shapes.places.size()) * sizeof(ShapePlace), name.place);
+  count(shapes.is_there ? shapes.anew : GeometrySize{}, name.place);
+  shapes.is_there = true;
   for (const ShapePlace& place : shapes.places) {
     const ShapePlace instance{place.shape, composed(ctm, place.world)};
     check_map(name, instance.world);
@@ -380,28 +366,8 @@ void Statements::add_instance(Object& shapes, const Transform& ctm, const Token&
   }
 }
 
-void Statements::check_total(const GeometrySize& total, const Place& said) const {
-  try {
-    check_size(total, files_.memory_bytes_max());
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(tokens_.text_of(said) + ": " + error.what());
-  }
-}
-
-void Statements::add_place(const ShapePlace& place, const GeometrySize& size, const Place& said) {
-  made_ += size;
-  check_total(made_, said);
-  if (open_object_ != nullptr) {
-    open_object_->places.push_back(place);
-    open_object_->size += size;
-    const bool is_left_out = copies_ == core::Copies::left_out && size.triangles > core::copied_triangles_max;
-    open_object_->copied += is_left_out ? GeometrySize{} : size;
-    return;
-  }
-  size_ += size;
-  check_total(size_, said);
-  ++file_.shapes[place.shape].uses;
-  file_.places.push_back(place);
+void Statements::count(const GeometrySize& more, const Place& said) {
+  files_.totals().add(more, [&] { return tokens_.text_of(said) + ": "; });
 }
 
 // How it is seen.
@@ -612,9 +578,18 @@ void Statements::add_shape(PlacedShape shape, const Parameters& parameters) {
   shape.is_turned = state_.is_reversed;
   shape.mesh.name = tokens_.text_of(parameters.place());
   set_look(shape, parameters);
-  const GeometrySize size = size_of_shape(shape);
+  const GeometrySize copy = shape.size_of_copy();
+  count({.bytes = sizeof(PlacedShape) + sizeof(ShapePlace) + shape.mesh.name.size()}, parameters.place());
+  count(shape.round ? copy : size_of(shape.mesh), parameters.place());
+  const ShapePlace place{static_cast<std::uint32_t>(file_.shapes.size()), state_.ctm};
+  if (open_object_ != nullptr) {
+    open_object_->places.push_back(place);
+    open_object_->anew += files_.totals().size_of_place(copy);
+  } else {
+    file_.places.push_back(place);
+    shape.uses = 1;
+  }
   file_.shapes.push_back(std::move(shape));
-  add_place({static_cast<std::uint32_t>(file_.shapes.size() - 1), state_.ctm}, size, parameters.place());
 }
 
 std::size_t Statements::look_number(const Look& look) {
@@ -650,7 +625,7 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
   look.emission = radiance_of(*state_.light, shape, state_.ctm);
   look.is_light = true;
   shape.mesh.material = look_number(look);
-  if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
+  if (!state_.light->is_twosided && !shape.is_ball() && look.emission != Vec3d{}) {
     shape.back = dark;
   }
 }
@@ -692,7 +667,7 @@ void Statements::drop_undrawn() {
 }
 
 PlacedFile read_pbrt(const std::string& path, const MeshOptions& options, SceneFiles& files) {
-  return Statements(path, files, options.copies).read(options.size);
+  return Statements(path, files).read(options.size);
 }
 
 }  // namespace dmpc::apps::pbrt

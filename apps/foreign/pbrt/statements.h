@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/foreign/mesh/geometry.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/pbrt/camera.h"
 #include "apps/foreign/pbrt/lights.h"
-#include "apps/foreign/pbrt/notes.h"
 #include "apps/foreign/pbrt/parameters.h"
 #include "apps/foreign/pbrt/surfaces.h"
 #include "apps/foreign/pbrt/textures.h"
@@ -29,8 +28,8 @@ inline constexpr std::size_t attribute_levels_max = 100'000;
 
 class Statements {
  public:
-  /// `files` outlives it. `copies`: what will become of an object's instances.
-  Statements(const std::string& path, SceneFiles& files, core::Copies copies);
+  /// `files` outlives it.
+  Statements(const std::string& path, SceneFiles& files);
 
   /// All of them. Call it once.
   PlacedFile read(const std::optional<Resolution>& size);
@@ -58,9 +57,8 @@ class Statements {
   /// What an object's shapes are, each where its own CTM puts it.
   struct Object {
     std::vector<ShapePlace> places;
-    GeometrySize size;    ///< of all of them
-    GeometrySize copied;  ///< of those that each instance has anew
-    bool is_counted = false;
+    GeometrySize anew;  ///< of all of them in each instance but the first
+    bool is_there = false;
   };
 
   /// An instance of an object that has not begun yet.
@@ -95,7 +93,6 @@ class Statements {
   void object_instance(const Token& name);
   void add_instance(Object& shapes, const Transform& ctm, const Token& name);
   void add_awaited();
-  void check_room(std::uint64_t bytes, const Place& said) const;
   void film(const Token& name);
   void camera(const Token& name);
   void color_space(const Token& name);
@@ -131,8 +128,8 @@ class Statements {
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);
   std::size_t look_number(const Look& look);
-  void add_place(const ShapePlace& place, const GeometrySize& size, const Place& said);
-  void check_total(const GeometrySize& total, const Place& said) const;
+  /// To the scene's totals, or an error at the place that says so.
+  void count(const GeometrySize& more, const Place& said);
   void give_materials();
   void add_unseen_lights();
   void drop_undrawn();
@@ -140,7 +137,6 @@ class Statements {
   void turn_round(const Transform& turn);
 
   SceneFiles& files_;
-  core::Copies copies_;
   Tokens tokens_;
   Notes notes_;
   PlacedFile file_;
@@ -157,8 +153,6 @@ class Statements {
   std::vector<Look> looks_;
   std::vector<std::pair<std::uint32_t, FileLight>> unseen_;  ///< with their surfaces
   std::map<std::array<double, 6>, std::size_t> look_numbers_;
-  GeometrySize size_;  ///< with every instance that is copied
-  GeometrySize made_;  ///< of all shapes, once
   Film film_;
   std::optional<Camera> camera_;
   bool is_world_ = false;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
+#include <span>
+#include <string>
 
 #include "apps/edge/line/shown_text.h"
+#include "apps/picture/png_file.h"
 #include "core/scene/texel.h"
 
 namespace dmpc::apps::pbrt {
@@ -15,18 +18,20 @@ using enum ParameterType;
 
 constexpr std::uint32_t squares = 2, square_texels = 64;
 
-std::uint32_t texel_of(const Vec3d& color) { return core::encoded(core::TexelFormat::srgb, color) & 0xffffffU; }
+std::uint32_t texel_of(const Vec3d& color) { return core::encoded(core::TexelFormat::srgb, color); }
 
 MadePicture checks(const Vec3d& first, const Vec3d& second) {
-  constexpr std::uint32_t side = squares * square_texels;
-  MadePicture picture{.width = side, .height = side, .texels = {}, .file = {}, .format_hint = {}};
-  for (std::uint32_t y = 0; y < side; ++y) {
-    for (std::uint32_t x = 0; x < side; ++x) {
+  constexpr std::size_t side = squares * square_texels;
+  const auto take = [of_first = texel_of(first), of_second = texel_of(second)](std::size_t pixel, std::span<std::uint8_t> rgb) {
+    for (std::size_t i = 0; i < rgb.size(); ++i) {
+      const std::size_t x = (pixel + i / 3) % side, y = (pixel + i / 3) / side;
       const bool is_first = (x / square_texels + (side - 1 - y) / square_texels) % 2 == 0;
-      picture.texels.push_back(texel_of(is_first ? first : second));
+      rgb[i] = static_cast<std::uint8_t>((is_first ? of_first : of_second) >> 8 * (i % 3));
     }
-  }
-  return picture;
+  };
+  const std::string png = png_file({.width = static_cast<int>(side), .height = static_cast<int>(side), .take = take}, 1);
+  const auto bytes = std::as_bytes(std::span(png));
+  return {.file = {bytes.begin(), bytes.end()}, .format_hint = "png"};
 }
 
 }  // namespace

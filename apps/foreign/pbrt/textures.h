@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/placed_file.h"
-#include "apps/foreign/pbrt/notes.h"
 #include "apps/foreign/pbrt/parameters.h"
 #include "apps/foreign/pbrt/spectra.h"
 

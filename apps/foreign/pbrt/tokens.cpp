@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::string_view white = " \t\r\n\v\f", word_ends = " \t\r\n\v\f\"[]";
 
+/// What is one word is copied out of its file.
+constexpr std::size_t word_bytes_max = std::size_t{1} << 20U;
+
 bool is_of_no_text(char letter) {
   return (static_cast<unsigned char>(letter) < 32 && white.find(letter) == std::string_view::npos) || letter == 127;
 }
@@ -154,7 +157,7 @@ bool Tokens::skip_blanks(Source& source) {
 
 Token Tokens::read_text(Source& source) {
   Token token{.kind = TokenKind::text, .text = {}, .place = source.place};
-  for (std::size_t i = 1; i < source.rest.size() && source.rest[i] != '\n'; ++i) {
+  for (std::size_t i = 1; i < std::min(source.rest.size(), word_bytes_max) && source.rest[i] != '\n'; ++i) {
     if (source.rest[i] == '"') {
       advance(source, i + 1);
       return token;
@@ -173,12 +176,15 @@ Token Tokens::read_text(Source& source) {
     }
     token.text += source.rest[i];
   }
-  fail(token.place, "quotes are not closed in their line");
+  fail(token.place, "quotes are not closed in their line, or only after more than 1 MiB");
 }
 
 Token Tokens::read_word(Source& source) const {
   const auto ends = [](char letter) { return word_ends.find(letter) != std::string_view::npos || is_of_no_text(letter); };
   const auto end = static_cast<std::size_t>(std::ranges::find_if(source.rest, ends) - source.rest.begin());
+  if (end > word_bytes_max) {
+    fail(source.place, "has a word of more than 1 MiB, which no scene has");
+  }
   Token token{.kind = TokenKind::word, .text = std::string(source.rest.substr(0, end)), .place = source.place};
   if (end < source.rest.size() && is_of_no_text(source.rest[end])) {
     fail(token.place, "has a byte that no text has, " + std::to_string(static_cast<unsigned char>(source.rest[end])));

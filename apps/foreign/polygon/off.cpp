@@ -35,6 +35,10 @@ class OffReader {
   void read_counts(std::string_view first);
   std::uint64_t count_of(std::string_view word, const char* what) const;
   double number_of(std::string_view word, const char* what) const;
+  /// The same; what stands for no number is none.
+  double number_or_none(std::string_view word, const char* what) const {
+    return is_no_number(word) ? std::numeric_limits<double>::quiet_NaN() : number_of(word, what);
+  }
   void read_vertex(std::uint64_t number);
   void read_face(std::uint64_t number);
   std::uint32_t read_corner(std::uint64_t face);
@@ -48,7 +52,8 @@ class OffReader {
   ReadingProgress& progress_;
   std::size_t bytes_;
   bool has_colors_ = false, has_normals_ = false, has_places_ = false;
-  std::uint64_t vertices_ = 0, faces_ = 0, thin_ = 0, from_map_ = 0, see_through_ = 0;
+  std::uint64_t vertices_ = 0, faces_ = 0, thin_ = 0, from_map_ = 0, see_through_ = 0, strays_ = 0;
+  std::size_t first_stray_ = 0;  ///< its line
   PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
   FaceLooks looks_;
   std::vector<double> numbers_;  ///< of the line
@@ -127,7 +132,7 @@ void OffReader::read_rest_of_line() {
     if (numbers_.size() == most) {
       words_.fail_at(word, "no more than " + std::to_string(most) + " numbers of a vertex, or of a face's colour");
     }
-    numbers_.push_back(number_of(word, "a number"));
+    numbers_.push_back(number_or_none(word, "a number"));
   }
 }
 
@@ -144,6 +149,10 @@ std::optional<Color> OffReader::off_color(std::size_t begin) {
     words_.fail("there are " + std::to_string(count) + " numbers of a colour; expected 3 or 4");
   }
   const auto from_zero = [&](std::size_t i) {
+    if (std::isnan(numbers_[begin + i])) {
+      first_stray_ = strays_++ == 0 ? words_.line() : first_stray_;
+      return 0.0;
+    }
     if (!(numbers_[begin + i] >= 0 && numbers_[begin + i] <= 255)) {
       words_.fail("a colour has " + rounded(numbers_[begin + i]) + "; expected numbers from 0 to 1, or to 255");
     }
@@ -162,8 +171,7 @@ void OffReader::read_vertex(std::uint64_t number) {
     if (word.empty()) {
       words_.fail("the file is cut short: it ends within vertex " + std::to_string(number) + " of " + std::to_string(vertices_));
     }
-    const bool is_none = is_no_number(word);
-    numbers_.push_back(is_none ? std::numeric_limits<double>::quiet_NaN() : number_of(word, "a coordinate"));
+    numbers_.push_back(number_or_none(word, "a coordinate"));
   }
   mesh_.vertices.push_back({numbers_[0], numbers_[1], numbers_[2]});
   if (has_normals_) {
@@ -209,6 +217,7 @@ void OffReader::read_face(std::uint64_t number) {
     return;
   }
   add_face(corners_, mesh_);
+  progress_.ask(size_of(mesh_));
   if (const auto color = off_color(0)) {
     set_last(looks_.colors, mesh_.faces.ends.size(), *color);
   }
@@ -216,7 +225,7 @@ void OffReader::read_face(std::uint64_t number) {
 
 PlacedFile OffReader::read() {
   read_header();
-  progress_.check_triangles(std::min(faces_, room()));
+  progress_.ask_for_triangles(std::min(faces_, room()));
   mesh_.vertices.reserve(std::min(vertices_, room()));
   for (std::uint64_t i = 0; i < vertices_; ++i) {
     read_vertex(i);
@@ -232,6 +241,7 @@ PlacedFile OffReader::read() {
   note("points and lines left out", thin_);
   note("colours by their number in a map, which are not shown", from_map_);
   note("colours whose alpha is not shown", see_through_);
+  note("channels of colours that are no numbers, shown as 0 (the first in line " + std::to_string(first_stray_) + ")", strays_);
   const std::string_view rest = words_.next();
   note("bytes behind the last face, which are not looked at", rest.empty() ? 0 : bytes_ - words_.position() + rest.size());
   looks_.give_way_to(mesh_, file.notes);

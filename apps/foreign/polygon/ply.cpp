@@ -226,6 +226,7 @@ void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
     corners_.push_back(vertex_of(index, "face", number));
   }
   add_face(corners_, mesh_);
+  progress_.ask(size_of(mesh_));
   looks_.materials.push_back(surface_of(row, number));
   if (row.has(corner_places)) {
     take_corner_places(row, number);
@@ -245,7 +246,7 @@ void PlyReader::read_faces(const PlyElement& element) {
   }
   face_light_ = row.has_all({red, green, blue}) ? full_light_of(row.type_of(red)) : 0;
   const std::uint64_t room = std::min(element.count, values_->room_for(element));
-  progress_.check_triangles(room);
+  progress_.ask_for_triangles(room);
   mesh_.faces.ends.reserve(room);
   mesh_.faces.corners.reserve(3 * room);
   looks_.materials.reserve(room);
@@ -271,6 +272,7 @@ void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
     const std::uint32_t c = corners_[count - 1], b = corners_[count - 2], a = corners_[count - 3];
     if (a != b && b != c && c != a) {
       add_face(count % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c}, mesh_);
+      progress_.ask(size_of(mesh_));
       looks_.materials.push_back(surface);
     }
   }

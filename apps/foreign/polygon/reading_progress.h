@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/foreign/mesh/geometry.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 
 namespace dmpc::apps {
@@ -18,8 +18,9 @@ class ReadingProgress {
   /// `files` outlives it. `bytes`: of the whole file.
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
-  /// Throws as check_size() where the file has so many triangles. Cheap.
-  void check_triangles(std::uint64_t count) const { check_size(size_of_triangles(count), files_.memory_bytes_max()); }
+  /// Throws core::RoomError where the scene has no room for so much. Cheap.
+  void ask(const GeometrySize& size) const { files_.totals().ask(size); }
+  void ask_for_triangles(std::uint64_t count) const { ask(size_of_faces(count, 3 * count)); }
   /// So many bytes are read. Cheap.
   void show(std::size_t position) {
     if (position >= next_) {

@@ -65,7 +65,7 @@ void StlTextReader::read_solid(PlacedFile& file) {
   PolygonMesh mesh{.name = "solid " + std::to_string(++solids_) + (name.empty() ? "" : " '" + name + "'")};
   for (std::string_view word = words_.next(); !is_same(word, "endsolid"); word = words_.next()) {
     expect(word, "facet");
-    progress_.check_triangles(++facets_);
+    progress_.ask_for_triangles(++facets_);
     read_facet(mesh);
     progress_.show(words_.position());
   }

@@ -116,7 +116,7 @@ void StlBinaryReader::read_facet(std::size_t facet) {
 
 PlacedFile StlBinaryReader::read() {
   const std::size_t count = count_facets();
-  progress_.check_triangles(count);
+  progress_.ask_for_triangles(count);
   mesh_.vertices.reserve(3 * count);
   mesh_.faces.corners.reserve(3 * count);
   mesh_.faces.ends.reserve(count);

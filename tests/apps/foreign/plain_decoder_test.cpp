@@ -334,4 +334,16 @@ TEST_CASE("a picture that is too large for its file, for a texture, or for the p
   CHECK_FALSE(apps::is_plain_size(65535, 65535, 1, 1000, std::uint64_t{1} << 40U));
 }
 
+TEST_CASE("how large a picture is stands before its pixels, which are not decoded for that") {
+  for (const std::string& file : {png_of({.width = 100, .height = 50}), jpeg_of({}), exr_of({})}) {
+    const apps::EncodedPicture picture = picture_of(file);
+    const auto whole = apps::decode_plain(picture, PictureUse::texture)->form();
+    const apps::EncodedPicture cut{picture.bytes.first(file.size() - 20), picture.name, picture.format};
+    CHECK_FALSE(apps::decode_plain(cut, PictureUse::texture));
+    const auto form = apps::decode_plain(cut, PictureUse::size)->form();
+    CHECK(form.width == whole.width);
+    CHECK(form.height == whole.height);
+  }
+}
+
 }  // namespace dmpc::tests::plain_decoder_test

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh_reader.h"
 #include "apps/foreign/obj/reader.h"
-#include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
@@ -139,21 +139,22 @@ std::string path_to_read, format_to_read;
          2 * estimated_reading_bytes(format_to_read, std::filesystem::file_size(path_to_read)) + (std::uint64_t{64} << 20U);
 }
 
-/// One file, and a bound of memory.
-class BoundedFile final : public fuzz::InputFiles {
- public:
-  /// `text` outlives it.
-  BoundedFile(const std::string& name, const std::string& text, std::uint64_t memory_bytes)
-      : InputFiles(name, std::as_bytes(std::span(text))), memory_bytes_(memory_bytes) {}
-  std::uint64_t memory_bytes_max() const override { return memory_bytes_; }
+/// One file, and a bound of memory. `text` outlives it.
+fuzz::InputFiles bounded_file(const std::string& name, const std::string& text, std::uint64_t memory_bytes) {
+  return {name, std::as_bytes(std::span(text)), memory_bytes};
+}
 
- private:
-  std::uint64_t memory_bytes_;
-};
+std::string refusal(const std::string& name, const std::string& text, std::uint64_t memory_bytes) {
+  fuzz::InputFiles file = bounded_file(name, text, memory_bytes);
+  return complaint_of<core::RoomError>([&] { read_mesh(name, {}, file); });
+}
 
-std::string pbrt_refusal(const std::string& text, std::uint64_t memory_bytes) {
-  BoundedFile file("a.pbrt", text, memory_bytes);
-  return complaint_of<core::RoomError>([&] { pbrt::read_pbrt("a.pbrt", {}, file); });
+std::string times(int count, const std::string& text) {
+  std::string all;
+  for (int i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
 }
 
 void make_sparse(const std::filesystem::path& path, const std::string& head, std::uint64_t bytes) {
@@ -193,22 +194,53 @@ TEST_CASE("a file whose triangles take more memory than a scene may is refused b
     write(file, Sheet{10});
     const std::string text = file.str();
     const auto read = readers.at(name.substr(name.size() - 3));
-    BoundedFile enough(name, text, 1U << 20U), little(name, text, 10'000);
+    fuzz::InputFiles enough = bounded_file(name, text, 1U << 20U), little = bounded_file(name, text, 10'000);
     CHECK_NOTHROW(read(name, enough));
     CHECK_THROWS_WITH_AS(read(name, little), doctest::Contains("triangles so far take at least"), core::RoomError);
   }
   const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
   const std::string text = "solid\n" + facet + facet + "endsolid\n";
-  BoundedFile two("a.stl", text, 150);
-  CHECK_THROWS_WITH_AS(read_stl("a.stl", two), doctest::Contains("its 2 triangles so far"), core::RoomError);
+  CHECK(contains(refusal("a.stl", text, 150), "its 2 triangles so far"));
+  const std::string quads = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n";
+  CHECK(contains(refusal("a.obj", quads, 150), "line 5: its 2 triangles so far"));
 }
 
 TEST_CASE("a total of all shapes so far, and of all places of instances, is refused at the line where memory would end") {
-  const std::string world = "WorldBegin\n", cylinders = "Shape \"cylinder\"\nShape \"cylinder\"\nShape \"cylinder\"\n";
-  CHECK(pbrt_refusal(world + cylinders, 1U << 20U).empty());
-  CHECK(contains(pbrt_refusal(world + cylinders, 14'000), "a.pbrt:3:1: its 256 triangles so far take at least"));
-  const std::string object = "ObjectBegin \"a\"\nShape \"cylinder\"\nObjectEnd\n", instance = "ObjectInstance \"a\"\n";
-  CHECK(contains(pbrt_refusal(world + object + instance + instance + instance, 14'000), "a.pbrt:6:1: its 256 triangles so far"));
+  const std::string world = "WorldBegin\n", cylinder = "Shape \"cylinder\"\n";
+  const auto pbrt = [&](const std::string& text, std::uint64_t bytes) { return refusal("a.pbrt", world + text, bytes); };
+  CHECK(pbrt(times(3, cylinder), 1U << 20U).empty());
+  CHECK(contains(pbrt(times(3, cylinder), 20'000), "a.pbrt:3:1: its 256 triangles so far take at least"));
+  const std::string object = "ObjectBegin \"a\"\n" + cylinder + "ObjectEnd\n", instance = "ObjectInstance \"a\"\n";
+  CHECK(contains(pbrt(object + times(3, instance), 20'000), "a.pbrt:6:1: its 256 triangles so far"));
+  CHECK(contains(pbrt(instance + instance + object, 20'000), "a.pbrt:3:1: its 256 triangles so far"));
+  CHECK(contains(pbrt(times(99, instance), 10'000), "its 0 triangles so far"));  // of what is still to come
+  CHECK(pbrt(times(9, "Shape \"sphere\"\n"), 10'000).empty());
+  const std::string flat = "Scale 1 1 2\n", ball = "Shape \"sphere\"\n";
+  CHECK(contains(pbrt(flat + ball + ball, 500'000), "a.pbrt:4:1: its 8,192 triangles so far"));
+}
+
+TEST_CASE("what a few words become is asked for before it is made") {
+  const std::string world = "WorldBegin\n", square = " \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] \"integer indices\" [";
+  const auto pbrt = [&](const std::string& text, std::uint64_t bytes) { return refusal("a.pbrt", world + text, bytes); };
+  CHECK(contains(pbrt("Shape \"bilinearmesh\"" + square + times(100, "0 1 2 3 ") + "]", 200'000), "a.pbrt:2:1: its 12,800 "));
+  const std::string loop = "Shape \"loopsubdiv\" \"integer levels\" 9" + square + "0 1 2]";
+  CHECK(contains(pbrt(loop, 10'000'000), "a.pbrt:2:1: its 262,144 triangles so far"));
+}
+
+TEST_CASE("places of glTF's meshes are asked for before they are made, and so are zeros") {
+  const std::string node = R"({"mesh":0})",
+                    instances = R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1}}}})";
+  const auto gltf = [](const std::string& node_of_all, const std::string& count, std::uint64_t bytes) {
+    const std::string zeros = R"({"componentType":5126,"type":"VEC3","count":)";
+    return refusal("a.gltf",
+                   R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1,2]}],"nodes":[)" + node_of_all + "," + node_of_all +
+                       "," + node_of_all + R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[)" +
+                       zeros + "3}," + zeros + count + "}]}",
+                   bytes);
+  };
+  CHECK(contains(gltf(node, "3", 400), "node 'nodes[1]': its 2 triangles so far take at least"));
+  CHECK(contains(gltf(instances, "1000", 50'000), "EXT_mesh_gpu_instancing: its 1 triangles so far take at least"));
+  CHECK(contains(gltf(instances, "9007199254740991", 1'000'000'000), "accessors[1]: its 1 triangles so far take at least"));
 }
 
 TEST_CASE("more triangles than a database has room for are refused before the file is read, with both figures") {

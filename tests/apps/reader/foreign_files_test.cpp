@@ -461,6 +461,25 @@ TEST_CASE("textures have a budget of memory that is all of theirs, and the one t
                        doctest::Contains("a.png: with its 100x10 texels the scene's textures take"), core::RoomError);
 }
 
+TEST_CASE("textures are weighed by what stands before their pixels, before the first of them is unpacked") {
+  const TemporaryFolder folder;
+  apps::write_image(folder / "a.png", apps::Image(100, 10));
+  const std::string whole = file_text(folder / "a.png");
+  std::string faces, materials;
+  for (const std::string name : {"a", "b", "c"}) {
+    write_text(folder / (name + ".png"), whole.substr(0, whole.size() - 20));
+    faces += "usemtl " + name + "\nf 1/1 2/1 3/1\n";
+    materials += "newmtl " + name + "\nmap_Kd " + name + ".png\n";
+  }
+  write_text(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n" + faces);
+  write_text(folder / "a.mtl", materials);
+  const auto complaint = [&](std::uint64_t bytes) {
+    return complaint_of([&] { read_mesh_file(folder / "a.obj", {}, false, {.texture_bytes_max = bytes}); });
+  };
+  CHECK(says(complaint(24'000), "c.png: with its 100x10 texels the scene's textures take"));
+  CHECK(says(complaint(32'000), "a.png: cannot be read"));
+}
+
 TEST_CASE("a texture without a name and one with an endless one are said") {
   const TemporaryFolder folder;
   const std::string scene = write_textured_triangle(folder, "\nmap_kd");

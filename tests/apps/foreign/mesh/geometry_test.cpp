@@ -157,26 +157,37 @@ TEST_CASE("a face with more corners than an object has room for is refused by it
 }
 
 TEST_CASE("a scene has room for as many corners as 32 bits count, and no more") {
-  constexpr std::uint64_t unbounded = std::numeric_limits<std::uint64_t>::max();
-  CHECK_NOTHROW(check_size({}, unbounded));
-  CHECK_NOTHROW(check_size({.triangles = 1, .faces = 1, .corners = 4'294'967'294}, unbounded));
-  CHECK_THROWS_WITH_AS(check_size({.triangles = 1'431'655'765, .faces = 1'431'655'765, .corners = 4'294'967'295}, unbounded),
+  CHECK_NOTHROW(SceneTotals().ask({.triangles = 1, .faces = 1, .corners = 4'294'967'294}));
+  CHECK_THROWS_WITH_AS(SceneTotals().ask({.triangles = 1, .faces = 1, .corners = 4'294'967'295}),
+                       doctest::Contains("there can be 4,294,967,294 corners at most"), core::RoomError);
+  CHECK_THROWS_WITH_AS(SceneTotals().ask(size_of_faces(1'431'655'765, 4'294'967'295)),
                        doctest::Contains("1,431,655,765 triangles"), core::RoomError);
 }
 
 TEST_CASE("a scene has as much memory as it is given, and no more") {
   constexpr std::uint64_t taken = sizeof(core::Object) + 3 * sizeof(core::Vec3d);
-  CHECK_NOTHROW(check_size(size_of_face(3), taken));
-  CHECK_THROWS_WITH_AS(check_size(size_of_face(3), taken - 1), doctest::Contains("its 1 triangles so far take at least"),
-                       core::RoomError);
+  SceneTotals enough(2 * taken), little(2 * taken - 1);
+  const auto where = [] { return std::string("a.pbrt:3:1: "); };
+  for (SceneTotals* const totals : {&enough, &little}) {
+    CHECK_NOTHROW(totals->add(size_of_faces(1, 3), where));
+    CHECK_NOTHROW(totals->ask(size_of_faces(0, 0)));
+  }
+  CHECK_NOTHROW(enough.ask(size_of_faces(1, 3)));
+  CHECK_NOTHROW(enough.add(size_of_faces(1, 3), where));  // what was asked for was not added
+  CHECK_THROWS_WITH_AS(little.add(size_of_faces(1, 3), where),
+                       doctest::Contains("a.pbrt:3:1: its 2 triangles so far take at least"), core::RoomError);
 }
 
-TEST_CASE("sizes add up") {
-  GeometrySize size{1, 1, 3};
-  size += {2, 1, 4};
-  CHECK(size.triangles == 3);
-  CHECK(size.faces == 2);
-  CHECK(size.corners == 7);
+TEST_CASE("a place of a mesh that is kept once takes as much as a place, and that of a small one its copy, too") {
+  const GeometrySize large = size_of_faces(65, 195), small = size_of_faces(64, 192);
+  const SceneTotals kept(0, core::Copies::left_out), copied(0);
+  CHECK(kept.size_of_place(large).bytes == size_of_places(1).bytes);
+  CHECK(kept.size_of_place(small).bytes == size_of_places(1).bytes + small.bytes);
+  CHECK(copied.size_of_place(large).bytes == size_of_places(1).bytes + large.bytes);
+  CHECK(size_of_places(1).bytes < 256);
+  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("with 2 further places of meshes"), core::RoomError);
+  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("(--instances=keep)"), core::RoomError);
+  CHECK_THROWS_WITH_AS(kept.ask(size_of_places(2)), doctest::Contains("make the scene smaller, or divide it"), core::RoomError);
 }
 
 TEST_CASE("what vertices have makes the scene that it makes where each corner has it") {

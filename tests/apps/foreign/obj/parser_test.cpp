@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,8 @@ namespace {
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", named = three + "vt 0 0\nvn 0 0 1\n";
 
-constexpr std::uint64_t unbounded = std::numeric_limits<std::uint64_t>::max();
-
 Geometry parse(const std::string& text) {
+  SceneTotals unbounded;
   return parse_obj(
       text, [](float) {}, unbounded);
 }
@@ -164,6 +162,7 @@ TEST_CASE("much of what is small or long is read in one go") {
 
 TEST_CASE("how much has passed is heard, up to all") {
   float last = 0;
+  SceneTotals unbounded;
   parse_obj(
       three,
       [&last](float share) {

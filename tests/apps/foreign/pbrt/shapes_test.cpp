@@ -42,6 +42,9 @@ TEST_CASE("a sphere stays one where it is moved and scaled evenly, and is a mesh
   const core::Scene egg = read_pbrt("Scale 1 1 2 Shape \"sphere\"").scene;
   CHECK(egg.spheres.empty());
   CHECK(egg.objects.size() > 1000);
+  const core::Scene blue =
+      read_pbrt("Shape \"sphere\" Material \"diffuse\" \"rgb reflectance\" [0 0 1] Scale 1 1 2 Shape \"sphere\"").scene;
+  CHECK(blue.materials[blue.objects.back().material].color == Vec3d{0, 0, 1});
   const core::Scene cap = read_pbrt("Shape \"sphere\" \"float zmin\" 0").scene;  // half of it: 2 pi
   CHECK(area_of(cap) == doctest::Approx(2 * std::acos(-1)).epsilon(0.01));
 }

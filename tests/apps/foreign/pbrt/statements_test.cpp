@@ -220,6 +220,8 @@ TEST_CASE("errors say file, line and column") {
   CHECK(tests::contains(pbrt_refusal("AttributeEnd"), "ends what has not begun"));
   CHECK(tests::contains(pbrt_refusal("AttributeBegin ObjectEnd"), "ends what has not begun, within what begins at"));
   CHECK(tests::contains(pbrt_refusal(std::string("\x01", 1)), "a byte that no text has, 1"));
+  CHECK(tests::contains(pbrt_refusal(std::string((1U << 20U) + 2, 'x')), "has a word of more than 1 MiB"));
+  CHECK(tests::contains(pbrt_refusal('"' + std::string(1U << 20U, 'x') + "\"\n"), "or only after more than 1 MiB"));
   CHECK(tests::contains(pbrt_refusal("NamedMaterial \"m\"\n" + pbrt_triangle), "6:1: the material \"m\" is not there"));
   CHECK(tests::contains(pbrt_refusal("] ["), "\"]\" is no statement"));
 }

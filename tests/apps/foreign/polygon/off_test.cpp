@@ -108,6 +108,12 @@ TEST_CASE("what is no number in OFF and PLY is left out and said where no face h
   CHECK(contains(mesh_refusal("a.ply", header + vertices + more + "3 0 1 3\n"), "the mesh: vertex 3 has a coordinate"));
 }
 
+TEST_CASE("a colour of OFF that is no number is shown as 0 there, and said with its line") {
+  const MeshFile file = read_mesh("a.off", "OFF\n3 1 0\n" + vertices + "3 0 1 2 nan 1 -1.#IND\n");
+  CHECK(file.scene.materials.front().color == core::Vec3d{0, 1, 0});
+  CHECK(notes(file, "channels of colours that are no numbers, shown as 0 (the first in line 6): 2"));
+}
+
 TEST_CASE("a hole in OFF or PLY is refused where it begins, however long it is") {
   const std::string hole(1000, '\0');
   CHECK(contains(mesh_refusal("a.off", hole), "line 1: found '\\x00', expected OFF"));

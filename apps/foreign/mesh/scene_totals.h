@@ -1,0 +1,65 @@
+// What a file's scene takes so far, asked before room is made for more of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "apps/foreign/mesh/polygon_mesh.h"
+#include "core/base/counts.h"
+#include "core/base/expect.h"
+#include "core/scene/instances.h"
+
+namespace dmpc::apps {
+
+/// Faces of three or more corners, places of meshes beside each's first, and bytes of memory that all of it takes at least.
+struct GeometrySize {
+  std::uint64_t triangles = 0, faces = 0, corners = 0, places = 0, bytes = 0;
+
+  GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
+};
+/// In a scene; `corner_bytes`: what a corner has beside its position.
+GeometrySize size_of_faces(std::uint64_t faces, std::uint64_t corners, std::uint64_t corner_bytes = 0);
+/// What each place of a mesh adds to a scene that copies it.
+GeometrySize size_of_copy(const PolygonMesh& mesh);
+/// That, and the mesh itself, which is read before.
+GeometrySize size_of(const PolygonMesh& mesh);
+GeometrySize size_of_places(std::uint64_t count);
+
+/// One of a scene, through which all of its readers ask. What was added stays.
+class SceneTotals {
+ public:
+  /// `copies`: what becomes of meshes that stand in several places.
+  explicit SceneTotals(std::uint64_t memory_bytes_max = std::numeric_limits<std::uint64_t>::max(),
+                       core::Copies copies = core::Copies::put)
+      : memory_bytes_max_(memory_bytes_max), copies_(copies) {}
+
+  /// Throws core::RoomError if a database, the indices of a scene, or memory does not reach so far, with what where() says before
+  /// it: "a.pbrt:3:1: ". Cheap.
+  template <class Where>
+  void add(const GeometrySize& more, const Where& where) {
+    ask(more, where);
+    size_ += more;
+  }
+  /// The same of what is not there yet.
+  template <class Where>
+  void ask(const GeometrySize& more, const Where& where) const {
+    try {
+      ask(more);
+    } catch (const core::RoomError& error) {
+      throw core::RoomError(where() + error.what());
+    }
+  }
+  void ask(const GeometrySize& more) const { check(GeometrySize(size_) += more); }
+  /// What a further place of a mesh takes, whose copy would take so much.
+  GeometrySize size_of_place(const GeometrySize& copy) const;
+
+ private:
+  void check(const GeometrySize& size) const;
+
+  std::uint64_t memory_bytes_max_;
+  core::Copies copies_;
+  GeometrySize size_;
+};
+
+}  // namespace dmpc::apps
