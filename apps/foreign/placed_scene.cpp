@@ -43,6 +43,18 @@ std::optional<double> even_stretch(const Transform& world) {
   return is_even && square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
+/// Whether it presses what is thick so flat that floats, beside the scene, hardly tell its front from its back.
+bool presses_thin(const Transform& world, const PlacedShape& shape) {
+  constexpr double share_least = 0x1p-14;
+  const auto& [a, b, c] = world.rows;
+  const double size = std::sqrt((dot(a, a) + dot(b, b) + dot(c, c)) / 3), volume = std::abs(world.determinant());
+  if (!(volume > 0 && volume < share_least * size * size * size) || (!shape.sphere && shape.mesh.vertices.empty())) {
+    return false;
+  }
+  const Vec3d half = shape.sphere ? Vec3d{1, 1, 1} : core::Box::around(shape.mesh.vertices).half();
+  return half.x > 0 && half.y > 0 && half.z > 0;
+}
+
 /// So that all faces look to the other side.
 void turn_faces(PolygonMesh& mesh) {
   std::size_t first = 0;
@@ -154,12 +166,13 @@ class PlacedScene {
   /// What meshes become, each of them once, and as often as the scene has it; says what copies cost.
   void measure() {
     GeometrySize once, all, made;
-    std::uint64_t meshes = 0, places = 0;
+    std::uint64_t meshes = 0, places = 0, thin = 0;
     std::vector<bool> is_placed(file_.shapes.size());
     for (const ShapePlace& place : file_.places) {
       const PlacedShape& shape = file_.shapes[place.shape];
       const GeometrySize size = size_of(shape.mesh.faces);
       const bool is_first = !is_placed[place.shape], is_mesh = !shape.sphere;
+      thin += presses_thin(place.world, shape) ? 1 : 0;
       const bool is_left_out =
           options_.copies == core::Copies::left_out && shape.uses > 1 && size.triangles > core::copied_triangles_max;
       is_placed[place.shape] = true;
@@ -170,6 +183,8 @@ class PlacedScene {
       made += is_first || !is_left_out ? size : GeometrySize{};
     }
     check_size(made, files_.memory_bytes_max());
+    note_count(result_.notes, "shapes pressed so flat that floats may not tell front from back, where the wrong one may show",
+               thin);
     result_.scene.objects.reserve(options_.smooth_degrees ? all.faces : once.faces);
     if (meshes < places && options_.copies == core::Copies::put) {
       result_.notes.push_back(grouped(meshes) + (meshes == 1 ? " mesh stands in " : " meshes stand in ") + grouped(places) +
