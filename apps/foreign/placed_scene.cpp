@@ -40,6 +40,21 @@ std::optional<double> even_stretch(const Transform& world) {
   return is_even && square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
+/// Whether it presses what is thick so flat that floats, beside the scene, hardly tell its front from its back.
+bool presses_thin(const Transform& world, const PlacedShape& shape) {
+  constexpr double share_least = 0x1p-14;
+  const auto& [a, b, c] = world.rows;
+  const double size = std::sqrt((dot(a, a) + dot(b, b) + dot(c, c)) / 3), volume = std::abs(world.determinant());
+  if (!(volume > 0 && volume < share_least * size * size * size) || (!shape.round && shape.mesh.vertices.empty())) {
+    return false;
+  }
+  if (shape.round) {
+    return shape.round->kind != RoundKind::ring;
+  }
+  const Vec3d half = core::Box::around(shape.mesh.vertices).half();
+  return half.x > 0 && half.y > 0 && half.z > 0;
+}
+
 /// So that all faces look to the other side.
 void turn_faces(PolygonMesh& mesh) {
   std::size_t first = 0;
@@ -151,12 +166,13 @@ class PlacedScene {
   /// What meshes become, each of them once, and as often as the scene has it; says what copies cost.
   void measure() {
     GeometrySize once, all;
-    std::uint64_t meshes = 0, places = 0;
+    std::uint64_t meshes = 0, places = 0, thin = 0;
     std::vector<bool> is_placed(file_.shapes.size());
     for (const ShapePlace& place : file_.places) {
       const PlacedShape& shape = file_.shapes[place.shape];
       const GeometrySize size = shape.size_of_copy();
       const bool is_first = !is_placed[place.shape], is_mesh = !shape.is_ball();
+      thin += presses_thin(place.world, shape) ? 1 : 0;
       is_placed[place.shape] = true;
       ask_for_more(shape, place.world);
       meshes += is_mesh && is_first ? 1 : 0;
@@ -164,6 +180,8 @@ class PlacedScene {
       all += size;
       once += is_first ? size : GeometrySize{};
     }
+    note_count(result_.notes, "shapes pressed so flat that floats may not tell front from back, where the wrong one may show",
+               thin);
     result_.scene.objects.reserve(options_.smooth_degrees ? all.faces : once.faces);
     if (meshes < places && options_.copies == core::Copies::put) {
       result_.notes.push_back(grouped(meshes) + (meshes == 1 ? " mesh stands in " : " meshes stand in ") + grouped(places) +

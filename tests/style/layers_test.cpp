@@ -101,9 +101,9 @@ const std::vector<Foreign> foreign = {
     {"CLI/", {}},  // nobody wants it any more
     {"nlohmann/",
      {"apps/edge/show/stats/", "apps/show/stats/", "apps/show/page/", "apps/edge/machine/machine_file.",
-      "apps/edge/table/table.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/", "apps/foreign/gltf/",
-      "apps/info/json.cpp", "apps/computer/stats.cpp", "apps/formats/landscape/gltf.cpp", "apps/render/live_events.cpp",
-      "apps/view/wishes.cpp", "tests/apps/", "tests/mpi/launched/"}},
+      "apps/edge/table/table.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/", "apps/lab/oracle/places/gltf_places.cpp",
+      "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp", "apps/formats/landscape/gltf.cpp",
+      "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/", "tests/mpi/launched/"}},
     {"oneapi/",
      {"apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp", "apps/lab/oracle/accurate/picture.cpp",
       "tests/apps/lab/oracle/accurate/"}},

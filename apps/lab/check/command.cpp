@@ -4,6 +4,7 @@
 #include <array>
 #include <iomanip>
 #include <iostream>
+#include <numeric>
 #include <ostream>
 #include <string>
 
@@ -12,6 +13,8 @@
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/lab/check/inspection.h"
+#include "apps/lab/oracle/places/place_judge.h"
+#include "apps/lab/oracle/trial_line.h"
 #include "apps/run/instance_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
@@ -79,14 +82,18 @@ void print_doubtful(std::ostream& output, const Referee& referee, const core::Ra
   }
 }
 
+std::string pixel_text(const TracedRay& traced, std::uint32_t width) {
+  return "pixel (" + std::to_string(traced.ray.pixel % width) + ", " + std::to_string(traced.ray.pixel / width) + ")";
+}
+
 void print_difference(std::ostream& output, const Referee& referee, const SettledRay& settled, std::uint32_t width) {
   const core::Ray& ray = settled.traced.ray;
   const bool shadow = ray.kind == core::RayKind::shadow;
   const std::string exact = answer_text(settled.ruling.exact, shadow);
-  output << "  pixel (" << ray.pixel % width << ", " << ray.pixel / width << ") ray " << settled.traced.number << ", depth "
-         << int{ray.depth} << ", " << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid "
-         << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow) << ", exactly "
-         << exact << ": " << name_of(settled.ruling.verdict) << '\n';
+  output << "  " << pixel_text(settled.traced, width) << " ray " << settled.traced.number << ", depth " << int{ray.depth} << ", "
+         << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid " << answer_text(settled.traced.grid, shadow) << ", Embree "
+         << answer_text(settled.traced.oracle, shadow) << ", exactly " << exact << ": " << name_of(settled.ruling.verdict)
+         << '\n';
   if (shadow) {
     print_doubtful(output, referee, ray);
   } else {
@@ -147,7 +154,7 @@ std::uint64_t print_brute_force(std::ostream& output, const Inspection& inspecti
 
 void print_failed(std::ostream& output, const CertifiedRay& ray, std::uint32_t width) {
   const TracedRay& traced = ray.traced;
-  output << "  pixel (" << traced.ray.pixel % width << ", " << traced.ray.pixel / width << ") ray " << traced.number << ", "
+  output << "  " << pixel_text(traced, width) << " ray " << traced.number << ", "
          << kind_names[static_cast<std::size_t>(traced.ray.kind)] << ": #" << traced.hit.primitive << " at t "
          << std::setprecision(9) << traced.hit.t << ": " << name_of(ray.certified.fault) << '\n';
 }
@@ -196,22 +203,54 @@ Inspection inspect_shown(const CheckOptions& options, const core::Database& data
   return inspect(database, embree, settings, inspection_options);
 }
 
-/// Returns the number of unexplained rays and of certificates that fail.
-std::uint64_t print_report(std::ostream& output, const CheckOptions& options, core::Structure structure,
-                           const core::Database& database, const core::Camera& camera, const Inspection& inspection) {
+/// `failed`: certificates. The worst is what fails, or the difference that it takes most to explain.
+Trial trial_of(const Inspection& inspection, std::uint64_t unexplained, std::uint64_t failed, const PlaceFindings& places,
+               std::uint32_t width) {
+  std::vector<SettledRay> rays = refused(inspection.brute_forced);
+  rays.insert(rays.end(), inspection.differences.begin(), inspection.differences.end());
+  const auto& hits = inspection.certified;
+  const auto& counts = inspection.operations.rays;
+  const auto worst = std::ranges::max_element(rays, {}, [](const SettledRay& ray) { return ray.ruling.verdict; });
+  const auto hit =
+      std::ranges::find_if(hits, [](const CertifiedRay& ray) { return ray.certified.fault != CertificateFault::none; });
+  Trial trial{.tried = {{std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}), "ray"},
+                        {hits.size(), "certificate"},
+                        {places.pixels, "place"}},
+              .failed = {{unexplained, "unexplained ray"}, {failed, "certificate"}, {places.elsewhere, "place"}}};
+  if (worst != rays.end() && (unexplained > 0 || failed + places.elsewhere == 0)) {
+    trial.worst = name_of(worst->ruling.verdict);
+    trial.where = pixel_text(worst->traced, width);
+  } else if (hit != hits.end()) {
+    trial.worst = name_of(hit->certified.fault);
+    trial.where = pixel_text(hit->traced, width);
+  } else if (places.elsewhere > 0) {
+    trial.worst = places.worst;
+    trial.where = places.where;
+  }
+  return trial;
+}
+
+/// Returns how much fails.
+std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const Subject& subject,
+                           const Inspection& inspection, const PlaceFindings& places) {
+  const core::Database& database = subject.database;
+  const core::Camera& camera = subject.settings.camera;
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
-         << " pixels, our " << name_of(structure) << (database.header().has_instances != 0 ? " with kept meshes" : "")
-         << " against Embree " << embree_version() << " (robust)\n";
+         << " pixels, our " << name_of(subject.built.structure)
+         << (database.header().has_instances != 0 ? " with kept meshes" : "") << " against Embree " << embree_version()
+         << " (robust)\n";
   const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
   print_list(output, referee, inspection.differences, options.list, width);
   print_pixels(output, inspection.differing_pixels, camera.pixel_count());
   unexplained += print_brute_force(output, inspection, referee, options.list, width);
-  output << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
   const std::uint64_t failed = print_certified(output, inspection, options.list, width);
-  output << (failed == 0 ? "" : "CERTIFICATES FAIL: our bounds or our kernels have an error.\n");
-  return unexplained + failed;
+  if (places.pixels > 0 || !places.not_judged.empty()) {
+    output << "The file's own positions, read by the oracle: " << text_of(places) << '\n';
+  }
+  output << line_of(trial_of(inspection, unexplained, failed, places, width)) << '\n';
+  return unexplained + failed + places.elsewhere;
 }
 
 }  // namespace
@@ -249,20 +288,22 @@ void add_options(OptionSet options, CheckOptions& check) {
       "  dmpc check rings-3 --certify=1000000\n"
       "  dmpc check balls-4 --structure=voxels\n"
       "  dmpc check grove-4 --instances=keep\n"
-      "Exit status 3 says that a difference stays unexplained or a certificate does not hold.");
+      "Of glTF and OBJ files the oracle also reads by itself where faces and camera stand, and counts the pixels that see\n"
+      "another place. The last line says what was tried, what failed, the worst and where.\n"
+      "Exit status 3 says that a difference stays unexplained, a certificate does not hold, or a pixel sees another place.");
 }
 
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  core::Scene scene = load_scene(options.picture);
+  OpenedFiles opened;
+  core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
+  const PlaceFindings places = opened.paths().empty() ? PlaceFindings{} : judge_places(scene, options.picture, opened);
   const Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
-  const core::Database& database = subject.database;
-  const core::RenderSettings& settings = subject.settings;
-  const Inspection inspection = inspect_shown(options, database, settings);
+  const Inspection inspection = inspect_shown(options, subject.database, subject.settings);
   interrupt.set_consequence("the report is incomplete");
-  const std::uint64_t unexplained = print_report(output, options, subject.built.structure, database, settings.camera, inspection);
+  const std::uint64_t failures = print_report(output, options, subject, inspection, places);
   finish_output(output, "the report");
-  return unexplained == 0 ? 0 : unexplained_status;
+  return failures == 0 ? 0 : unexplained_status;
 }
 
 }  // namespace dmpc::apps

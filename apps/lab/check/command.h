@@ -1,4 +1,5 @@
-// The command `check`: every ray of a render against the Embree oracle and the double-precision referee.
+// The command `check`: every ray of a render against the Embree oracle and the double-precision referee, and the file's positions
+// against the oracle's own reading.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ struct CheckOptions {
 void add_options(OptionSet options, CheckOptions& check);
 
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
-/// difference is unexplained and no certificate fails, 3 otherwise. Throws core::InputError for a scene that cannot be read or a
-/// report that cannot be written, Interrupted if a signal came before.
+/// difference is unexplained, no certificate fails and no pixel sees another place, 3 otherwise. Throws core::InputError for a
+/// scene that cannot be read or a report that cannot be written, Interrupted if a signal came before.
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -13,6 +13,7 @@
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/bench/precision/precision.h"
+#include "apps/lab/oracle/trial_line.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
@@ -175,13 +176,28 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
 
 /// What all scenes came to.
 struct Outcome {
-  bool is_explained = true, is_expected = true, is_warned = false;
+  std::uint64_t scenes = 0, pixels = 0, unexplained = 0, missed = 0;
+  std::pair<bool, double> least{true, 100};  ///< whether it is explained, and the percentage of equal pixels
+  std::string worst = {}, where = {};        ///< of the scene with these
 
-  bool is_right() const { return is_explained && is_expected; }
+  bool is_right() const { return unexplained + missed == 0; }
   void count(const PrecisionRow& row) {
-    is_explained = is_explained && row.is_explained();
-    is_expected = is_expected && row.is_expected();
-    is_warned = is_warned || row.is_warned();
+    ++scenes;
+    pixels += row.precision.pixels;
+    unexplained += row.precision.errors.size();
+    missed += row.is_expected() ? 0 : 1;
+    const std::pair reached(row.is_explained(), percent_equal(row.precision));
+    if (reached < least) {
+      least = reached;
+      worst = reached.first ? fixed(reached.second, 4) + " % of pixels equal" : row.precision.errors.front();
+      where = row.scene;
+    }
+  }
+  Trial trial(bool is_by_paths) const {
+    return {.tried = {{scenes, "scene"}, {pixels, "pixel"}},
+            .failed = {{unexplained, is_by_paths ? "mean" : "unexplained pixel"}, {missed, "missed expectation"}},
+            .worst = worst,
+            .where = where};
   }
 };
 
@@ -206,17 +222,6 @@ void measure_all(const PrecisionOptions& options, const std::vector<std::string>
     describe_errors(row, table);
     outcome.count(row);
   }
-}
-
-const char* verdict_of(bool is_complete, bool is_by_paths, const Outcome& outcome) {
-  if (is_by_paths && is_complete && outcome.is_expected) {
-    return outcome.is_explained ? "No picture has another mean." : "ANOTHER MEAN: one of the renderers has an error.";
-  }
-  return !outcome.is_explained  ? "UNEXPLAINED pixels: one of the renderers has an error."
-         : !outcome.is_expected ? "TOO FEW pixels have the same 8 bits in float and in double."
-         : !is_complete         ? "Ended before its time: scenes are missing."
-         : outcome.is_warned    ? "Every pixel is explained, or was warned of."
-                                : "Every pixel is explained.";
 }
 
 }  // namespace
@@ -256,6 +261,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "  dmpc bench precision model.glb --camera=4,3,5/0,0,0 --light=10,20,10\n"
       "  dmpc bench precision hall.nff --expect=98.5\n"
       "  dmpc bench precision balls-4 --transport=paths --sky=1 --bounces=3\n"
+      "The last line says what was tried, what failed, the worst and where.\n"
       "Exit status 3 says that a pixel differs for no reason that rounding gives, or that fewer pixels than expected have the\n"
       "same 8 bits.");
 }
@@ -268,7 +274,10 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   Outcome outcome;
   const auto result = [&](bool is_whole) -> TableResult {
-    table.add_note(verdict_of(is_whole, options.transport.is_by_paths(), outcome));
+    if (!is_whole) {
+      table.add_note("Ended before its time: scenes are missing.");
+    }
+    table.add_note(line_of(outcome.trial(options.transport.is_by_paths())));
     return {.text = text_of(table, options.table.format)};
   };
   const int status = run_tabled({.measure = [&] { measure_all(options, scenes, files, interrupt, table, outcome); },

@@ -9,6 +9,7 @@
 #include "apps/edge/table/filled_columns.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/bench/stability/run.h"
+#include "apps/lab/oracle/trial_line.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/oracle/oracle.h"
 #include "core/base/expect.h"
@@ -64,9 +65,28 @@ void add_tried(Table& table, const StabilityState& state, const std::string& row
                  ", sure to miss " + grouped(sum.sure_misses) + ", heard by the referee " + grouped(sum.heard) + ".");
 }
 
+/// Of our own kernels; the worst has most failures, then the largest error.
+Trial trial_of(const StabilityState& state) {
+  Trial trial{.tried = {{0, "ray"}}, .failed = {{state.own_failures(), "failure"}, {state.blind_cases().size(), "blind case"}}};
+  std::pair<std::uint64_t, std::uint64_t> most;
+  for (const StabilityRow& row : state.rows) {
+    for (std::size_t k = 0; k < row.counts.size(); ++k) {
+      const auto kernel = static_cast<StabilityKernel>(k);
+      const StabilityCounts& counts = row.counts[k];
+      const std::pair<std::uint64_t, std::uint64_t> found(counts.failures(), counts.error_milliulp);
+      trial.tried.front().first += is_embree(kernel) ? 0 : counts.tried;
+      if (!is_embree(kernel) && most < found) {
+        most = found;
+        trial.worst =
+            found.first > 0 ? counted(found.first, "failure") : fixed(static_cast<double>(found.second) / 1000, 3) + " ulp off";
+        trial.where = row.name + ", " + std::string(name_of(kernel));
+      }
+    }
+  }
+  return trial;
+}
+
 void add_notes(Table& table, const StabilityState& state, bool is_whole) {
-  const std::uint64_t failures = state.own_failures();
-  table.add_note(failures == 0 ? "Our grid: no failure." : "OUR GRID FAILS: " + std::to_string(failures) + " times.");
   if (!is_whole) {
     table.add_note("Ended before its time: cases or rays are missing.");
   }
@@ -86,6 +106,7 @@ void add_notes(Table& table, const StabilityState& state, bool is_whole) {
   for (const StabilityRow& row : state.rows) {
     add_tried(table, state, row.name);
   }
+  table.add_note(line_of(trial_of(state)));
 }
 
 /// A row for each test and each kernel that it tried, in the order of the tests; notes say what the columns mean, where the tests
@@ -125,6 +146,7 @@ void add_options(OptionSet set, StabilityOptions& options) {
       "  dmpc bench stability --quick\n"
       "  dmpc bench stability --tests=R2,R10 --rays=1000000\n"
       "  dmpc bench stability --long -o stability.md\n"
+      "The last line says what was tried, what failed, the worst and where.\n"
       "Exit status 1 says that our grid failed, or that a case tried nothing; what Embree does is shown, not judged.");
   set.check_in_the_end([set, &options] {
     if (int{set.is_given("--rays")} + int{options.quick} + int{options.is_long} > 1) {

@@ -249,6 +249,15 @@ TEST_CASE("what is pressed flat is shown flat, and a camera in what is pressed f
                         "pressed flat"));
 }
 
+TEST_CASE("that what is thick is pressed so flat that floats may take its back for its front is said") {
+  const std::string words = "shapes pressed so flat that floats may not tell front from back, where the wrong one may show: 2";
+  const std::string tent = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] \"integer indices\" [0 1 2 0 1 3]\n";
+  CHECK(notes(read_pbrt("Scale 1 1e-6 1 Shape \"sphere\"\n" + tent), words));
+  CHECK(!notes(read_pbrt("Scale 1 1e-6 1 Shape \"disk\"\n" + pbrt_triangle), "pressed"));
+  CHECK(!notes(read_pbrt("Shape \"sphere\" Scale 1 1e-3 1 Shape \"sphere\" Scale 1 0 1 Shape \"sphere\"\n"), "pressed"));
+  CHECK(!notes(read_pbrt("Scale 1e-6 1e-6 1e-6 Shape \"sphere\"\n" + tent), "pressed"));
+}
+
 TEST_CASE(
     "that spheres are not turned inside out is said, which matters for glass and for light, but not of those that become "
     "meshes") {

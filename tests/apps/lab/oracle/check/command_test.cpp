@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests::check_command_test {
 namespace {
@@ -37,7 +40,18 @@ TEST_CASE("check prints a table and ends with status 0 where every ray is explai
   CHECK(said.text.find("tetra-3: 64 primitives, 40x30 pixels") != std::string::npos);
   CHECK(said.text.find("primary            1200") != std::string::npos);
   CHECK(said.text.find("Pixels that Embree would change: 0 of 1200, 0.0 ppm") != std::string::npos);
-  CHECK(said.text.find("Every ray is explained.") != std::string::npos);
+  CHECK(said.text.find("Failed: nothing.") != std::string::npos);
+}
+
+TEST_CASE("check says of a file whether it was read where it stands, and ends in one line of all that was tried") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", triangle_obj);
+  const Said said = check(small((folder / "a.obj").string()));
+  CHECK(said.status == 0);
+  CHECK(contains(said.text, "The file's own positions, read by the oracle: 0 of 1,200 pixels see another place\nTried: "));
+  CHECK(contains(said.text, " rays, 1,200 places. Failed: nothing. Worst: "));
+  CHECK(said.text.find('\n', said.text.find("Tried: ")) == said.text.size() - 1);
+  CHECK_FALSE(contains(check(small("tetra-3")).text, "own positions"));
 }
 
 TEST_CASE("check tests random rays against every primitive when asked to") {
@@ -77,7 +91,7 @@ TEST_CASE("check traces the structure that is asked for, and says which") {
     const Said said = check(options);
     CHECK(said.status == 0);
     CHECK(said.text.find(std::string("40x30 pixels, our ") + name + " against Embree ") != std::string::npos);
-    CHECK(said.text.find("Every ray is explained.") != std::string::npos);
+    CHECK(said.text.find("Failed: nothing.") != std::string::npos);
   }
 }
 
@@ -89,7 +103,7 @@ TEST_CASE("check sends rays into meshes that are kept, and says so") {
   const Said said = check(options);
   CHECK(said.status == 0);
   CHECK(said.text.find("40x30 pixels, our extents with kept meshes against Embree ") != std::string::npos);
-  CHECK(said.text.find("Every ray is explained.") != std::string::npos);
+  CHECK(said.text.find("Failed: nothing.") != std::string::npos);
 }
 
 TEST_CASE("check of a scene that does not exist is bad input") {

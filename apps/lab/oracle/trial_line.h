@@ -1,0 +1,33 @@
+// What came of a trial in one line, the last that a judge prints: what was tried, what failed, the worst, and where.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+
+namespace dmpc::apps {
+
+struct Trial {
+  using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< of what, as one of it is called
+
+  Counts tried, failed = {};
+  std::string worst = {}, where = {};  ///< empty: nothing was off
+};
+
+/// "Tried: 1,200 rays. Failed: nothing. Worst: a silhouette, in pixel (3, 4)."
+inline std::string line_of(const Trial& trial) {
+  const auto list = [](const Trial::Counts& counts) {
+    std::string text;
+    for (const auto& [count, thing] : counts) {
+      text += count == 0 ? "" : (text.empty() ? "" : ", ") + counted(count, thing);
+    }
+    return text.empty() ? "nothing" : text;
+  };
+  return "Tried: " + list(trial.tried) + ". Failed: " + list(trial.failed) +
+         ". Worst: " + (trial.worst.empty() ? "nothing was off" : trial.worst + ", in " + trial.where) + ".";
+}
+
+}  // namespace dmpc::apps
