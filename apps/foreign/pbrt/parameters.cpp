@@ -217,7 +217,8 @@ std::vector<core::Vec3d> Parameters::points(std::string_view name, std::initiali
 
 bool Parameters::name_textures() const {
   const auto is_one = [](const Parameter& one) { return one.type == texture; };
-  return std::ranges::any_of(list_, is_one) || (defaults_ && std::ranges::any_of(*defaults_, is_one));
+  const auto points_to_one = [&](const auto& one) { return is_one(*one); };
+  return std::ranges::any_of(list_, is_one) || (defaults_ && std::ranges::any_of(*defaults_, points_to_one));
 }
 
 std::vector<std::string> Parameters::unused() const {
