@@ -83,7 +83,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
   core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
   read(file, {Saying::read_texture, edges.alpha}, [&](const Head& head) {
     check_texture_size(file.name, head.width, head.height);
-    take_room(head.width, head.height, texture_bytes_);
+    take_room(head, texture_bytes_);
     texture.format = head.format;
     hidden_alphas_ += head.hides_alpha ? 1 : 0;
     const std::uint64_t count = std::uint64_t{head.width} * head.height;
@@ -96,8 +96,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
 }
 
 void PictureReader::weigh_texture(const PictureFile& file) {
-  read(file, {Saying::weigh_picture, TextureAlpha::ignored},
-       [&](const Head& head) { take_room(head.width, head.height, weighed_bytes_); });
+  read(file, {Saying::weigh_picture, TextureAlpha::ignored}, [&](const Head& head) { take_room(head, weighed_bytes_); });
 }
 
 Image PictureReader::read_image(const PictureFile& file) {
@@ -194,11 +193,11 @@ void PictureReader::check_time() const {
 }
 
 /// Of a texel, and with all levels, which are a third more: once as it is read, and once more when records are made of it.
-void PictureReader::take_room(std::uint32_t width, std::uint32_t height, std::uint64_t& taken) const {
+void PictureReader::take_room(const Head& head, std::uint64_t& taken) const {
   const std::uint64_t most = memory_bytes_max();
-  taken += 2 * (std::uint64_t{width} * height * sizeof(std::uint32_t) * 4 / 3);
+  taken += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);
   if (taken > most) {
-    throw ComputerRoomError("with its " + size_text(width, height) + " texels the scene's textures take " +
+    throw ComputerRoomError("with its " + size_text(head.width, head.height) + " texels the scene's textures take " +
                             mebibytes_text(taken) + ", and there is room for " + mebibytes_text(most) + ": make them smaller");
   }
 }

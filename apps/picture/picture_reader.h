@@ -78,7 +78,7 @@ class PictureReader {
   Message answer_of(Program program, const PictureFile& file, const std::string& format, const Request& request);
   void start(Program program, std::uint64_t file_bytes);
   void check_time() const;
-  void take_room(std::uint32_t width, std::uint32_t height, std::uint64_t& taken) const;
+  void take_room(const Head& head, std::uint64_t& taken) const;
   void check_sky(const Head& head) const;
   template <class Check>
   Image read_image(const PictureFile& file, const Check& check);

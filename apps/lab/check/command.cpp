@@ -82,15 +82,11 @@ void print_doubtful(std::ostream& output, const Referee& referee, const core::Ra
   }
 }
 
-std::string pixel_text(const TracedRay& traced, std::uint32_t width) {
-  return "pixel (" + std::to_string(traced.ray.pixel % width) + ", " + std::to_string(traced.ray.pixel / width) + ")";
-}
-
 void print_difference(std::ostream& output, const Referee& referee, const SettledRay& settled, std::uint32_t width) {
   const core::Ray& ray = settled.traced.ray;
   const bool shadow = ray.kind == core::RayKind::shadow;
   const std::string exact = answer_text(settled.ruling.exact, shadow);
-  output << "  " << pixel_text(settled.traced, width) << " ray " << settled.traced.number << ", depth " << int{ray.depth} << ", "
+  output << "  " << pixel_text(ray.pixel, width) << " ray " << settled.traced.number << ", depth " << int{ray.depth} << ", "
          << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid " << answer_text(settled.traced.grid, shadow) << ", Embree "
          << answer_text(settled.traced.oracle, shadow) << ", exactly " << exact << ": " << name_of(settled.ruling.verdict)
          << '\n';
@@ -154,7 +150,7 @@ std::uint64_t print_brute_force(std::ostream& output, const Inspection& inspecti
 
 void print_failed(std::ostream& output, const CertifiedRay& ray, std::uint32_t width) {
   const TracedRay& traced = ray.traced;
-  output << "  " << pixel_text(traced, width) << " ray " << traced.number << ", "
+  output << "  " << pixel_text(traced.ray.pixel, width) << " ray " << traced.number << ", "
          << kind_names[static_cast<std::size_t>(traced.ray.kind)] << ": #" << traced.hit.primitive << " at t "
          << std::setprecision(9) << traced.hit.t << ": " << name_of(ray.certified.fault) << '\n';
 }
@@ -219,10 +215,10 @@ Trial trial_of(const Inspection& inspection, std::uint64_t unexplained, std::uin
               .failed = {{unexplained, "unexplained ray"}, {failed, "certificate"}, {places.elsewhere, "place"}}};
   if (worst != rays.end() && (unexplained > 0 || failed + places.elsewhere == 0)) {
     trial.worst = name_of(worst->ruling.verdict);
-    trial.where = pixel_text(worst->traced, width);
+    trial.where = pixel_text(worst->traced.ray.pixel, width);
   } else if (hit != hits.end()) {
     trial.worst = name_of(hit->certified.fault);
-    trial.where = pixel_text(hit->traced, width);
+    trial.where = pixel_text(hit->traced.ray.pixel, width);
   } else if (places.elsewhere > 0) {
     trial.worst = places.worst;
     trial.where = places.where;

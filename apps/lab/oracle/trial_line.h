@@ -10,6 +10,11 @@
 
 namespace dmpc::apps {
 
+/// "pixel (3, 4)", of one by its number in a picture so wide.
+inline std::string pixel_text(std::uint64_t pixel, std::uint64_t width) {
+  return "pixel (" + std::to_string(pixel % width) + ", " + std::to_string(pixel / width) + ")";
+}
+
 struct Trial {
   using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< of what, as one of it is called
 

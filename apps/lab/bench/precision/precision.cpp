@@ -7,6 +7,7 @@
 #include "apps/edge/system/interrupt.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/oracle/accurate/emitters.h"
+#include "apps/lab/oracle/trial_line.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
@@ -93,8 +94,7 @@ void count(const Judgement& judgement, std::uint32_t pixel, std::uint32_t width,
   ++precision.causes[static_cast<std::size_t>(judgement.cause)];
   precision.largest_step = std::max(precision.largest_step, judgement.largest_step);
   if (judgement.cause == PixelCause::unexplained) {
-    precision.errors.push_back("pixel (" + std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
-                               "): " + judgement.error);
+    precision.errors.push_back(pixel_text(pixel, width) + ": " + judgement.error);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "apps/lab/oracle/accurate/camera.h"
 #include "apps/lab/oracle/accurate/finder.h"
 #include "apps/lab/oracle/places/file_places.h"
+#include "apps/lab/oracle/trial_line.h"
 
 namespace dmpc::apps {
 namespace {
@@ -129,7 +130,7 @@ PlaceFindings judge_places(const core::Scene& read, const PictureOptions& pictur
   return {.pixels = apart.size(),
           .elsewhere = apart.size() - static_cast<std::uint64_t>(std::count(apart.begin(), apart.end(), 0.0)),
           .worst = std::isinf(*worst) ? "what one of both does not see" : rounded(*worst) + " pixels off",
-          .where = "pixel (" + std::to_string(pixel % width) + ", " + std::to_string(pixel / width) + ")"};
+          .where = pixel_text(pixel, width)};
 }
 
 std::string text_of(const PlaceFindings& findings) {
