@@ -225,6 +225,20 @@ class StudyTest(unittest.TestCase):
             self.assertEqual(list(dmpc.study.references("-trace.csv", cache_pages=3)["faults_fifo"]), [9])
             os.chdir("/")
 
+    def test_a_study_of_ones_own_finds_of_a_sweep_what_the_study_in_dmpc_finds(self):
+        space, options = {"__name__": "speedup"}, {"resolution": "32x32", "machine": "hdr"}
+        exec(pathlib.Path(MODULES, "examples/speedup.py").read_text(), space)
+        with tempfile.TemporaryDirectory() as folder:
+            own = [space["speedup"]("rings-2-t1", nodes=(2, 1, 5), runs=folder, **options) for _ in range(2)]  # again, as it was kept
+            self.assertEqual(len(os.listdir(folder)), 3)
+        self.assertTrue(own[0].equals(own[1]))
+        theirs = dmpc.study.speedup("rings-2-t1", nodes=(2, 1, 5), **options)
+        self.assertEqual(list(own[0]["run_hash"]), list(theirs["run_hash"]))
+        self.assertEqual(list(own[0]["options.node_memory"]), list(theirs["node_memory"]))
+        for name in (name for name in own[0] if name not in ("run_hash", "options.node_memory")):
+            column = {"virtual_seconds.total": "virtual_time", "links.wait": "link_wait"}.get(name, name.removeprefix("time_percent."))
+            self.assertTrue(numpy.allclose(own[0][name], theirs[column], rtol=1e-12, atol=0), name)
+
     def test_what_a_study_complains_of_is_raised(self):
         with self.assertRaisesRegex(dmpc.InputError, "--policy=/none.so: "):
             dmpc.study.cache("balls-1", policy="/none.so")

@@ -1,8 +1,6 @@
 #include "apps/lab/study/scale/figures.h"
 
 #include "apps/edge/table/averages.h"
-#include "apps/edge/table/filled_columns.h"
-#include "apps/lab/study/engine/render_process.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 
@@ -11,130 +9,84 @@ namespace {
 
 constexpr double bytes_per_megabyte = 1e6;
 
-/// What a run tells.
-struct ScaleStats {
-  const std::vector<Figure>& stats;
-  std::optional<std::size_t> memory_bytes;
-
-  double operator[](const char* name) const { return needed_number(stats, name); }
-  std::optional<double> if_any(const char* name) const { return number_of(stats, name); }
-  std::optional<double> a_ray(std::optional<double> number) const {
-    const double rays = (*this)["rays.total"];
-    return number && rays > 0 ? std::optional(*number / rays) : std::nullopt;
+double local_memory_bytes(const std::vector<Figure>& stats) {
+  double bytes = 0;
+  for (const Figure& figure : stats) {
+    bytes += is_within(figure.name, "nodes.*.memory.planned.total") ? number_of(figure.value).value_or(0) : 0;
   }
-  double local_memory_bytes() const {
-    double bytes = 0;
-    for (const Figure& figure : stats) {
-      bytes += is_within(figure.name, "nodes.*.memory.planned.total") ? number_of(figure.value).value_or(0) : 0;
-    }
-    return bytes;
-  }
-};
-
-double total_seconds(const ScaleStats& told) {
-  return told["seconds.write"] + told["seconds.load"] + told["seconds.build"] + told["seconds.prepare"] + told["seconds.render"];
-}
-
-/// By number.
-const std::array<FilledColumn<ScaleStats>, scale_figure_count>& scale_figure_columns() {
-  const auto megabytes = [](double bytes) { return bytes / bytes_per_megabyte; };
-  static const std::array<FilledColumn<ScaleStats>, scale_figure_count> columns = {
-      {{{"load", "s", 3}, [](const ScaleStats& told) { return told["seconds.load"]; }},
-       {{"build", "s", 3}, [](const ScaleStats& told) { return told["seconds.build"]; }},
-       {{"prepare", "s", 3}, [](const ScaleStats& told) { return told["seconds.prepare"]; }},
-       {{"render", "s", 3}, [](const ScaleStats& told) { return told["seconds.render"]; }},
-       {{"total", "s", 3}, total_seconds},
-       {{"processor", "s", 3},
-        [](const ScaleStats& told) { return told["seconds.render_user"] + told["seconds.render_system"]; }},
-       {{"database", "MB", 2}, [=](const ScaleStats& told) { return megabytes(told["database.bytes"]); }},
-       {{"memory", "MB", 2},
-        only_if([](const ScaleStats& told) { return told.memory_bytes.has_value(); },
-                [=](const ScaleStats& told) { return megabytes(static_cast<double>(*told.memory_bytes)); })},
-       {{"local memory", "MB", 2}, [=](const ScaleStats& told) { return megabytes(told.local_memory_bytes()); }},
-       {{"faults a ray", "", 4}, [](const ScaleStats& told) { return cell_of(told.a_ray(told.if_any("pages.faults"))); }},
-       {{"packets a ray", "", 4}, [](const ScaleStats& told) { return cell_of(told.a_ray(told["packets.sent"])); }},
-       {{"moves a ray", "", 3}, [](const ScaleStats& told) { return cell_of(told.if_any("travel.messages_per_ray")); }},
-       {{"pages a pixel", "", 2}, [](const ScaleStats& told) { return cell_of(told.if_any("pages.distinct_per_pixel")); }}}};
-  return columns;
+  return bytes;
 }
 
 }  // namespace
 
-const Column& column_of(ScaleFigure figure) { return scale_figure_columns()[static_cast<std::size_t>(figure)].column; }
-
-std::vector<ScaleFigure> all_scale_figures() {
-  std::vector<ScaleFigure> figures;
-  for (std::size_t number = 0; number < scale_figure_count; ++number) {
-    figures.push_back(ScaleFigure{static_cast<std::uint8_t>(number)});
-  }
-  return figures;
+const std::vector<Column>& scale_figure_columns() {
+  static const std::vector<Column> columns = {{"load", "s", 3},        {"build", "s", 3},        {"prepare", "s", 3},
+                                              {"render", "s", 3},      {"total", "s", 3},        {"processor", "s", 3},
+                                              {"database", "MB", 2},   {"memory", "MB", 2},      {"local memory", "MB", 2},
+                                              {"faults a ray", "", 4}, {"packets a ray", "", 4}, {"moves a ray", "", 3},
+                                              {"pages a pixel", "", 2}};
+  return columns;
 }
 
 ScaleFigures scale_figures_of(const std::vector<Figure>& stats, std::optional<std::size_t> memory_bytes) {
-  const ScaleStats told{stats, memory_bytes};
-  ScaleFigures figures;
-  for (const ScaleFigure figure : all_scale_figures()) {
-    const Cell cell = scale_figure_columns()[static_cast<std::size_t>(figure)].cell(told);
-    const double* const number = std::get_if<double>(&cell);
-    figures[figure] = number != nullptr ? std::optional(*number) : std::nullopt;
-  }
-  figures.primitives = static_cast<std::uint64_t>(told["database.primitives"]);
+  const auto needed = [&](const std::string& name) { return needed_number(stats, name); };
+  const double rays = needed("rays.total");
   const FigureValue* const film = find_value(stats, "film_hash");
   core::expect(film != nullptr, "the statistics of a render have its film's hash");
-  figures.film_hash = text_of(*film);
+  ScaleFigures figures{.by_name = {{"processor", needed("seconds.render_user") + needed("seconds.render_system")},
+                                   {"database", needed("database.bytes") / bytes_per_megabyte},
+                                   {"local memory", local_memory_bytes(stats) / bytes_per_megabyte}},
+                       .primitives = static_cast<std::uint64_t>(needed("database.primitives")),
+                       .film_hash = text_of(*film)};
+  double& total = figures.by_name["total"] = needed("seconds.write");
+  for (const char* const phase : {"load", "build", "prepare", "render"}) {
+    total += figures.by_name[phase] = needed(std::string("seconds.") + phase);
+  }
+  const auto add = [&](const char* name, std::optional<double> number, double over) {
+    if (number && over > 0) {
+      figures.by_name[name] = *number / over;
+    }
+  };
+  add("memory", memory_bytes ? std::optional(static_cast<double>(*memory_bytes)) : std::nullopt, bytes_per_megabyte);
+  add("faults a ray", number_of(stats, "pages.faults"), rays);
+  add("packets a ray", needed("packets.sent"), rays);
+  add("moves a ray", number_of(stats, "travel.messages_per_ray"), 1);
+  add("pages a pixel", number_of(stats, "pages.distinct_per_pixel"), 1);
   return figures;
 }
 
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds) {
   ScaleFigures middle = rounds.at(0);
+  std::map<std::string, std::vector<double>> numbers;
   for (const ScaleFigures& round : rounds) {
     core::expect(round.film_hash == middle.film_hash, "every run of a scene gives the same film");
-  }
-  for (const ScaleFigure figure : all_scale_figures()) {
-    std::vector<double> numbers;
-    for (const ScaleFigures& round : rounds) {
-      if (round[figure]) {
-        numbers.push_back(*round[figure]);
-      }
+    for (const auto& [name, number] : round.by_name) {
+      numbers[name].push_back(number);
     }
-    middle[figure] = numbers.empty() ? std::nullopt : std::optional(median(std::move(numbers)));
+  }
+  for (auto& [name, all] : numbers) {
+    middle.by_name[name] = median(std::move(all));
   }
   return middle;
 }
 
-namespace {
-
-using Points = std::vector<std::pair<double, double>>;
-
-/// Measured from the first, so that what does not grow at all comes out as 0.
-Points logarithms(std::span<const std::pair<double, double>> points) {
-  Points logs;
+std::optional<double> growth_exponent(std::span<const std::pair<double, double>> points) {
+  std::vector<std::pair<double, double>> logs;
+  double x_sum = 0, y_sum = 0;
   for (const auto& [x, y] : points) {
     if (x > 0 && y > 0) {
       logs.emplace_back(core::natural_log(x), core::natural_log(y));
+      // Measured from the first, so that what does not grow at all comes out as 0.
+      x_sum += logs.back().first - logs.front().first;
+      y_sum += logs.back().second - logs.front().second;
     }
-  }
-  for (std::size_t i = logs.size(); i-- > 0;) {
-    logs[i] = {logs[i].first - logs[0].first, logs[i].second - logs[0].second};
-  }
-  return logs;
-}
-
-}  // namespace
-
-std::optional<double> growth_exponent(std::span<const std::pair<double, double>> points) {
-  const Points logs = logarithms(points);
-  double x_sum = 0, y_sum = 0;
-  for (const auto& [x, y] : logs) {
-    x_sum += x;
-    y_sum += y;
   }
   const double count = static_cast<double>(logs.size());
   double squares = 0, products = 0;
   for (const auto& [x, y] : logs) {
-    const double from_middle = x - x_sum / count;
+    const double from_middle = x - logs.front().first - x_sum / count;
     squares += from_middle * from_middle;
-    products += from_middle * (y - y_sum / count);
+    products += from_middle * (y - logs.front().second - y_sum / count);
   }
   constexpr double same = 1e-12;  // what rounding leaves of equal x
   return squares > same ? std::optional(products / squares) : std::nullopt;

@@ -8,7 +8,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/watched_process.h"
-#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 
@@ -29,43 +28,6 @@ std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Inter
   }
   return most;
 }
-
-class ScaleBench {
- public:
-  ScaleBench(const ScaleSettings& settings, const Interrupt& interrupt)
-      : settings_(settings),
-        interrupt_(interrupt),
-        idle_bytes_(idle_bytes(settings, interrupt)),
-        renders_(settings.program, interrupt) {}
-
-  ScaleResult measure(const ScaleRun& run) {
-    std::vector<ScaleFigures> rounds;
-    while (rounds.size() < settings_.rounds) {
-      interrupt_.check();
-      const RenderEnd end = renders_.run(render_arguments(run, settings_), "render");
-      if (!end.figures) {
-        return {.run = run, .figures = {}, .misfit = end.misfit};
-      }
-      rounds.push_back(scale_figures_of(*end.figures, above_idle(end.peak_anonymous_bytes)));
-    }
-    const ScaleFigures middle = median_figures(rounds);
-    const auto film = films_.emplace(run.scene.text(), middle.film_hash).first;
-    core::expect(film->second == middle.film_hash, "every run of a scene gives the same film");
-    return {.run = run, .figures = middle, .misfit = {}};
-  }
-
- private:
-  /// Nothing unless both were seen.
-  std::optional<std::size_t> above_idle(std::optional<std::size_t> bytes) const {
-    return bytes && idle_bytes_ ? std::optional(*bytes - std::min(*bytes, *idle_bytes_)) : std::nullopt;
-  }
-
-  const ScaleSettings& settings_;
-  const Interrupt& interrupt_;
-  std::optional<std::size_t> idle_bytes_;  ///< of the libraries, before anything is done
-  RenderProcesses renders_;
-  std::map<std::string, std::string> films_;  ///< by scene
-};
 
 std::string label_of(const ScaleRun& run, const ScaleSettings& settings) {
   return run.scene.text() + ", " + settings.name_of(run.method) + ", " + counted(run.node_count, "node") + ":";
@@ -90,13 +52,31 @@ std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettin
 
 void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
                    const std::function<void(ScaleResult)>& take) {
-  ScaleBench bench(settings, interrupt);
-  const auto measure = [&](std::size_t i) {
+  const std::optional<std::size_t> idle = idle_bytes(settings, interrupt);  // of the libraries, before anything is done
+  const RenderProcesses renders(settings.program, interrupt);
+  std::map<std::string, std::string> films;  // by scene
+  for (std::size_t i = 0; i < runs.size(); ++i) {
     Progress progress(std::cerr, stderr_is_terminal(), label_of(runs[i], settings), "runs");
     progress.update(i, runs.size());
-    return bench.measure(runs[i]);
-  };
-  measure_each(runs.size(), Turns::one_by_one, measure, [&](std::size_t, ScaleResult result) { take(std::move(result)); });
+    ScaleResult result{.run = runs[i], .figures = {}, .misfit = {}};
+    std::vector<ScaleFigures> rounds;
+    while (rounds.size() < settings.rounds && result.misfit.empty()) {
+      interrupt.check();
+      const RenderEnd end = renders.run(render_arguments(runs[i], settings), "render");
+      result.misfit = end.misfit;
+      if (end.figures) {
+        const auto& bytes = end.peak_anonymous_bytes;
+        rounds.push_back(
+            scale_figures_of(*end.figures, bytes && idle ? std::optional(*bytes - std::min(*bytes, *idle)) : std::nullopt));
+      }
+    }
+    if (result.misfit.empty()) {
+      result.figures = median_figures(rounds);
+      const auto film = films.emplace(runs[i].scene.text(), result.figures->film_hash).first;
+      core::expect(film->second == result.figures->film_hash, "every run of a scene gives the same film");
+    }
+    take(std::move(result));
+  }
 }
 
 }  // namespace dmpc::apps

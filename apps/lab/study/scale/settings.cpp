@@ -1,10 +1,9 @@
 #include "apps/lab/study/scale/settings.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <utility>
+#include <string_view>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
@@ -12,56 +11,28 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 2> part_names = {"sizes", "nodes"};
-constexpr std::array<const char*, 3> method_names = {"cache", "quarter", "dataflow"};
+const std::vector<std::string> part_names = {"sizes", "nodes"}, method_names = {"cache", "quarter", "dataflow"};
 
 /// The number of primitives in the smallest scene of a family.
 constexpr std::uint64_t least_count = 1000;
 constexpr int size_limit = 100'000;
 
-/// Where `word` stands among `names`. Throws core::UsageError.
-template <std::size_t count>
-std::size_t index_of(const std::string& word, const std::array<const char*, count>& names, const std::string& option) {
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found == names.end()) {
-    throw core::UsageError(option + "=" + word + ": expected " + joined({names.begin(), names.end()}, ", ") +
-                           ", with commas between");
+/// What the words of `text` stand for: each for its place among `names`. Throws core::UsageError.
+template <class Meaning>
+std::vector<Meaning> meanings_of(const std::string& text, const std::string& option, const std::vector<std::string>& names) {
+  std::vector<Meaning> meanings;
+  for (const std::string& word : words_between_commas(text, option)) {
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      throw core::UsageError(option + "=" + word + ": expected " + joined(names, ", ") + ", with commas between");
+    }
+    const Meaning meaning{static_cast<std::uint8_t>(found - names.begin())};
+    if (std::find(meanings.begin(), meanings.end(), meaning) != meanings.end()) {
+      throw core::UsageError(option + "=" + text + ": " + word + " is there twice");
+    }
+    meanings.push_back(meaning);
   }
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-[[noreturn]] void fail_on_sizes(const std::string& text) {
-  throw core::UsageError("--sizes=" + text + ": expected sizes of scenes such as 5-9 or 4,6,8");
-}
-
-/// Reads a size from the front of `text`.
-int take_size(std::string_view& text, const std::string& all) {
-  int size = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, size);
-  if (error != std::errc() || size < 1 || size > size_limit) {
-    fail_on_sizes(all);
-  }
-  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-  return size;
-}
-
-/// "5" or "5-9".
-std::pair<int, int> parse_range(const std::string& word, const std::string& all) {
-  std::string_view text = word;
-  const int first = take_size(text, all);
-  if (text.empty()) {
-    return {first, first};
-  }
-  if (text.front() != '-') {
-    fail_on_sizes(all);
-  }
-  text.remove_prefix(1);
-  const int last = take_size(text, all);
-  if (!text.empty() || last < first) {
-    fail_on_sizes(all);
-  }
-  return {first, last};
+  return meanings;
 }
 
 bool exists(const core::SceneName& scene) {
@@ -75,9 +46,7 @@ bool exists(const core::SceneName& scene) {
 
 }  // namespace
 
-const char* name_of(ScalePart part) { return part_names[static_cast<std::size_t>(part)]; }
-
-ScaleSettings::ScaleSettings() : program("/proc/self/exe") {}
+const char* name_of(ScalePart part) { return part_names[static_cast<std::size_t>(part)].c_str(); }
 
 std::vector<core::SceneName> ScaleSettings::scenes_of(const std::string& family) const {
   std::vector<core::SceneName> scenes;
@@ -146,8 +115,14 @@ std::vector<int> standard_sizes(const std::string& family) {
 std::vector<int> parse_scale_sizes(const std::string& text) {
   std::set<int> sizes;
   for (const std::string& word : words_between_commas(text, "--sizes")) {
-    const auto [first, last] = parse_range(word, text);
-    for (int size = first; size <= last; ++size) {
+    const std::string_view range = word;
+    const std::size_t dash = std::min(range.find('-'), range.size());
+    const auto first = number_in<int>(range.substr(0, dash));
+    const auto last = dash == range.size() ? first : number_in<int>(range.substr(dash + 1));
+    if (!first || !last || *first < 1 || *last < *first || *last > size_limit) {
+      throw core::UsageError("--sizes=" + text + ": expected sizes of scenes such as 5-9 or 4,6,8");
+    }
+    for (int size = *first; size <= *last; ++size) {
       sizes.insert(size);
     }
   }
@@ -155,23 +130,12 @@ std::vector<int> parse_scale_sizes(const std::string& text) {
 }
 
 std::set<ScalePart> parse_scale_parts(const std::string& text) {
-  std::set<ScalePart> parts;
-  for (const std::string& word : words_between_commas(text, "--parts")) {
-    parts.insert(ScalePart{static_cast<std::uint8_t>(index_of(word, part_names, "--parts"))});
-  }
-  return parts;
+  const auto parts = meanings_of<ScalePart>(text, "--parts", part_names);
+  return {parts.begin(), parts.end()};
 }
 
 std::vector<ScaleMethod> parse_scale_methods(const std::string& text) {
-  std::vector<ScaleMethod> methods;
-  for (const std::string& word : words_between_commas(text, "--methods")) {
-    const ScaleMethod method{static_cast<std::uint8_t>(index_of(word, method_names, "--methods"))};
-    if (std::find(methods.begin(), methods.end(), method) != methods.end()) {
-      throw core::UsageError("--methods=" + text + ": " + word + " is there twice");
-    }
-    methods.push_back(method);
-  }
-  return methods;
+  return meanings_of<ScaleMethod>(text, "--methods", method_names);
 }
 
 }  // namespace dmpc::apps

@@ -26,8 +26,6 @@ enum class ScaleMethod : std::uint8_t { cache, quarter, dataflow };
 struct ScaleSettings {
   static constexpr std::size_t page_bytes = 1024;  ///< of all runs
 
-  ScaleSettings();
-
   std::vector<std::string> families = {"tetra", "mount"};  ///< of built-in scenes
   std::vector<int> sizes;                                  ///< of each family; empty: its standard_sizes()
   std::set<ScalePart> parts = {ScalePart::sizes, ScalePart::nodes};
@@ -37,8 +35,8 @@ struct ScaleSettings {
   std::optional<std::string> nodes_scene;                                       ///< of part nodes; nothing: scene_of_nodes()
   std::size_t cache_bytes = std::size_t{1} << 20U;                              ///< a node's, of method cache
   Resolution resolution{512, 512};
-  std::uint32_t rounds = 1;       ///< everything is run so often, and medians are taken
-  std::filesystem::path program;  ///< dmpc itself
+  std::uint32_t rounds = 1;  ///< everything is run so often, and medians are taken
+  std::filesystem::path program = "/proc/self/exe";
 
   /// The scenes of a family, in order. Throws core::InputError for what is no family, or has no such size.
   std::vector<core::SceneName> scenes_of(const std::string& family) const;
@@ -68,9 +66,9 @@ std::vector<int> standard_sizes(const std::string& family);
 
 /// "5-9", "4,6,8-10" as sizes in order, without repetition. Throws core::UsageError for anything else.
 std::vector<int> parse_scale_sizes(const std::string& text);
-/// "sizes,nodes". Throws core::UsageError for other words.
+/// "sizes,nodes". Throws core::UsageError for other words, or one that is there twice.
 std::set<ScalePart> parse_scale_parts(const std::string& text);
-/// "cache,quarter,dataflow". Throws core::UsageError for other words, or one that is there twice.
+/// "cache,quarter,dataflow". Likewise.
 std::vector<ScaleMethod> parse_scale_methods(const std::string& text);
 
 }  // namespace dmpc::apps

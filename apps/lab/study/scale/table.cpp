@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/lab/study/scale/figures.h"
 
 namespace dmpc::apps {
@@ -15,13 +16,10 @@ constexpr std::size_t last_count = 3;
 constexpr int exponent_digits = 2;
 
 enum At : std::size_t { part_at, family_at, scene_at, method_at, nodes_at, primitives_at, figures_at };
-constexpr std::size_t ratio_at = figures_at + scale_figure_count;
 
 std::vector<Column> scale_columns() {
   std::vector<Column> columns = {{"part"}, {"family"}, {"scene"}, {"method"}, {"nodes"}, {"primitives"}};
-  for (const ScaleFigure figure : all_scale_figures()) {
-    columns.push_back(column_of(figure));
-  }
+  columns.insert(columns.end(), scale_figure_columns().begin(), scale_figure_columns().end());
   columns.push_back({"render over first", "", 2});
   return columns;
 }
@@ -51,21 +49,6 @@ double growing(const ScaleResult& result) {
   return result.run.part == ScalePart::sizes ? static_cast<double>(result.figures->primitives) : result.run.node_count;
 }
 
-struct Growth {
-  std::optional<double> exponent;
-  std::size_t point_count = 0;  ///< that are above 0
-};
-
-Growth growth_of(std::span<const ScaleResult* const> rows, ScaleFigure figure) {
-  std::vector<std::pair<double, double>> points;
-  for (const ScaleResult* row : rows) {
-    if (const auto value = (*row->figures)[figure]; value && *value > 0) {
-      points.emplace_back(growing(*row), *value);
-    }
-  }
-  return {growth_exponent(points), points.size()};
-}
-
 /// "tetra-5 to tetra-12", "tetra-9 on 1 to 256 nodes".
 std::string range_of(std::span<const ScaleResult* const> rows) {
   const ScaleRun &first = rows.front()->run, &last = rows.back()->run;
@@ -75,88 +58,54 @@ std::string range_of(std::span<const ScaleResult* const> rows) {
   return first.scene.text() + " on " + std::to_string(first.node_count) + " to " + counted(last.node_count, "node");
 }
 
-/// The rows of one group's growth.
-class GrowthRows {
- public:
-  GrowthRows(const ScaleSettings& settings, Table& table) : settings_(settings), table_(table) {}
-
-  void add(const Group& group) {
-    const std::span<const ScaleResult* const> rows(group);
-    if (rows.size() < 2) {
-      return;
-    }
-    add(rows);
-    if (rows.size() > last_count) {
-      add(rows.last(last_count));
-    }
-  }
-
- private:
-  void add(std::span<const ScaleResult* const> rows) {
-    const ScaleRun& run = rows.front()->run;
-    std::vector<Cell> row(table_.columns().size());
-    row[part_at] = std::string(run.part == ScalePart::sizes ? "growth by size" : "growth by nodes");
-    row[family_at] = run.scene.family;
-    row[scene_at] = range_of(rows);
-    row[method_at] = settings_.name_of(run.method);
-    std::string words;
-    for (const ScaleFigure figure : all_scale_figures()) {
-      const Growth growth = growth_of(rows, figure);
-      if (growth.exponent) {
-        row[figures_at + static_cast<std::size_t>(figure)] = *growth.exponent;
-        words += (words.empty() ? "" : ", ") + words_on(figure, growth, rows.size());
+/// How each figure grows, as a row and in words. "(2 of 4 rows)": so many have more than nothing of it.
+void add_growth(std::span<const ScaleResult* const> rows, const ScaleSettings& settings, Table& table) {
+  const ScaleRun& run = rows.front()->run;
+  std::vector<Cell> row(table.columns().size());
+  row[part_at] = std::string(run.part == ScalePart::sizes ? "growth by size" : "growth by nodes");
+  row[family_at] = run.scene.family;
+  row[scene_at] = range_of(rows);
+  row[method_at] = settings.name_of(run.method);
+  std::string words;
+  for (std::size_t i = 0; i < scale_figure_columns().size(); ++i) {
+    const std::string& name = scale_figure_columns()[i].name;
+    std::vector<std::pair<double, double>> points;
+    for (const ScaleResult* const result : rows) {
+      if (const auto value = (*result->figures)[name]; value && *value > 0) {
+        points.emplace_back(growing(*result), *value);
       }
     }
-    table_.add_row(std::move(row));
-    table_.add_note("Growth, " + range_of(rows) + ", " + settings_.name_of(run.method) + ": " + words + ".");
-  }
-
-  static std::string words_on(ScaleFigure figure, const Growth& growth, std::size_t row_count) {
-    const std::string points = growth.point_count < row_count
-                                   ? " (" + std::to_string(growth.point_count) + " of " + counted(row_count, "row") + ")"
-                                   : "";
-    return column_of(figure).name + " " + fixed(*growth.exponent, exponent_digits) + points;
-  }
-
-  const ScaleSettings& settings_;
-  Table& table_;
-};
-
-/// What the same method takes with the first number of nodes; nothing if that has no figures.
-std::optional<double> first_render(const ScaleResult& result, const std::vector<ScaleResult>& results) {
-  const auto first =
-      std::find_if(results.begin(), results.end(), [&](const ScaleResult& other) { return belongs(other.run, result.run); });
-  return first->figures ? (*first->figures)[ScaleFigure::render] : std::nullopt;
-}
-
-std::vector<Cell> row_of(const ScaleResult& result, const ScaleSettings& settings) {
-  const ScaleRun& run = result.run;
-  std::vector<Cell> row(ratio_at + 1);
-  row[part_at] = std::string(name_of(run.part));
-  row[family_at] = run.scene.family;
-  row[scene_at] = run.scene.text();
-  row[method_at] = settings.name_of(run.method);
-  row[nodes_at] = std::uint64_t{run.node_count};
-  row[primitives_at] = result.figures ? result.figures->primitives : core::primitive_count(run.scene);
-  for (const ScaleFigure figure : all_scale_figures()) {
-    if (result.figures && (*result.figures)[figure]) {
-      row[figures_at + static_cast<std::size_t>(figure)] = *(*result.figures)[figure];
+    if (const auto exponent = growth_exponent(points)) {
+      row[figures_at + i] = *exponent;
+      words += (words.empty() ? "" : ", ") + name + " " + fixed(*exponent, exponent_digits);
+      words +=
+          points.size() == rows.size() ? "" : " (" + std::to_string(points.size()) + " of " + counted(rows.size(), "row") + ")";
     }
   }
-  return row;
+  table.add_row(std::move(row));
+  table.add_note("Growth, " + range_of(rows) + ", " + settings.name_of(run.method) + ": " + words + ".");
 }
 
 void add_rows(const std::vector<ScaleResult>& results, const ScaleSettings& settings, Table& table) {
   for (const ScaleResult& result : results) {
-    std::vector<Cell> row = row_of(result, settings);
-    if (result.figures && result.run.part == ScalePart::nodes) {
-      const auto first = first_render(result, results);
-      row[ratio_at] = first && *first > 0 ? Cell(*(*result.figures)[ScaleFigure::render] / *first) : Cell();
+    const auto& [run, figures, misfit] = result;
+    std::vector<Cell> row = {std::string(name_of(run.part)),
+                             run.scene.family,
+                             run.scene.text(),
+                             settings.name_of(run.method),
+                             std::uint64_t{run.node_count},
+                             figures ? figures->primitives : core::primitive_count(run.scene)};
+    for (const Column& column : scale_figure_columns()) {
+      row.push_back(figures ? cell_of((*figures)[column.name]) : Cell());
     }
+    const auto first =
+        std::find_if(results.begin(), results.end(), [&](const auto& other) { return belongs(other.run, result.run); });
+    const double over = first->figures ? (*first->figures)["render"].value_or(0) : 0;
+    row.push_back(figures && run.part == ScalePart::nodes && over > 0 ? Cell(*(*figures)["render"] / over) : Cell());
     table.add_row(std::move(row));
-    if (!result.figures) {
-      table.add_note(result.run.scene.text() + ", " + settings.name_of(result.run.method) + " on " +
-                     counted(result.run.node_count, "node") + ": no figures. " + result.misfit + ".");
+    if (!figures) {
+      table.add_note(run.scene.text() + ", " + settings.name_of(run.method) + " on " + counted(run.node_count, "node") +
+                     ": no figures. " + misfit + ".");
     }
   }
 }
@@ -183,47 +132,28 @@ void add_explanations(const ScaleSettings& settings, Table& table) {
 
 PlotAxis powers_of_10(const std::string& label) { return {.label = label, .scale = PlotScale::powers_of_10}; }
 
-/// Curves of one part and family over the column `place`.
-class Pictures {
- public:
-  Pictures(const ScaleSettings& settings, ScalePart part, const std::string& family)
-      : settings_(settings), part_(part), family_(family) {}
-
-  /// `figures` that do not depend on the method are drawn once, the others for each method.
-  Plot plot(const std::string& name, const std::string& title, const PlotAxis& y, const std::vector<ScaleFigure>& shared,
-            const std::vector<ScaleFigure>& figures) const {
-    std::vector<PlotSeries> series;
-    for (const ScaleFigure figure : shared) {
-      series.push_back(series_of(figure, settings_.methods.front(), column_of(figure).name, series.size()));
-    }
-    for (const ScaleFigure figure : figures) {
-      for (const ScaleMethod method : settings_.methods) {
-        series.push_back(series_of(figure, method, column_of(figure).name + " " + settings_.name_of(method), series.size()));
-      }
-    }
-    const bool by_size = part_ == ScalePart::sizes;
-    return curves("scale_" + (by_size ? family_ : "nodes") + "_" + name, title + (by_size ? " of " + family_ : " over nodes"),
-                  by_size ? "primitives" : "nodes", by_size ? powers_of_10("primitives") : node_axis(), y, std::move(series));
+/// Curves of one part and family; `shared` figures do not depend on the method and are drawn once, `figures` for each method.
+Plot plot_of(const std::string& name, const std::string& title, const char* unit, const ScaleSettings& settings, ScalePart part,
+             const std::string& family, const std::vector<std::string>& shared, const std::vector<std::string>& figures) {
+  std::vector<PlotSeries> series;
+  const auto add = [&](const std::string& figure, ScaleMethod method, const std::string& more) {
+    series.push_back({.title = figure + more,
+                      .column = figure,
+                      .where = {{"part", name_of(part)}, {"family", family}, {"method", settings.name_of(method)}},
+                      .color = series.size()});
+  };
+  for (const std::string& figure : shared) {
+    add(figure, settings.methods.front(), "");
   }
-
- private:
-  PlotSeries series_of(ScaleFigure figure, ScaleMethod method, const std::string& title, std::size_t color) const {
-    return {.title = title,
-            .column = column_of(figure).name,
-            .where = {{"part", name_of(part_)}, {"family", family_}, {"method", settings_.name_of(method)}},
-            .color = color};
+  for (const std::string& figure : figures) {
+    for (const ScaleMethod method : settings.methods) {
+      add(figure, method, " " + settings.name_of(method));
+    }
   }
-
-  const ScaleSettings& settings_;
-  ScalePart part_;
-  std::string family_;
-};
-
-void add_plots(const Pictures& pictures, std::vector<Plot>& plots) {
-  using enum ScaleFigure;
-  plots.push_back(pictures.plot("seconds", "Seconds", powers_of_10("s"), {load, build}, {render}));
-  plots.push_back(pictures.plot("memory", "Memory", powers_of_10("MB"), {database}, {memory, local_memory}));
-  plots.push_back(pictures.plot("traffic", "Traffic", powers_of_10("a ray"), {}, {faults, moves}));
+  const bool by_size = part == ScalePart::sizes;
+  return curves("scale_" + (by_size ? family : "nodes") + "_" + name, title + (by_size ? " of " + family : " over nodes"),
+                by_size ? "primitives" : "nodes", by_size ? powers_of_10("primitives") : node_axis(), powers_of_10(unit),
+                std::move(series));
 }
 
 }  // namespace
@@ -240,16 +170,21 @@ Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& 
               scale_columns());
   add_explanations(settings, table);
   add_rows(results, settings, table);
-  GrowthRows growth(settings, table);
   for (const Group& group : groups_of(results)) {
-    growth.add(group);
+    const std::span<const ScaleResult* const> rows(group);
+    if (rows.size() > 1) {
+      add_growth(rows, settings, table);
+    }
+    if (rows.size() > last_count) {
+      add_growth(rows.last(last_count), settings, table);
+    }
   }
   return table;
 }
 
 std::string scale_conclusion(const Table& table) {
-  const auto exponent = [&](const std::vector<Cell>& row, ScaleFigure figure) {
-    const auto number = number_in(table, row, column_of(figure).name);
+  const auto exponent = [&](const std::vector<Cell>& row, const char* figure) {
+    const auto number = number_in(table, row, figure);
     return number ? fixed(*number, exponent_digits) : std::string("?");
   };
   const auto first = [&](const char* part) {
@@ -260,13 +195,13 @@ std::string scale_conclusion(const Table& table) {
   if (const auto row = first("growth by size"); row != table.rows().end()) {
     const std::vector<std::string> texts = texts_of(table, *row);
     text += "From " + texts[scene_at] + " by " + texts[method_at] + " building takes primitives to the power of " +
-            exponent(*row, ScaleFigure::build) + ", rendering of " + exponent(*row, ScaleFigure::render) + ", memory of " +
-            exponent(*row, ScaleFigure::memory) + ". ";
+            exponent(*row, "build") + ", rendering of " + exponent(*row, "render") + ", memory of " + exponent(*row, "memory") +
+            ". ";
   }
   if (const auto row = first("growth by nodes"); row != table.rows().end()) {
     const std::vector<std::string> texts = texts_of(table, *row);
     text += "For " + texts[scene_at] + " by " + texts[method_at] + " rendering takes nodes to the power of " +
-            exponent(*row, ScaleFigure::render) + ". ";
+            exponent(*row, "render") + ". ";
   }
   return text.substr(0, text.empty() ? 0 : text.size() - 1);
 }
@@ -276,7 +211,13 @@ std::vector<Plot> scale_plots(const ScaleSettings& settings) {
   for (const ScalePart part : settings.parts) {
     const std::vector<std::string> of_nodes = {settings.scene_of_nodes().family};
     for (const std::string& family : part == ScalePart::sizes ? settings.families : of_nodes) {
-      add_plots(Pictures(settings, part, family), plots);
+      const auto add = [&](const char* name, const char* title, const char* unit, const std::vector<std::string>& shared,
+                           const std::vector<std::string>& figures) {
+        plots.push_back(plot_of(name, title, unit, settings, part, family, shared, figures));
+      };
+      add("seconds", "Seconds", "s", {"load", "build"}, {"render"});
+      add("memory", "Memory", "MB", {"database"}, {"memory", "local memory"});
+      add("traffic", "Traffic", "a ray", {}, {"faults a ray", "moves a ray"});
     }
   }
   return plots;

@@ -12,7 +12,6 @@
 
 namespace dmpc::tests::scale_table_test {
 
-using apps::ScaleFigure;
 using apps::ScaleFigures;
 using apps::ScaleMethod;
 using apps::ScalePart;
@@ -26,15 +25,15 @@ namespace {
 ScaleResult of_size(int size, double exponent, ScaleMethod method = ScaleMethod::cache) {
   ScaleFigures figures;
   figures.primitives = std::uint64_t{1} << (2U * static_cast<unsigned>(size));
-  figures[ScaleFigure::build] = std::pow(static_cast<double>(figures.primitives), exponent);
-  figures[ScaleFigure::faults] = size < 7 ? 0 : 1;
+  figures.by_name["build"] = std::pow(static_cast<double>(figures.primitives), exponent);
+  figures.by_name["faults a ray"] = size < 7 ? 0 : 1;
   return {.run = {ScalePart::sizes, {.family = "tetra", .size = size}, method, 8}, .figures = figures, .misfit = {}};
 }
 
 ScaleResult of_nodes(std::uint32_t count, double render_seconds) {
   ScaleFigures figures;
   figures.primitives = 64;
-  figures[ScaleFigure::render] = render_seconds;
+  figures.by_name["render"] = render_seconds;
   return {.run = {ScalePart::nodes, {.family = "tetra", .size = 3}, ScaleMethod::cache, count}, .figures = figures, .misfit = {}};
 }
 
