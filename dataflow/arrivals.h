@@ -9,9 +9,9 @@
 
 #include "core/base/expect.h"
 #include "dataflow/packets.h"
-#include "dataflow/places.h"
 #include "dataflow/plan.h"
 #include "dataflow/rays/ray_queue.h"
+#include "dataflow/slots.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
 
@@ -29,10 +29,10 @@ class Arrivals {
         units_(&units),
         tested_objects_(plan.tested_objects()),
         backlog_(node.memory(), backlog_capacity(plan)),
-        places_(node.memory(), places_of(plan)) {}
+        slots_(node.memory(), slots_of(plan)) {}
   /// What the constructor takes.
   static nodes::MemoryPlan layout(const Plan& plan) {
-    return nodes::MemoryPlan(RayQueue::layout(backlog_capacity(plan))) + Places::layout(places_of(plan));
+    return nodes::MemoryPlan(RayQueue::layout(backlog_capacity(plan))) + Slots::layout(slots_of(plan));
   }
 
   /// A packet of rays, from a node or the host: calls came(message) for each.
@@ -42,7 +42,7 @@ class Arrivals {
     core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
                  "a packet of rays is as long as it says");
     core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
-    const std::uint32_t account = places_.account_of(packet.source);
+    const std::uint32_t account = slots_.account_of(packet.source);
     const bool is_from_node = packet.source != host_;
     if (is_from_node) {
       units_->packet_came(packet.source, header);
@@ -76,13 +76,13 @@ class Arrivals {
 
   /// A node waits for a shared place.
   void take_ask(nodes::NodeId sender) {
-    places_.ask(sender);
-    grant_places();
+    slots_.ask(sender);
+    grant_slots();
   }
   /// One that was granted comes back unused.
   void take_unused() {
-    places_.give_back(1);
-    grant_places();
+    slots_.give_back(1);
+    grant_slots();
   }
   /// A node that rests keeps nobody's place.
   void give_all_back() {
@@ -92,20 +92,20 @@ class Arrivals {
   }
 
   const RayQueue& backlog() const { return backlog_; }
-  const Places& places() const { return places_; }
+  const Slots& slots() const { return slots_; }
 
  private:
-  static Places::Capacity places_of(const Plan& plan) {
+  static Slots::Capacity slots_of(const Plan& plan) {
     return {.node_count = plan.node_count(),
-            .shared = plan.ray_places,
+            .shared = plan.ray_slots,
             .ray_credits = plan.ray_credits,
             .host_credits = plan.host_credits};
   }
   static RayQueue::Capacity backlog_capacity(const Plan& plan) {
-    const std::uint32_t packets_each = std::max({plan.ray_credits, plan.ray_places, plan.host_credits});
-    return {.sender_count = places_of(plan).account_count(),
+    const std::uint32_t packets_each = std::max({plan.ray_credits, plan.ray_slots, plan.host_credits});
+    return {.sender_count = slots_of(plan).account_count(),
             .packets_each = packets_each,
-            .packets = plan.shares_places() ? plan.ray_places + plan.host_credits : plan.node_count() * packets_each,
+            .packets = plan.shares_slots() ? plan.ray_slots + plan.host_credits : plan.node_count() * packets_each,
             .ray_batch = plan.ray_batch,
             .depth_max = plan.request.depth_max,
             .are_kinds_apart = plan.rays_a_task > 1,
@@ -114,27 +114,27 @@ class Arrivals {
 
   void give_back(std::uint32_t account, bool rests) {
     const std::uint32_t owed = backlog_.owed(account);
-    if (!places_.gives_back(account, owed, rests)) {
+    if (!slots_.gives_back(account, owed, rests)) {
       return;
     }
     backlog_.gave_back(account, owed);
-    if (places_.is_shared(account)) {
-      places_.give_back(owed);
-      grant_places();
+    if (slots_.is_shared(account)) {
+      slots_.give_back(owed);
+      grant_slots();
     } else {
-      send_credits(places_.sender_of(account), owed);
+      send_credits(slots_.sender_of(account), owed);
     }
   }
 
-  void grant_places() {
-    while (const std::optional<nodes::NodeId> sender = places_.grant()) {
+  void grant_slots() {
+    while (const std::optional<nodes::NodeId> sender = slots_.grant()) {
       send_credits(*sender, 1);
     }
   }
 
   void send_credits(nodes::NodeId sender, std::uint32_t count) {
     if (sender != host_) {
-      units_->tell_news(sender);
+      units_->report_news(sender);
     }
     send_control(*node_, sender, Kind::credits, Credits{count});
   }
@@ -144,7 +144,7 @@ class Arrivals {
   Units* units_;
   std::uint32_t tested_objects_;
   RayQueue backlog_;
-  Places places_;
+  Slots slots_;
 };
 
 }  // namespace dmpc::dataflow

@@ -32,8 +32,8 @@ class Backpressure {
  public:
   /// `told`: to how many it announces. With `is_wanted` false the node announces nothing and starts primary rays whatever waits,
   /// as the article's did.
-  Backpressure(std::uint32_t told, std::uint32_t queue_capacity_packets, bool is_wanted = true)
-      : told_(told), capacity_(queue_capacity_packets), is_wanted_(is_wanted) {}
+  Backpressure(std::uint32_t reported, std::uint32_t queue_capacity_packets, bool is_wanted = true)
+      : reported_(reported), capacity_(queue_capacity_packets), is_wanted_(is_wanted) {}
   /// The host's capacity, where nodes tell it alone: in place of packets it has holders() in its queue, of whom one is many.
   static constexpr std::uint32_t relay_capacity = 1;
 
@@ -43,7 +43,7 @@ class Backpressure {
   bool announce(std::uint32_t queued) {
     core::expect(is_due(queued), "a node announces what is new, when the last announcement is acknowledged");
     is_announced_ = !is_announced_;
-    missing_ = told_;
+    missing_ = reported_;
     count_ += is_announced_ ? 1 : 0;
     return is_announced_;
   }
@@ -63,11 +63,11 @@ class Backpressure {
 
   /// Nothing is announced that has not been taken back, and every announcement is acknowledged.
   bool is_settled() const { return !is_announced_ && missing_ == 0; }
-  /// How often this node asked the others to hold back.
+  /// How often this node asked the others to throttle.
   std::uint64_t count() const { return count_; }
   /// For the key of a model's state.
   std::uint32_t missing() const { return missing_; }
-  /// Who asks this one to hold back; at the host, how many nodes do.
+  /// Who asks this one to throttle; at the host, how many nodes do.
   std::uint32_t holders() const { return holders_; }
   bool is_announced() const { return is_announced_; }
 
@@ -76,11 +76,11 @@ class Backpressure {
     return is_wanted_ && (queued >= long_queue(capacity_) || (is_announced_ && queued > short_queue(capacity_)));
   }
 
-  std::uint32_t told_;
+  std::uint32_t reported_;
   std::uint32_t capacity_;
   bool is_wanted_;
   std::uint32_t missing_ = 0;  ///< acknowledgements
-  std::uint32_t holders_ = 0;  ///< others that ask this one to hold back
+  std::uint32_t holders_ = 0;  ///< others that ask this one to throttle
   std::uint64_t count_ = 0;
   bool is_announced_ = false;
 };

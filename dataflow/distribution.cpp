@@ -48,7 +48,7 @@ core::DatabasePart part_in_pages(const core::Database& database, const std::vect
 }
 
 /// Gives each node the runs of its units, `runs`, one unit after the other.
-void deal_by_unit(Distribution& distribution, const std::vector<std::vector<PrimaryRun>>& runs) {
+void assign_by_unit(Distribution& distribution, const std::vector<std::vector<PrimaryRun>>& runs) {
   const std::uint32_t node_count = distribution.regions.node_count();
   distribution.primaries.resize(node_count);
   distribution.runs_of_unit.resize(node_count, std::vector<std::uint32_t>(runs.size()));
@@ -69,8 +69,8 @@ std::vector<std::size_t> by_owner(const Regions& regions, const std::vector<std:
   return of_node;
 }
 
-core::DatabasePart outline_for(const core::Database& database, const core::RenderSettings& settings) {
-  return core::outline_of(database, settings.skips.empty_regions ? core::outline_bytes_max(database) : 0);
+core::DatabasePart proxy_for(const core::Database& database, const core::RenderSettings& settings) {
+  return core::proxy_of(database, settings.skips.empty_regions ? core::proxy_bytes_max(database) : 0);
 }
 
 double duplication_of(std::uint64_t copies, const core::Database& database) {
@@ -82,7 +82,7 @@ double duplication_of(std::uint64_t copies, const core::Database& database) {
 std::vector<Share> Distribution::shares() const {
   std::vector<Share> shares;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    shares.push_back({parts[i].record_bytes, primaries[i].size(), outline.bytes.size(), page_bytes});
+    shares.push_back({parts[i].record_bytes, primaries[i].size(), proxy.bytes.size(), page_bytes});
   }
   return shares;
 }
@@ -96,13 +96,9 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
-                        const std::stop_token& stop, bool deals_primaries, const PixelOrder& order) {
-  Distribution distribution{.regions = regions,
-                            .parts = {},
-                            .primaries = {},
-                            .pages = {},
-                            .runs_of_unit = {},
-                            .outline = outline_for(database, settings)};
+                        const std::stop_token& stop, bool assigns_primaries, const PixelOrder& order) {
+  Distribution distribution{
+      .regions = regions, .parts = {}, .primaries = {}, .pages = {}, .runs_of_unit = {}, .proxy = proxy_for(database, settings)};
   distribution.page_bytes = regions.are_moving() ? database.page_size() : 0;
   for (const std::vector<std::uint32_t>& indices : regions.by_node()) {
     const std::vector<core::Region> boxes = boxes_of(regions, indices);
@@ -111,12 +107,12 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
                                                       : core::extract(database, boxes));
     mark_empty(distribution.regions, indices, distribution.parts.back(), settings);
   }
-  const core::PixelMask done(settings.camera.pixel_count(), !deals_primaries);
+  const core::PixelMask done(settings.camera.pixel_count(), !assigns_primaries);
   if (regions.are_moving()) {
-    deal_by_unit(distribution,
-                 deal_primaries(settings, distribution.regions.by_unit(), settings.first_pass(), done, stop, order));
+    assign_by_unit(distribution,
+                   assign_primaries(settings, distribution.regions.by_unit(), settings.first_pass(), done, stop, order));
   } else {
-    distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(), done, stop, order);
+    distribution.primaries = assign_primaries(settings, distribution.regions, settings.first_pass(), done, stop, order);
     distribution.runs_of_unit.resize(regions.node_count());
   }
   return distribution;
@@ -135,24 +131,24 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
   }
   parts.page_bytes = regions.are_moving() ? database.page_size() : 0;
   parts.duplication = duplication_of(copies, database);
-  parts.outline_bytes = outline_for(database, settings).bytes.size();
+  parts.proxy_bytes = proxy_for(database, settings).bytes.size();
   return parts;
 }
 
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop,
-                                               bool deals_primaries, const PixelOrder& order) {
-  std::vector<Regions> dealt;
+                                               bool assigns_primaries, const PixelOrder& order) {
+  std::vector<Regions> assigned;
   for (const Regions& partition : partitions) {
-    dealt.push_back(partition.are_moving() ? partition.by_unit() : partition);
+    assigned.push_back(partition.are_moving() ? partition.by_unit() : partition);
   }
-  auto runs = count_primary_runs(settings, dealt, settings.first_pass(),
-                                 core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop, order);
+  auto runs = count_primary_runs(settings, assigned, settings.first_pass(),
+                                 core::PixelMask(settings.camera.pixel_count(), !assigns_primaries), stop, order);
   std::vector<std::vector<Share>> shares(partitions.size());
   for (std::size_t i = 0; i < partitions.size(); ++i) {
     runs[i] = partitions[i].are_moving() ? by_owner(partitions[i], runs[i]) : std::move(runs[i]);
     for (std::uint32_t node = 0; node < partitions[i].node_count(); ++node) {
-      shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].outline_bytes, parts[i].page_bytes});
+      shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].proxy_bytes, parts[i].page_bytes});
     }
   }
   return shares;

@@ -1,4 +1,4 @@
-// What the host deals to the nodes before the start: regions, the parts of the database that they touch, and primary rays.
+// What the host assigns to the nodes before the start: regions, the parts of the database that they touch, and primary rays.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "core/base/forget.h"
 #include "core/database/database.h"
 #include "core/database/extract.h"
-#include "core/database/outline.h"
+#include "core/database/proxy.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
 #include "dataflow/plan.h"
@@ -23,7 +23,7 @@ namespace dmpc::dataflow {
 
 /// Regions for a number of nodes, whichever way they are balanced.
 using MakeRegions = std::function<Regions(std::uint32_t node_count)>;
-/// What so many nodes would be dealt; nothing if space cannot be shared out to them.
+/// What so many nodes would be assigned; nothing if space cannot be shared out to them.
 using MakeShares = std::function<std::vector<Share>(std::uint32_t node_count)>;
 
 /// By node.
@@ -35,7 +35,7 @@ struct Distribution {
   /// By node and unit, where regions move: how many of the node's runs are a unit's, for they follow each other unit by unit.
   std::vector<std::vector<std::uint32_t>> runs_of_unit;
   std::size_t page_bytes = 0;  ///< theirs
-  core::DatabasePart outline;  ///< for every node; none (core/database/outline.h) if rays are to ask every region
+  core::DatabasePart proxy;    ///< for every node; none (core/database/proxy.h) if rays are to ask every region
 
   std::vector<Share> shares() const;
   /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through blocks.
@@ -50,25 +50,25 @@ struct Distribution {
 };
 
 /// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
-/// requested some primary rays are dealt to nobody; without primary rays all of them wait. They start in `order`.
+/// requested some primary rays are assigned to nobody; without primary rays all of them wait. They start in `order`.
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
-                        const std::stop_token& stop = {}, bool deals_primaries = true, const PixelOrder& order = {});
+                        const std::stop_token& stop = {}, bool assigns_primaries = true, const PixelOrder& order = {});
 
-/// What distribute() would deal as parts, by node.
+/// What distribute() would assign as parts, by node.
 struct MeasuredParts {
   std::vector<std::size_t> record_bytes;
   std::size_t page_bytes = 0;  ///< as that of Distribution
-  std::size_t outline_bytes = 0;
+  std::size_t proxy_bytes = 0;
   double duplication = 1;  ///< as that of Distribution
 };
 
 /// Measures the parts and keeps none. Marks regions in `regions` as distribute() does.
 MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Regions& regions);
 
-/// What distribute() would deal to computers whose regions are `partitions`, of which `parts` have been measured.
+/// What distribute() would assign to computers whose regions are `partitions`, of which `parts` have been measured.
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop = {},
-                                               bool deals_primaries = true, const PixelOrder& order = {});
+                                               bool assigns_primaries = true, const PixelOrder& order = {});
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "core/picture/memory_use.h"
 #include "dataflow/packets.h"
 #include "nodes/layout.h"

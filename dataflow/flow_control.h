@@ -44,7 +44,7 @@ struct NodeState {
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
   bool is_unanswered = false;      ///< some owner has been asked for a place and has not granted it yet
-  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/hand_over.h)
+  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/migration.h)
 };
 
 /// In the order of precedence.
@@ -127,10 +127,10 @@ constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return ask
 constexpr bool declines(bool has_rays, bool has_credit) { return has_credit && !has_rays; }
 
 /// Whether an owner grants one of its shared places to the node that has waited longest.
-constexpr bool grants(std::uint32_t free_places, bool is_asked) { return free_places > 0 && is_asked; }
+constexpr bool grants(std::uint32_t free_slots, bool is_asked) { return free_slots > 0 && is_asked; }
 
 /// How many of the places in which `packets` packets came are free again, with `rays` of their rays still here.
-constexpr std::uint32_t places_freed(std::uint32_t packets, std::uint32_t rays, std::uint32_t ray_batch) {
+constexpr std::uint32_t slots_freed(std::uint32_t packets, std::uint32_t rays, std::uint32_t ray_batch) {
   return packets - core::ceil_divide(rays, ray_batch);
 }
 

@@ -51,7 +51,7 @@ bool has_its_credits(const nodes::Node& node, const Plan& plan) {
   return true;
 }
 
-/// Adds what the node was dealt.
+/// Adds what the node was assigned.
 void report_share(NodeReport& report, const Distribution& distribution, std::uint32_t index, const Share& share) {
   report.part_bytes = share.part_bytes;
   report.primitive_copies = distribution.parts[index].primitive_copies;
@@ -73,11 +73,11 @@ void check_rays(const Report& report) {
       "every primary ray was shot");
 }
 
-/// Every unit that was handed over was taken, and each is one node's.
+/// Every unit that was migrated was taken, and each is one node's.
 void check_units(const Report& report) {
   const MovementCounters sum = report.movement();
-  core::expect(sum.units_given == sum.units_taken, "every unit that was handed over was taken");
-  core::expect(sum.primaries_given == sum.primaries_taken, "every primary ray that was handed over was taken");
+  core::expect(sum.units_given == sum.units_taken, "every unit that was migrated was taken");
+  core::expect(sum.primaries_given == sum.primaries_taken, "every primary ray that was migrated was taken");
   core::expect(sum.asks == sum.refusals + sum.units_taken, "every question was answered, by a unit or a refusal");
   core::expect(sum.units == report.plan.unit_count(), "every unit is one node's");
 }
@@ -122,8 +122,8 @@ ProgramReport since(const ProgramReport& now, const ProgramReport& before) {
 
 HostCounters since(const HostCounters& now, const HostCounters& before) {
   HostCounters counters = core::counts_since(now, before);
-  counters.rays_kept_max = now.rays_kept_max;
-  counters.kept_bytes_max = now.kept_bytes_max;
+  counters.rays_buffered_max = now.rays_buffered_max;
+  counters.buffered_bytes_max = now.buffered_bytes_max;
   counters.deposits_saturated = now.deposits_saturated;
   return counters;
 }
@@ -182,7 +182,7 @@ Report Frames::render(std::stop_token stop) {
   return report;
 }
 
-/// Of each node, what it did for this frame and what it was dealt.
+/// Of each node, what it did for this frame and what it was assigned.
 void Frames::add_shares(Report& report) {
   const Distribution& distribution = prepared_.distribution;
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
@@ -199,19 +199,19 @@ GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan) {
   GatheredReports gathered{.are_credits_back = !runner.is_here(host) || has_its_credits(runner.node(host), plan)};
   nodes::gather_nodes(
       runner, host,
-      [&](std::size_t index, nodes::FlatWriter& told) {
+      [&](std::size_t index, nodes::FlatWriter& reported) {
         const ProgramReport program = dynamic_cast<const NodeProgram&>(runner.program(index)).report();
-        told.put(static_cast<const ProgramCounts&>(program));
-        told.put_all(program.pairs);
-        told.put(nodes::figures_of(runner.node(index)));
-        told.put(has_its_credits(runner.node(index), plan));
+        reported.put(static_cast<const ProgramCounts&>(program));
+        reported.put_all(program.pairs);
+        reported.put(nodes::figures_of(runner.node(index)));
+        reported.put(has_its_credits(runner.node(index), plan));
       },
-      [&](std::size_t, nodes::FlatReader& told) {
+      [&](std::size_t, nodes::FlatReader& reported) {
         NodeReport& report = gathered.nodes.emplace_back();
-        static_cast<ProgramCounts&>(report.program) = told.take<ProgramCounts>();
-        report.program.pairs = told.take_all<SentToOwner>();
-        static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
-        gathered.are_credits_back = told.take<bool>() && gathered.are_credits_back;
+        static_cast<ProgramCounts&>(report.program) = reported.take<ProgramCounts>();
+        report.program.pairs = reported.take_all<SentToOwner>();
+        static_cast<nodes::NodeFigures&>(report) = reported.take<nodes::NodeFigures>();
+        gathered.are_credits_back = reported.take<bool>() && gathered.are_credits_back;
       });
   return gathered;
 }

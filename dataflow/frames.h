@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/picture/fine_detail.h"
 #include "core/picture/pixel_task.h"
+#include "core/picture/sampling/fine_detail.h"
 #include "dataflow/host.h"
 #include "dataflow/program.h"
 #include "dataflow/run.h"

@@ -14,12 +14,12 @@ constexpr std::uint64_t run_rays_max = 16;
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, AssignPrimaries assign,
                          const core::Continuation& continuation, const core::FineDetail* detail)
     : Host(node, film, plan.request.refinement, plan.request.first_samples, std::move(progress), continuation, detail),
-      deal_(std::move(deal)),
-      undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0},
-               plan.request.pixel_order()),
+      assign_(std::move(assign)),
+      pending_primaries_(plan.node_count(), plan.request.is_assigned_on_the_way ? run_rays_max : ~std::uint64_t{0},
+                         plan.request.pixel_order()),
       kept_(plan.node_count(), plan.tested_objects()),
       termination_(Termination::initiator({plan.node_count()})),
       relay_(termination_.place().child_count, Backpressure::relay_capacity),
@@ -31,10 +31,10 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
     node.grant(nodes::NodeId{i}, film_channel, plan.dealing_credits());
   }
-  core::expect(plan.request.is_dealt_on_the_way || (continuation.start == nullptr && !continuation.keep),
-               "where a picture is gone on with, or kept, the host deals all of it");
-  if (plan.request.is_dealt_on_the_way) {
-    deal_pass();
+  core::expect(plan.request.is_assigned_on_the_way || (continuation.start == nullptr && !continuation.keep),
+               "where a picture is gone on with, or kept, the host assigns all of it");
+  if (plan.request.is_assigned_on_the_way) {
+    assign_pass();
   }
 }
 
@@ -47,15 +47,15 @@ void HostProgram::begin_frame(const core::FineDetail* detail) {
   finishing_ = stopped_ = false;
   termination_.begin_again();
   below_ = {};
-  deal_pass();
+  assign_pass();
 }
 
-/// Finds whose the rays are of the pass's pixels that have no light yet, which from now on wait for deal_all().
-void HostProgram::deal_pass() {
+/// Finds whose the rays are of the pass's pixels that have no light yet, which from now on wait for assign_all().
+void HostProgram::assign_pass() {
   const core::PixelMask done = with_light();
-  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement().pass(), done);
+  std::optional<std::vector<std::vector<PrimaryRun>>> runs = assign_(refinement().pass(), done);
   if (runs) {
-    undealt_.begin_pass(std::move(*runs), numbered_samples(refinement().pass()), done);
+    pending_primaries_.begin_pass(std::move(*runs), numbered_samples(refinement().pass()), done);
   }
   is_cut_short_ = !runs;
 }
@@ -70,16 +70,16 @@ void HostProgram::receive(const nodes::Packet& packet) {
       return take_film(packet);
     case Kind::token:
       return termination_.take(packet.as<Token>());
-    case Kind::hold:
-      relay_.take(packet.as<Hold>().holds != 0);
-      return send_control(*node_, packet.source, Kind::hold_acknowledgement, HoldAcknowledgement{});
-    case Kind::hold_acknowledgement:
+    case Kind::throttle:
+      relay_.take(packet.as<Throttle>().holds != 0);
+      return send_control(*node_, packet.source, Kind::throttle_acknowledgement, ThrottleAcknowledgement{});
+    case Kind::throttle_acknowledgement:
       return relay_.acknowledged();
     case Kind::done:
       return take_done(packet.as<Done>());
     case Kind::primaries_taken:
       node_->grant(packet.source, film_channel, packet.as<PrimariesTaken>().count);
-      return deal(nodes::index_of(packet.source));
+      return assign(nodes::index_of(packet.source));
     default:
       core::expect(false, "the host receives only what is sent to the host");
   }
@@ -90,8 +90,8 @@ bool HostProgram::work() {
   if (is_cut_short_) {
     return true;  // so that nobody takes the stillness for the end before the runner has seen the stop
   }
-  deal_all();
-  relay_hold();
+  assign_all();
+  relay_throttle();
   for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
     while (can_forward(owner)) {
       forward(owner);
@@ -105,7 +105,7 @@ bool HostProgram::work() {
     send_tokens(*node_, *handover);
   } else if (termination_.is_terminated()) {
     finishing_ = true;
-    tell_children(*node_, termination_.place(), Kind::finish, Finish{});
+    notify_children(*node_, termination_.place(), Kind::finish, Finish{});
   }
   return false;
 }
@@ -124,9 +124,9 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
 }
 
 /// Tells all nodes when the first of them asks the others to hold primary rays back, and when none does any more.
-void HostProgram::relay_hold() {
+void HostProgram::relay_throttle() {
   if (relay_.is_due(relay_.holders())) {
-    tell_children(*node_, termination_.place(), Kind::hold, Hold{relay_.announce(relay_.holders()) ? 1U : 0U});
+    notify_children(*node_, termination_.place(), Kind::throttle, Throttle{relay_.announce(relay_.holders()) ? 1U : 0U});
   }
 }
 
@@ -160,86 +160,88 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   }
   counters_.film_entries += header.count;
   send_control(*node_, packet.source, Kind::film_acknowledgement, FilmAcknowledgement{header.count});
-  tell_progress(pixels_with_light());
-  if (!undealt_.is_empty() && !undealt_.holds_back() && is_due()) {
-    undealt_.hold_back();
+  report_progress(pixels_with_light());
+  if (!pending_primaries_.is_empty() && !pending_primaries_.holds_back() && is_due()) {
+    pending_primaries_.throttle();
   }
 }
 
 void HostProgram::take_done(const Done& done) {
   core::expect(finishing_, "a node is done after the end is proved");
   below_.add(done);
-  if (below_.told < termination_.place().child_count) {
+  if (below_.reported < termination_.place().child_count) {
     return;
   }
   core::expect(below_.entries == counters_.film_entries, "all light that was sent has arrived");
-  if (undealt_.holds_back()) {
+  if (pending_primaries_.holds_back()) {
     return go_on_dealing();
   }
-  tell_progress(refinement().pixel_count());
+  report_progress(refinement().pixel_count());
   end_pass();
 }
 
-/// All light of the pass is on the film: deals the next, or stops all.
+/// All light of the pass is on the film: assigns the next, or stops all.
 void HostProgram::end_pass() {
   if (!next_pass()) {
-    tell_children(*node_, termination_.place(), Kind::stop, Stop{});
+    notify_children(*node_, termination_.place(), Kind::stop, Stop{});
     stopped_ = true;
     return;
   }
   if (is_due()) {
     keep(with_light());
   }
-  deal_pass();
+  assign_pass();
   begin_again();
 }
 
-/// No ray is left but those held back: the pixels that have begun are done.
+/// No ray is left but those throttled: the pixels that have begun are done.
 void HostProgram::go_on_dealing() {
-  keep(undealt_.begun());
-  undealt_.release();
+  keep(pending_primaries_.begun());
+  pending_primaries_.release();
   begin_again();
 }
 
-/// After the end of what was dealt.
+/// After the end of what was assigned.
 void HostProgram::begin_again() {
   finishing_ = false;
   termination_.begin_again();
   below_ = {};
-  deal_all();
+  assign_all();
 }
 
-void HostProgram::deal_all() {
+void HostProgram::assign_all() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
-    deal(i);
+    assign(i);
   }
 }
 
 /// Sends a node as many of its primary rays as it has room for.
-void HostProgram::deal(std::uint32_t index) {
-  while (undealt_.has(index) && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
-    node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), undealt_.take(index));
+void HostProgram::assign(std::uint32_t index) {
+  while (pending_primaries_.has(index) && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
+    node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), pending_primaries_.take(index));
     termination_.ray_packet_sent();
   }
 }
 
 /// In the sense of termination: has no ray to send, nor an announcement to take back.
-bool HostProgram::is_passive() const { return host_is_passive(kept_.size(), relay_.is_settled()) && undealt_.is_empty(); }
+bool HostProgram::is_passive() const {
+  return host_is_passive(kept_.size(), relay_.is_settled()) && pending_primaries_.is_empty();
+}
 
 std::string HostProgram::describe() const {
   return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light()) + " of " +
          std::to_string(refinement().pixel_count()) + " pixels of pass " + std::to_string(refinement().result().passes) +
          ", ray packets sent - received " + std::to_string(termination_.balance()) +
          (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black, " : ", white, ") +
-         std::to_string(below_.told) + " of " + std::to_string(termination_.place().child_count) + " branches of nodes done" +
+         std::to_string(below_.reported) + " of " + std::to_string(termination_.place().child_count) + " branches of nodes done" +
          (finishing_ ? ", finishing" : "");
 }
 
 HostCounters HostProgram::report() const {
   HostCounters counters = counters_;
   counters.deposits_saturated = deposits_saturated();
-  counters.rays_kept_max = kept_.high_water();
-  counters.kept_bytes_max = kept_.store_bytes();
+  counters.rays_buffered_max = kept_.high_water();
+  counters.buffered_bytes_max = kept_.store_bytes();
   return counters;
 }
 

@@ -8,54 +8,54 @@
 #include <string>
 #include <vector>
 
-#include "core/picture/film.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/film.h"
+#include "core/picture/film/partial_picture.h"
 #include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
-#include "dataflow/rays/kept_rays.h"
-#include "dataflow/rays/undealt.h"
+#include "dataflow/rays/buffered_rays.h"
+#include "dataflow/rays/pending_primaries.h"
 #include "dataflow/termination.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
+#include "nodes/observers/watching.h"
 #include "nodes/pictures/host.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::dataflow {
 
 /// The primary rays of a pass, but for those of pixels that are done, by node: all of them, or nothing if a stop of the run was
 /// requested meanwhile.
-using DealPrimaries =
+using AssignPrimaries =
     std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::Pass& pass, const core::PixelMask& done)>;
 
 /// What the host counts beside the packets.
 struct HostCounters {
   std::uint64_t rays_in = 0;             ///< overflowed
   std::uint64_t rays_out = 0;            ///< forwarded: at the end the same
-  std::uint64_t rays_kept_max = 0;       ///< at once
-  std::size_t kept_bytes_max = 0;        ///< of the host's heap, beyond its plan: the places of kept rays
+  std::uint64_t rays_buffered_max = 0;   ///< at once
+  std::size_t buffered_bytes_max = 0;    ///< of the host's heap, beyond its plan: the places of buffered rays
   std::uint64_t token_rounds = 0;        ///< of the proof of the end (termination.h)
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
 
-/// Depends on nobody: film, overflow and what is to be held back are taken and acknowledged at once. When the end of a pass is
-/// proved and its film complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room.
-/// Where the plan says so it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no
-/// other is left anywhere, which the same proof tells: then the pixels that have begun are done. A pass that could not be dealt
-/// whole never ends: the host then waits for the runner to end the run.
+/// Depends on nobody: film, overflow and what is to be throttled are taken and acknowledged at once. When the end of a pass is
+/// proved and its film complete, it assigns the primary rays of the next, if there is one, packet by packet as nodes have room.
+/// Where the plan says so it assigns those of the first pass, too. If then the picture is to be kept, it holds rays back until no
+/// other is left anywhere, which the same proof tells: then the pixels that have begun are done. A pass that could not be
+/// assigned whole never ends: the host then waits for the runner to end the run.
 class HostProgram final : public pictures::Host {
  public:
-  /// As pictures::Host. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the plan
-  /// says that all are.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
+  /// As pictures::Host. `deal` finds whose the primary rays are that are assigned after the start; nothing is kept unless the
+  /// plan says that all are.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, AssignPrimaries assign,
               const core::Continuation& continuation = {}, const core::FineDetail* detail = nullptr);
   /// What the constructor takes of the local memory.
   static nodes::MemoryPlan layout(const Plan& plan);
 
   /// Whose the picture's primary rays are `deal` tells. What is counted goes on, but for what saturates. Where the plan says that
-  /// the host deals all primary rays.
+  /// the host assigns all primary rays.
   void begin_frame(const core::FineDetail* detail) override;
 
   void receive(const nodes::Packet& packet) override;
@@ -71,21 +71,21 @@ class HostProgram final : public pictures::Host {
   void take_film(const nodes::Packet& packet);
   void take_overflow(const nodes::Packet& packet);
   void take_done(const Done& done);
-  void relay_hold();
+  void relay_throttle();
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
   static nodes::Room<std::byte> packet_layout(const Plan& plan) { return {nodes::Category::queues, plan.packet_bytes()}; }
-  void deal_pass();
+  void assign_pass();
   void end_pass();
   void go_on_dealing();
   void begin_again();
-  void deal_all();
-  void deal(std::uint32_t index);
+  void assign_all();
+  void assign(std::uint32_t index);
   bool is_passive() const;
 
-  DealPrimaries deal_;
-  Undealt undealt_;
-  KeptRays kept_;
+  AssignPrimaries assign_;
+  PendingPrimaries pending_primaries_;
+  BufferedRays kept_;
   Termination termination_;
   Backpressure relay_;           ///< of what nodes tell the host alone
   std::span<std::byte> packet_;  ///< where a packet is put together

@@ -10,7 +10,7 @@
 //   hold                   node -> each node     control   small  itself: the next waits for the answers
 //                          node -> host, and     control   small  itself, likewise, where places are shared
 //                          parent -> child
-//   hold_acknowledgement   who is told -> teller control   small  the announcement that it answers
+//   throttle_acknowledgement   who is told -> teller control   small  the announcement that it answers
 //   film                   node -> host          film      bulk   the sender's film credits
 //   film_acknowledgement   host -> node          control   small  the film packet
 //   token                  parent <-> child      control   small  the token before: calls and what is told take turns
@@ -20,18 +20,18 @@
 //   primaries              host -> node          film      bulk   the host's credits for dealing to that node
 //   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
 //   unit_ask               node -> node          control   small  itself: a node asks one at a time
-//   unit_refusal           node -> asker         control   small  the question
-//   unit_page              giver -> asker        units     bulk   the question, then the acknowledgement of the page before
-//   unit_primaries         giver -> asker        units     bulk   the acknowledgement of the last page, or of the one before
-//   unit_acknowledgement   taker -> giver        control   small  the page, or the primary rays
+//   unit_refusal           node -> requester         control   small  the question
+//   unit_page              donor -> requester        units     bulk   the question, then the acknowledgement of the page before
+//   unit_primaries         donor -> requester        units     bulk   the acknowledgement of the last page, or of the one before
+//   unit_acknowledgement   recipient -> donor        control   small  the page, or the primary rays
 //   unit_moved             receiver -> sender    control   small  the ray packets whose credits are given back with it
 //
 // Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
 // rays for the proof of the end, so none is under way then. Packets of units exist only where regions move.
 //
-// Primaries exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
-// those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish
-// and done then come once a pass.
+// Primaries exist only where the host assigns primary rays after the start (PlanRequest::is_assigned()): those of later passes,
+// and those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end.
+// Finish and done then come once a pass.
 #pragma once
 
 #include <array>
@@ -42,8 +42,8 @@
 #include <type_traits>
 
 #include "core/base/units.h"
-#include "core/picture/film.h"
-#include "core/picture/refinement.h"
+#include "core/picture/film/film.h"
+#include "core/picture/sampling/refinement.h"
 #include "core/record/ray.h"
 #include "core/trace/cursor.h"
 #include "dataflow/rays/tested_objects.h"
@@ -62,8 +62,8 @@ enum class Kind : nodes::PacketKind {
   overflow,
   forwarded,
   credits,
-  hold,
-  hold_acknowledgement,
+  throttle,
+  throttle_acknowledgement,
   film,
   film_acknowledgement,
   token,
@@ -87,8 +87,8 @@ inline constexpr std::array<const char*, 22> kind_names = {"rays",
                                                            "overflow",
                                                            "forwarded",
                                                            "credits",
-                                                           "hold",
-                                                           "hold_acknowledgement",
+                                                           "throttle",
+                                                           "throttle_acknowledgement",
                                                            "film",
                                                            "film_acknowledgement",
                                                            "token",
@@ -247,11 +247,11 @@ struct Unused {
 static_assert(sizeof(Unused) > nodes::small_payload_bytes && sizeof(Unused) <= ray_packet_bytes(1));
 
 /// What a node asks of all others (backpressure.h).
-struct Hold {
+struct Throttle {
   std::uint32_t holds = 0;  ///< 1: start no primary rays for the time being; 0: this node no longer asks for it
 };
 
-using HoldAcknowledgement = Word;
+using ThrottleAcknowledgement = Word;
 
 /// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes. Or for each of several
 /// pixels of the background.
@@ -294,25 +294,25 @@ struct Done {
 
 /// What a member's children in the tree have said since the end was proved.
 struct DoneBelow {
-  std::uint32_t told = 0;
+  std::uint32_t reported = 0;
   std::uint64_t entries = 0;
 
   void add(const Done& done) {
-    ++told;
+    ++reported;
     entries += done.entries;
   }
 };
 
 /// Primary rays of a pass that enter the grid in the target's region.
-struct DealtPrimaries {
+struct AssignedPrimaries {
   core::SampleRange samples;
   std::uint32_t count = 0;  ///< of runs
   std::uint32_t padding = 0;
   std::array<PrimaryRun, 60> runs{};  ///< numbered by `samples`
 };
-static_assert(std::is_trivially_copyable_v<DealtPrimaries> && sizeof(DealtPrimaries) > nodes::small_payload_bytes);
+static_assert(std::is_trivially_copyable_v<AssignedPrimaries> && sizeof(AssignedPrimaries) > nodes::small_payload_bytes);
 /// So many of them a node can keep: one is worked off while the next is under way.
-inline constexpr std::uint32_t dealt_packets = 2;
+inline constexpr std::uint32_t assigned_packets = 2;
 
 /// The sender has room for so many more packets of primaries.
 struct PrimariesTaken {
@@ -338,7 +338,7 @@ static_assert(std::is_trivially_copyable_v<UnitPageHeader>);
 struct UnitPrimaryRays {
   std::uint32_t unit = 0;
   std::uint32_t is_last = 0;  ///< 1: nothing more comes of the unit
-  DealtPrimaries dealt;
+  AssignedPrimaries assigned;
 };
 static_assert(std::is_trivially_copyable_v<UnitPrimaryRays> && sizeof(UnitPrimaryRays) > nodes::small_payload_bytes);
 
@@ -355,7 +355,7 @@ using Stop = Word;
 
 using nodes::is_small_packet;
 static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
-static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
+static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Throttle> && is_small_packet<ThrottleAcknowledgement>);
 static_assert(is_small_packet<UnitAsk> && is_small_packet<UnitRefusal> && is_small_packet<UnitAcknowledgement>);
 static_assert(is_small_packet<UnitMoved>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
@@ -383,7 +383,7 @@ inline void send_tokens(nodes::Node& node, const TokenHandover& handover) {
 
 /// Tells the children in the tree.
 template <class T>
-void tell_children(nodes::Node& node, const TreePlace& place, Kind kind, const T& value) {
+void notify_children(nodes::Node& node, const TreePlace& place, Kind kind, const T& value) {
   send_control_to(node, nodes::NodeId{place.first_child}, place.child_count, kind, value);
 }
 

@@ -27,13 +27,14 @@ namespace dmpc::dataflow {
 class MovingUnits {
  public:
   /// `header`, the whole database's, and `regions` outlive this.
-  MovingUnits(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const core::DatabaseHeader& header, Regions& regions)
+  MovingUnits(nodes::Node& node, const Plan& plan, const NodeAssignment& assign, const core::DatabaseHeader& header,
+              Regions& regions)
       : regions_(&regions),
         pages_(node.memory(), plan.pages_of_node(nodes::index_of(node.id()))),
-        primaries_(node.memory(), plan.primaries_of_node(nodes::index_of(node.id())), deal.primaries, deal.runs_of_unit,
-                   deal.settings.first_samples()),
+        primaries_(node.memory(), plan.primaries_of_node(nodes::index_of(node.id())), assign.primaries, assign.runs_of_unit,
+                   assign.settings.first_samples()),
         movement_(node, plan, {&header, &regions, &pages_, &primaries_}) {
-    pages_.begin_with(deal.pages, deal.records);
+    pages_.begin_with(assign.pages, assign.records);
   }
   MovingUnits(const MovingUnits&) = delete;
   MovingUnits& operator=(const MovingUnits&) = delete;
@@ -44,7 +45,7 @@ class MovingUnits {
   }
 
   PartRecords records() const { return {{}, &pages_}; }
-  /// Those of the primary rays dealt before the start that are of no unit.
+  /// Those of the primary rays assigned before the start that are of no unit.
   static std::span<const PrimaryRun> others_of(std::span<const PrimaryRun> /*primaries*/) { return {}; }
 
   /// How many primary rays of units are left.
@@ -70,9 +71,9 @@ class MovingUnits {
   /// Such a ray goes to another node.
   void sent_on() { movement_.sent_on(); }
   /// Ahead of credits for a node, so that there is room for it: it has been taken before the credits let more of it arise.
-  void tell_news(nodes::NodeId sender) { movement_.tell_news(sender); }
-  /// Packets of rays say how many primary rays could be handed over.
-  void tell_left(Gather& gather) const { gather.tell(movement_.rays_left()); }
+  void report_news(nodes::NodeId sender) { movement_.report_news(sender); }
+  /// Packets of rays say how many primary rays could be migrated.
+  void report_left(Gather& gather) const { gather.report(movement_.rays_left()); }
 
   bool is_settled() const { return movement_.is_settled(); }
   bool wants_to_ask() const { return movement_.wants_to_ask(); }
@@ -100,17 +101,17 @@ class MovingUnits {
 
   Regions* regions_;
   UnitPages pages_;
-  UnitPrimaries primaries_;  ///< those dealt before the start
+  UnitPrimaries primaries_;  ///< those assigned before the start
   Movement movement_;
 };
 
 /// Where regions stay whose they are: its part in one piece. Has the functions of MovingUnits, which do nothing here.
 class NoUnits {
  public:
-  NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeDeal& deal, const core::DatabaseHeader& /*header*/,
+  NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeAssignment& assign, const core::DatabaseHeader& /*header*/,
           Regions& /*regions*/)
-      : part_(room(deal.records.size_bytes()).in(node.memory())) {
-    deal.records.copy(0, part_);
+      : part_(room(assign.records.size_bytes()).in(node.memory())) {
+    assign.records.copy(0, part_);
   }
   static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) {
     return room(plan.request.shares[index].part_bytes + core::overread_bytes);
@@ -127,8 +128,8 @@ class NoUnits {
   void ray_came(nodes::NodeId /*sender*/, std::span<const std::byte> /*message*/) {}
   bool is_others(std::span<const std::byte> /*message*/) const { return false; }
   void sent_on() {}
-  void tell_news(nodes::NodeId /*sender*/) {}
-  void tell_left(Gather& /*gather*/) const {}
+  void report_news(nodes::NodeId /*sender*/) {}
+  void report_left(Gather& /*gather*/) const {}
 
   bool is_settled() const { return true; }
   bool wants_to_ask() const { return false; }

@@ -13,10 +13,10 @@
 #include "dataflow/rays/primaries.h"
 #include "dataflow/rays/ray_queue.h"
 #include "dataflow/rays/ray_task.h"
-#include "nodes/patience.h"
+#include "nodes/batching.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -37,7 +37,7 @@ constexpr std::uint32_t few_nodes_ray_credits = 64;
 /// Among many nodes a node hears of few (5.7 of 1,024 on rings-4-t1), so room for all is a waste: places are shared. Among fewer
 /// it is affordable, and nobody has to ask.
 constexpr std::uint32_t own_credits_nodes_max = 128;
-constexpr std::uint32_t default_ray_places = 64;
+constexpr std::uint32_t default_ray_slots = 64;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
 /// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
@@ -52,24 +52,24 @@ constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 /// Small packets of units that may be in a node's mailbox.
 std::uint32_t unit_slots_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
-  return others                                                     // UnitAsk: one from each other node
-         + 1                                                        // UnitRefusal of this node's question
-         + 1                                                        // UnitAcknowledgement of this node's page
-         + others * (plan.shares_places() ? 1 : plan.ray_credits);  // UnitMoved, beside each packet of credits
+  return others                                                    // UnitAsk: one from each other node
+         + 1                                                       // UnitRefusal of this node's question
+         + 1                                                       // UnitAcknowledgement of this node's page
+         + others * (plan.shares_slots() ? 1 : plan.ray_credits);  // UnitMoved, beside each packet of credits
 }
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
-  const std::uint32_t dealt = plan.dealing_credits();
+  const std::uint32_t assigned = plan.dealing_credits();
   const std::uint32_t moving = plan.is_moving() ? 1 : 0;
   const TerminationTree tree{plan.node_count()};
-  return {.small_slots = others * plan.ray_credits              // credits back from each other node, at least one a packet
-                         + (plan.shares_places() ? others : 0)  // requests for places: one from each other node
-                         + (plan.shares_places() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
-                         + plan.host_credits                                      // the same from the host
-                         + (plan.shares_places() ? 1 : others)  // Hold: one from each other node, or from the parent alone
-                         + (plan.shares_places() ? 1 + tree.place_of(nodes::NodeId{0}).child_count : others)
+  return {.small_slots = others * plan.ray_credits             // credits back from each other node, at least one a packet
+                         + (plan.shares_slots() ? others : 0)  // requests for places: one from each other node
+                         + (plan.shares_slots() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
+                         + plan.host_credits                                     // the same from the host
+                         + (plan.shares_slots() ? 1 : others)  // Hold: one from each other node, or from the parent alone
+                         + (plan.shares_slots() ? 1 + tree.place_of(nodes::NodeId{0}).child_count : others)
                          // acknowledgements: of this node's, and of what it relays
                          + plan.film_credits                   // acknowledgements: one for each film packet of this node's
                          + tree.packets_max(nodes::NodeId{0})  // tokens or done: nobody has more children than the first
@@ -77,44 +77,44 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + 1                                   // Stop
                          + moving * unit_slots_of(plan),
           .bulk_slots = others * plan.ray_credits  // rays: each other node's credits for this one
-                        + plan.ray_places          // rays, or credits unused: the places that others share
+                        + plan.ray_slots           // rays, or credits unused: the places that others share
                         + plan.host_credits        // forwarded rays: the host's
-                        + dealt                    // primary rays dealt after the start
+                        + assigned                 // primary rays assigned after the start
                         + moving,                  // unit_page or unit_primaries: the answer to this node's question
-          .bulk_payload_bytes = std::max({plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0, plan.unit_packet_bytes(),
-                                          plan.is_moving() ? sizeof(UnitPrimaryRays) : 0})};
+          .bulk_payload_bytes = std::max({plan.packet_bytes(), assigned > 0 ? sizeof(AssignedPrimaries) : 0,
+                                          plan.unit_packet_bytes(), plan.is_moving() ? sizeof(UnitPrimaryRays) : 0})};
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   const TerminationTree tree{plan.node_count()};
-  return {.small_slots = plan.node_count() * plan.host_credits                 // credits back for forwarded rays
-                         + tree.packets_max(nodes::NodeId{plan.node_count()})  // tokens, or Done, of its children
-                         + plan.node_count() * plan.dealing_credits()          // credits back for primary rays
-                         + (plan.shares_places() ? plan.node_count() : 0)      // Hold: one from each node
-                         + (plan.shares_places() ? tree.place_of(plan.host()).child_count : 0)  // acknowledgements of the host's
+  return {.small_slots = plan.node_count() * plan.host_credits                                 // credits back for forwarded rays
+                         + tree.packets_max(nodes::NodeId{plan.node_count()})                  // tokens, or Done, of its children
+                         + plan.node_count() * plan.dealing_credits()                          // credits back for primary rays
+                         + (plan.shares_slots() ? plan.node_count() : 0)                       // Hold: one from each node
+                         + (plan.shares_slots() ? tree.place_of(plan.host()).child_count : 0)  // acknowledgements of the host's
                          + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
           .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
           .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(plan.film_entries()))};
 }
 
-/// Fewer credits than the mailboxes have room for, and a place for packets held back.
+/// Fewer credits than the mailboxes have room for, and a place for packets throttled.
 void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.ray_credits = nodes::shrunk_credits(chaos, plan.ray_credits, ray_channel);
-  plan.ray_places = nodes::shrunk_credits(chaos, plan.ray_places, ray_channel);
+  plan.ray_slots = nodes::shrunk_credits(chaos, plan.ray_slots, ray_channel);
   plan.host_credits = nodes::shrunk_credits(chaos, plan.host_credits, nodes::channel_count);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, film_channel);
   plan.queue_packets = nodes::shrunk_credits(chaos, plan.queue_packets, nodes::channel_count + 1);
   plan.held_bytes =
-      nodes::HeldPackets::room_bytes(std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));
+      nodes::DelayedPackets::room_bytes(std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));
 }
 
 /// What may be given up where memory is scarce.
 struct Bounds {
-  std::uint32_t ray_batch = 1, ray_credits = 1, ray_places = 0, queue_packets = 0;
+  std::uint32_t ray_batch = 1, ray_credits = 1, ray_slots = 0, queue_packets = 0;
   bool bundles = false;
   std::uint32_t spare_frames = 0;
-  bool joins_nodes() const { return ray_credits > 0 || ray_places > 0; }
+  bool joins_nodes() const { return ray_credits > 0 || ray_slots > 0; }
 };
 
 /// The plan with these bounds, whether or not it fits.
@@ -123,12 +123,12 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.request = request;
   plan.ray_batch = bounds.ray_batch;
   plan.ray_credits = bounds.ray_credits;
-  plan.ray_places = bounds.ray_places;
+  plan.ray_slots = bounds.ray_slots;
   plan.host_credits = std::max(1U, bounds.ray_credits);
   plan.queue_packets = !bounds.joins_nodes() || request.node_count() == 1 ? 0 : bounds.queue_packets;
   plan.rays_a_task = bounds.bundles ? BundleTask::rays_max : RayTask::rays_max;
   plan.spare_frames = bounds.spare_frames;
-  plan.film_credits = nodes::patient_credits(request.node_count(), request.computer.machine.has_value());
+  plan.film_credits = nodes::batching_credits(request.node_count(), request.computer.machine.has_value());
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
   if (request.computer.chaos) {
@@ -139,14 +139,14 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
 
 void check(const PlanRequest& request) {
   constexpr core::Field tested_field = field_of<&RayOptions::tested_objects>(), batch_field = field_of<&RayOptions::ray_batch>(),
-                        credits_field = field_of<&RayOptions::ray_credits>(), places_field = field_of<&RayOptions::ray_places>();
+                        credits_field = field_of<&RayOptions::ray_credits>(), places_field = field_of<&RayOptions::ray_slots>();
   check_use(request.node_count() >= 1 && request.node_count() <= nodes::node_count_max, nodes_field, "=", request.node_count(),
             ": from 1 to ", nodes::node_count_max, " nodes with strategy=dataflow");
   nodes::check_ranks(request.computer);
   const std::uint32_t tested = request.rays.tested_objects;
   check_use(tested <= tested_objects_max, tested_field, "=", tested, ": at most ", tested_objects_max, " names");
   check_use(tested == 0 || !request.has_instances, tested_field, "=", tested,
-            ": a block of a mesh that is kept once stands in many places, and a list would name it once for all of them");
+            ": a block of a base mesh stands in many places, and a list would name it once for all of them");
   const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
   core::Sentence batches(batch_field, "=", batch, ": from 1 to ", batch_max, " rays");
   if (tested > 0) {
@@ -155,10 +155,10 @@ void check(const PlanRequest& request) {
   check_use(batch >= 1 && batch <= batch_max, batches);
   const std::uint32_t credits = request.rays.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max, credits_field, "=", credits, ": at most ", ray_credits_max, " packets");
-  const std::uint32_t places = request.rays.ray_places.value_or(1);
-  check_use(places >= 1 && places <= ray_places_max, places_field, "=", places, ": from 1 to ", ray_places_max, " packets");
-  check_use(!request.rays.ray_places || !request.rays.ray_credits, places_field, "=", places, " and ", credits_field, "=",
-            credits, ": senders have credits of their own or share places, not both");
+  const std::uint32_t slots = request.rays.ray_slots.value_or(1);
+  check_use(slots >= 1 && slots <= ray_slots_max, places_field, "=", slots, ": from 1 to ", ray_slots_max, " packets");
+  check_use(!request.rays.ray_slots || !request.rays.ray_credits, places_field, "=", slots, " and ", credits_field, "=", credits,
+            ": senders have credits of their own or share places, not both");
   const std::uint32_t queue = request.rays.queue_packets.value_or(0);
   check_use(queue <= queue_packets_max, field_of<&RayOptions::queue_packets>(), "=", queue, ": at most ", queue_packets_max,
             " packets");
@@ -170,21 +170,21 @@ std::uint32_t default_credits(const PlanRequest& request) {
   return std::max(default_ray_credits, request.bundles ? few_nodes_ray_credits / request.node_count() : 0);
 }
 
-bool shares_places(const PlanRequest& request) {
-  return request.rays.ray_places || (!request.rays.ray_credits && request.node_count() > own_credits_nodes_max);
+bool shares_slots(const PlanRequest& request) {
+  return request.rays.ray_slots || (!request.rays.ray_credits && request.node_count() > own_credits_nodes_max);
 }
 
 std::uint32_t default_queue(const PlanRequest& request) {
-  return shares_places(request) ? default_shared_queue_packets
-         : request.bundles      ? default_bundle_queue_packets
-                                : default_queue_packets;
+  return shares_slots(request) ? default_shared_queue_packets
+         : request.bundles     ? default_bundle_queue_packets
+                               : default_queue_packets;
 }
 
 /// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
 /// three scenes. On a modelled machine nobody is woken. Bundles double that once more: 0.8 on two scenes; but not where places
 /// are shared: among 1,024 nodes packets of 4 KiB are a fifth full, and room for them is three quarters of a node's queues.
 std::uint32_t default_batch(const PlanRequest& request) {
-  const std::size_t times = request.computer.machine ? 1 : request.bundles && !shares_places(request) ? 4 : 2;
+  const std::size_t times = request.computer.machine ? 1 : request.bundles && !shares_slots(request) ? 4 : 2;
   return rays_in(times * packet_bytes, request.rays.tested_objects);
 }
 
@@ -198,10 +198,10 @@ std::uint32_t default_spare_frames(const PlanRequest& request) {
 }
 
 Bounds wanted(const PlanRequest& request) {
-  const bool shares = shares_places(request);
+  const bool shares = shares_slots(request);
   return {.ray_batch = request.rays.ray_batch.value_or(default_batch(request)),
           .ray_credits = shares ? 0 : request.rays.ray_credits.value_or(default_credits(request)),
-          .ray_places = shares ? request.rays.ray_places.value_or(default_ray_places) : 0,
+          .ray_slots = shares ? request.rays.ray_slots.value_or(default_ray_slots) : 0,
           .queue_packets = request.rays.queue_packets.value_or(default_queue(request)),
           .bundles = request.bundles,
           .spare_frames = default_spare_frames(request)};
@@ -209,10 +209,10 @@ Bounds wanted(const PlanRequest& request) {
 
 /// With the least of what the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
-  const bool shares = shares_places(request);
+  const bool shares = shares_slots(request);
   return plan_with(request, {.ray_batch = request.rays.ray_batch.value_or(1),
                              .ray_credits = shares ? 0 : request.rays.ray_credits.value_or(1),
-                             .ray_places = shares ? request.rays.ray_places.value_or(1) : 0,
+                             .ray_slots = shares ? request.rays.ray_slots.value_or(1) : 0,
                              .queue_packets = request.rays.queue_packets.value_or(0)});
 }
 
@@ -228,8 +228,8 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
       --bounds.spare_frames;
     } else if (!request.rays.ray_credits && bounds.ray_credits > 1) {
       --bounds.ray_credits;
-    } else if (!request.rays.ray_places && bounds.ray_places > 1) {
-      --bounds.ray_places;
+    } else if (!request.rays.ray_slots && bounds.ray_slots > 1) {
+      --bounds.ray_slots;
     } else if (bounds.bundles) {
       bounds.bundles = false;
     } else {
@@ -252,7 +252,7 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   if (const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt) {
     sentence.add(", or with this memory ", nodes_field, "=", *other);
   }
-  throw core::Refusal<core::RoomError>(sentence);
+  throw core::Refusal<core::CapacityError>(sentence);
 }
 
 void note_reductions(Plan& plan) {
@@ -267,7 +267,7 @@ void note_reductions(Plan& plan) {
   note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
   note("pages of units that a node may take", unbounded.spare_frames, plan.spare_frames);
   note("credits for rays", unbounded.ray_credits, plan.ray_credits);
-  note("places for packets of rays", unbounded.ray_places, plan.ray_places);
+  note("places for packets of rays", unbounded.ray_slots, plan.ray_slots);
   note("rays that walk together", unbounded.rays_a_task, plan.rays_a_task);
   note("rays in a packet", unbounded.ray_batch, plan.ray_batch);
 }
@@ -278,8 +278,8 @@ Gather::Capacity Plan::gather() const {
   return {.node_count = node_count(),
           .ray_batch = ray_batch,
           .ray_credits = ray_credits,
-          .shares_places = shares_places(),
-          .open_packets = shares_places() ? std::min(ray_places, node_count()) : 0,
+          .shares_slots = shares_slots(),
+          .open_packets = shares_slots() ? std::min(ray_slots, node_count()) : 0,
           .host_credits = host_credits,
           .queue_packets = queue_packets,
           .tested_objects = tested_objects()};
@@ -295,7 +295,7 @@ std::uint32_t Plan::film_entries() const {
   return share < most ? std::max(static_cast<std::uint32_t>(share), film_packet_entries) : most;
 }
 
-std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }
+std::uint32_t Plan::dealing_credits() const { return request.is_assigned() ? assigned_packets : 0; }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   return nodes::memory_beside_program(node_mailbox, node_count() + 1, held_bytes, request.computer.stack_reserve_bytes) +

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/picture/refinement.h"
+#include "core/picture/sampling/refinement.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
@@ -24,12 +24,12 @@
 
 namespace dmpc::dataflow {
 
-/// What one node is dealt, as far as the memory asks.
+/// What one node is assigned, as far as the memory asks.
 struct Share {
-  std::size_t part_bytes = 0;     ///< its part of the database, records alone
-  std::size_t primary_runs = 0;   ///< entries of its list of primary rays
-  std::size_t outline_bytes = 0;  ///< of the whole database's outline, with what may be read behind it
-  std::size_t page_bytes = 0;     ///< where regions move: the size of the pages that the part consists of
+  std::size_t part_bytes = 0;    ///< its part of the database, records alone
+  std::size_t primary_runs = 0;  ///< entries of its list of primary rays
+  std::size_t proxy_bytes = 0;   ///< of the whole database's proxy, with what may be read behind it
+  std::size_t page_bytes = 0;    ///< where regions move: the size of the pages that the part consists of
 };
 
 /// What a plan is made from. `optional` without a value means: choose.
@@ -42,20 +42,20 @@ struct PlanRequest {
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
-  bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
-  bool bundles = false;              ///< rays walk together, where the memory has room for that
-  bool has_instances = false;        ///< of the database: rays have longer cursors
+  bool is_assigned_on_the_way = false;  ///< the host assigns the primary rays of the first pass as nodes have room for them
+  bool bundles = false;                 ///< rays walk together, where the memory has room for that
+  bool has_instances = false;           ///< of the database: rays have longer cursors
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
-  /// Regions are units that nodes hand over.
+  /// Regions are units that nodes migrate.
   bool is_moving() const { return !shares.empty() && shares.front().page_bytes > 0; }
-  /// The host deals primary rays after the start, for which nodes have room.
-  bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }
+  /// The host assigns primary rays after the start, for which nodes have room.
+  bool is_assigned() const { return is_assigned_on_the_way || refinement.is_wanted(); }
   /// In which primary rays start: on modelled machines as on those of the article, row by row.
   PixelOrder pixel_order() const { return computer.machine ? PixelOrder() : PixelOrder::squares(width, height); }
 };
 
 inline constexpr std::uint32_t ray_credits_max = 64;
-inline constexpr std::uint32_t ray_places_max = 4096;
+inline constexpr std::uint32_t ray_slots_max = 4096;
 inline constexpr std::uint32_t queue_packets_max = 16384;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
@@ -63,7 +63,7 @@ struct Plan {
   PlanRequest request;
   std::uint32_t ray_batch = 1;      ///< rays in a full packet
   std::uint32_t ray_credits = 1;    ///< from each node for each other, without asking
-  std::uint32_t ray_places = 0;     ///< of each node, that the others share and ask for; 0: they have credits of their own
+  std::uint32_t ray_slots = 0;      ///< of each node, that the others share and ask for; 0: they have credits of their own
   std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
   std::uint32_t rays_a_task = 1;    ///< rays that a node traces at a time, at most: more than one where they walk in bundles
@@ -75,7 +75,7 @@ struct Plan {
 
   std::uint32_t node_count() const { return request.node_count(); }
   nodes::NodeId host() const { return nodes::NodeId{node_count()}; }
-  bool shares_places() const { return ray_places > 0; }
+  bool shares_slots() const { return ray_slots > 0; }
   /// What a node gathers rays in.
   Gather::Capacity gather() const;
   /// Names of tested blocks that a ray takes along.
@@ -109,14 +109,14 @@ struct Plan {
   std::uint32_t largest_node() const;
   /// The most that any node takes.
   std::size_t node_memory_max_bytes() const { return node_memory(largest_node()).total(); }
-  /// But for the rays that overflow, which grow as they come (Report says how far), and those of later passes not yet dealt.
+  /// But for the rays that overflow, which grow as they come (Report says how far), and those of later passes not yet assigned.
   nodes::MemoryPlan host_memory() const;
 };
 
 /// The smallest number of nodes above the request's that works with the request's memory, if there is one.
 using OtherNodeCount = std::function<std::optional<std::uint32_t>()>;
 
-/// Throws core::Refusal<core::UsageError> for a value out of range, of core::RoomError if the memory is too small: naming the
+/// Throws core::Refusal<core::UsageError> for a value out of range, of core::CapacityError if the memory is too small: naming the
 /// node that needs most, what it needs, the smallest node memory that works for this node count, and the node count that
 /// `other_node_count` finds (asked in this case only).
 Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count = {});

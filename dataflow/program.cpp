@@ -10,7 +10,6 @@
 #include "core/trace/traversal.h"
 #include "dataflow/arrivals.h"
 #include "dataflow/flow_control.h"
-#include "dataflow/holding.h"
 #include "dataflow/packets.h"
 #include "dataflow/part_units.h"
 #include "dataflow/rays/bundle_task.h"
@@ -19,6 +18,7 @@
 #include "dataflow/rays/primaries.h"
 #include "dataflow/rays/ray_task.h"
 #include "dataflow/termination.h"
+#include "dataflow/throttling.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -41,9 +41,9 @@ std::span<std::byte> keep_records(LocalMemory& memory, Category category, const 
   return bytes;
 }
 
-core::RenderSettings settings_for(const NodeDeal& deal) {
-  core::RenderSettings settings = deal.settings;
-  settings.header = deal.header;
+core::RenderSettings settings_for(const NodeAssignment& assign) {
+  core::RenderSettings settings = assign.settings;
+  settings.header = assign.header;
   return settings;
 }
 
@@ -51,7 +51,7 @@ core::RenderSettings settings_for(const NodeDeal& deal) {
 struct Constants {
   core::RenderSettings settings;  ///< header: the part's
   Regions regions;
-  core::DatabaseHeader outline;
+  core::DatabaseHeader proxy;
 };
 
 /// Only rays that walk alone have lists of what they have tested.
@@ -78,28 +78,30 @@ class RayProgram final : public NodeProgram {
  public:
   /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
   /// quantum that works on a ray is that ray's pixel's; what rays cost when they come in, and sending what waits, is nobody's.
-  RayProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter = std::nullopt)
+  RayProgram(nodes::Node& node, const Plan& plan, const NodeAssignment& assign,
+             const std::optional<nodes::Meter>& meter = std::nullopt)
       : meter_(meter),
         node_(&node),
         host_(plan.host()),
-        constants_(keep(node.memory(), Constants{settings_for(deal), deal.regions, deal.outline.header})),
-        units_(node, plan, deal, constants_->settings.header, constants_->regions),
+        constants_(keep(node.memory(), Constants{settings_for(assign), assign.regions, assign.proxy.header})),
+        units_(node, plan, assign, constants_->settings.header, constants_->regions),
         records_(units_.records()),
-        surroundings_{constants_->regions, constants_->outline,
-                      core::LocalRecords(keep_records(node.memory(), core::MemoryUse::constants, std::span(deal.outline.bytes))),
-                      deal.settings.skips},
-        tracer_(records_, deal.header, deal.settings.skips, constants_->regions, node.id()),
-        primaries_(node.memory(), Units::others_of(deal.primaries), deal.settings.first_samples(), plan.request.is_dealt()),
+        surroundings_{constants_->regions, constants_->proxy,
+                      core::LocalRecords(keep_records(node.memory(), core::MemoryUse::constants, std::span(assign.proxy.bytes))),
+                      assign.settings.skips},
+        tracer_(records_, assign.header, assign.settings.skips, constants_->regions, node.id()),
+        primaries_(node.memory(), Units::others_of(assign.primaries), assign.settings.first_samples(),
+                   plan.request.is_assigned()),
         arrivals_(node, plan, units_),
         pixel_order_(plan.request.pixel_order()),
         leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
         task_(make_task<RaysTask>(node, plan)),
         gather_(node, plan.gather()),
-        film_(node, plan.film(deposits_at_once<RaysTask>(deal.header))),
-        holding_(node, plan),
+        film_(node, plan.film(deposits_at_once<RaysTask>(assign.header))),
+        throttling_(node, plan),
         termination_(Termination::member(node.id(), {plan.node_count()})) {
     core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
-    core::expect(plan.request.has_instances == (deal.header.has_instances != 0),
+    core::expect(plan.request.has_instances == (assign.header.has_instances != 0),
                  "rays have the cursors that the database asks for");
   }
 
@@ -115,10 +117,10 @@ class RayProgram final : public NodeProgram {
       case Kind::unused:
         termination_.ray_packet_received();
         return arrivals_.take_unused();
-      case Kind::hold:
-        return holding_.take(packet.source, packet.as<Hold>());
-      case Kind::hold_acknowledgement:
-        return holding_.acknowledged(packet.source);
+      case Kind::throttle:
+        return throttling_.take(packet.source, packet.as<Throttle>());
+      case Kind::throttle_acknowledgement:
+        return throttling_.acknowledged(packet.source);
       case Kind::film_acknowledgement:
         return film_.acknowledged();
       case Kind::token:
@@ -130,12 +132,12 @@ class RayProgram final : public NodeProgram {
         below_.add(packet.as<Done>());
         return;
       case Kind::primaries:
-        return receive_primaries(packet.as<DealtPrimaries>());
+        return receive_primaries(packet.as<AssignedPrimaries>());
       case Kind::stop:
         core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
-        core::expect(arrivals_.places().are_all_free(), "every shared place has become free again");
+        core::expect(arrivals_.slots().are_all_free(), "every shared place has become free again");
         stopped_ = true;
-        return tell_children(*node_, termination_.place(), Kind::stop, Stop{});
+        return notify_children(*node_, termination_.place(), Kind::stop, Stop{});
       default:
         return units_.receive(packet, termination_);
     }
@@ -151,7 +153,7 @@ class RayProgram final : public NodeProgram {
     } else {
       perform(task);
     }
-    units_.tell_left(gather_);
+    units_.report_left(gather_);
     const Task next = next_task(state());
     if (next == Task::rest) {
       rest();
@@ -182,10 +184,9 @@ class RayProgram final : public NodeProgram {
                                                     : "hits") +
            " under way, " + std::to_string(gather_.size()) + " rays gathered" +
            (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
-           (arrivals_.places().asking() > 0 ? std::to_string(arrivals_.places().asking()) + " nodes wait for a place here, "
-                                            : "") +
+           (arrivals_.slots().asking() > 0 ? std::to_string(arrivals_.slots().asking()) + " nodes wait for a place here, " : "") +
            (gather_.is_unanswered() ? "waits for places, " : "") +
-           (holding_.admits_primaries(0) ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
+           (throttling_.admits_primaries(0) ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
            " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
            std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
            (termination_.is_black() ? ", black" : ", white") +
@@ -204,7 +205,7 @@ class RayProgram final : public NodeProgram {
                           .movement = units_.counters(),
                           .backlog_high_water = arrivals_.backlog().high_water()},
                          gather_.pairs()};
-    report.rays.holds = holding_.count();
+    report.rays.holds = throttling_.count();
     if constexpr (RaysTask::rays_max == 1) {
       report.rays.tests_avoided = task_.tests_avoided();
     }
@@ -236,9 +237,9 @@ class RayProgram final : public NodeProgram {
     units_.rays_came();
   }
 
-  void receive_primaries(const DealtPrimaries& dealt) {
+  void receive_primaries(const AssignedPrimaries& assigned) {
     wake();
-    primaries_.put(dealt);
+    primaries_.put(assigned);
   }
 
   void receive_rays(const nodes::Packet& packet) {
@@ -255,15 +256,15 @@ class RayProgram final : public NodeProgram {
 
   NodeState state() const {
     const bool has_work = !task_.is_idle() || !arrivals_.backlog().empty(), has_primaries = this->has_primaries();
-    return {.must_announce = holding_.is_due(gather_.queued()),
+    return {.must_announce = throttling_.is_due(gather_.queued()),
             .packet_waits = packet_waits(),
             .is_tracing = !task_.is_idle(),
             .has_backlog = !arrivals_.backlog().empty(),
             .has_primaries = has_primaries,
-            .admits_primaries = holding_.admits_primaries(gather_.queued()),
+            .admits_primaries = throttling_.admits_primaries(gather_.queued()),
             .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
             .has_gathered = !gather_.empty(),
-            .is_unacknowledged = !holding_.is_settled(),
+            .is_unacknowledged = !throttling_.is_settled(),
             .is_unanswered = gather_.is_unanswered(),
             .is_moving_units = !units_.is_settled() || (!has_work && !has_primaries && units_.wants_to_ask())};
   }
@@ -293,7 +294,7 @@ class RayProgram final : public NodeProgram {
   void perform(Task task) {
     switch (task) {
       case Task::announce:
-        return holding_.announce(gather_.queued());
+        return throttling_.announce(gather_.queued());
       case Task::send_waiting:
         return send_waiting();
       case Task::go_on:
@@ -538,13 +539,13 @@ class RayProgram final : public NodeProgram {
     finishing_ = true;
     done_ = false;
     below_ = {};
-    tell_children(*node_, termination_.place(), Kind::finish, Finish{});
+    notify_children(*node_, termination_.place(), Kind::finish, Finish{});
   }
 
   void settle() {
     film_.flush();
     const TreePlace& place = termination_.place();
-    if (film_.settled() && below_.told == place.child_count) {
+    if (film_.settled() && below_.reported == place.child_count) {
       send_control(*node_, place.parent, Kind::done, Done{film_.counters().entries + below_.entries});
       done_ = true;
     }
@@ -571,7 +572,7 @@ class RayProgram final : public NodeProgram {
   RaysTask task_;
   Gather gather_;
   FilmGather film_;
-  Holding holding_;
+  Throttling throttling_;
   Termination termination_;
   DoneBelow below_;
   core::Operations operations_;
@@ -589,9 +590,9 @@ class RayProgram final : public NodeProgram {
 nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
   nodes::MemoryPlan memory =
-      Bytes{core::MemoryUse::constants, sizeof(Constants)} + Bytes{core::MemoryUse::constants, share.outline_bytes} +
+      Bytes{core::MemoryUse::constants, sizeof(Constants)} + Bytes{core::MemoryUse::constants, share.proxy_bytes} +
       (plan.is_moving() ? MovingUnits::layout(plan, index) : NoUnits::layout(plan, index)) +
-      Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt()) + Arrivals<NoUnits>::layout(plan) +
+      Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_assigned()) + Arrivals<NoUnits>::layout(plan) +
       Gather::layout(plan.gather()) + FilmGather::layout(plan.film_entries());
   if (plan.rays_a_task > 1) {
     memory += BundleTask::layout(plan.request.waiting_hits_max, plan.request.has_instances);
@@ -601,13 +602,13 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
   return memory;
 }
 
-std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeAssignment& assign,
                                                const std::optional<nodes::Meter>& meter) {
   const auto make = [&]<class Units>() -> std::unique_ptr<NodeProgram> {
     if (plan.rays_a_task > 1) {
-      return std::make_unique<RayProgram<BundleTask, Units>>(node, plan, deal, meter);
+      return std::make_unique<RayProgram<BundleTask, Units>>(node, plan, assign, meter);
     }
-    return std::make_unique<RayProgram<RayTask, Units>>(node, plan, deal, meter);
+    return std::make_unique<RayProgram<RayTask, Units>>(node, plan, assign, meter);
   };
   return plan.is_moving() ? make.template operator()<MovingUnits>() : make.template operator()<NoUnits>();
 }

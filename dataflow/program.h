@@ -7,11 +7,11 @@
 //
 // Primary rays are started by credit: while a packet of this node's waits for one, or another node's queue is long, none is. A
 // node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it
-// keeps nobody's credit. So when all have come to rest or hold back, every credit comes home, and one of them goes on.
+// keeps nobody's credit. So when all have come to rest or throttle, every credit comes home, and one of them goes on.
 //
-// Who claims a hit: the owner of the cell in which the walk proves it the nearest. If that owner has met the same (t, primitive)
-// itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows where the
-// record is. Either way one node shades it.
+// Who claims a hit: the owner of the cell in which the traversal proves it the nearest. If that owner has met the same (t,
+// primitive) itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows
+// where the record is. Either way one node shades it.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@
 #include "dataflow/units/movement.h"
 #include "nodes/byte_source.h"
 #include "nodes/node.h"
+#include "nodes/observers/meter.h"
 #include "nodes/pictures/computer.h"
-#include "nodes/watch/meter.h"
 
 namespace dmpc::dataflow {
 
@@ -79,19 +79,19 @@ class NodeProgram : public nodes::Program, public pictures::PictureProgram {
 };
 
 /// What a node is given before the start, read in the constructor of its program and never again.
-struct NodeDeal {
+struct NodeAssignment {
   const core::DatabaseHeader& header;  ///< of its part of the database
   nodes::ByteSource records;           ///< which are these
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& outline;                 ///< of the whole database
+  const core::DatabasePart& proxy;                   ///< of the whole database
   std::span<const std::uint32_t> pages = {};         ///< where regions move: the numbers of those that the part consists of
   std::span<const std::uint32_t> runs_of_unit = {};  ///< where regions move: how many of the runs are each unit's, in turn
 };
 
 /// The program of the plan.
-std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeAssignment& assign,
                                                const std::optional<nodes::Meter>& meter = std::nullopt);
 
 }  // namespace dmpc::dataflow

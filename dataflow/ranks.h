@@ -13,14 +13,14 @@
 namespace dmpc::dataflow {
 
 /// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
-/// they are dealt. Returns when all have their nodes. `are_frames`: these are kept, for nodes::hand_out_again() of settings
+/// they are assigned. Returns when all have their nodes. `are_frames`: these are kept, for nodes::hand_out_again() of settings
 /// before another picture. Throws what fails on another rank.
 void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
-              const std::string& watch_order, bool are_frames, nodes::RankLinks& links);
+              const std::string& observer_order, bool are_frames, nodes::RankLinks& links);
 
 /// What another rank does while rank 0 renders by run_prepared(). No more of the scene is in its memory than its nodes' parts.
 /// Where there are several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then,
 /// and as run_prepared() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following = {});
+nodes::WorkerOutcome follow(nodes::RankLinks& links, std::stop_token stop, const nodes::WorkerCallbacks& callbacks = {});
 
 }  // namespace dmpc::dataflow

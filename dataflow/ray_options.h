@@ -24,7 +24,7 @@ struct RayOptions {
   std::optional<std::uint32_t> ray_credits = std::nullopt;
   /// Packets of rays that may be under way to a node or in its backlog from all others together, who ask for places, and that a
   /// node fills at a time. Not with ray_credits. Without either 64 among more than 128 nodes, or fewer if the memory is scarce.
-  std::optional<std::uint32_t> ray_places = std::nullopt;
+  std::optional<std::uint32_t> ray_slots = std::nullopt;
   /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, half as many of bundles, whose
   /// packets are twice as long, 128 where places are shared, or fewer if the memory is scarce. Of no use without credits.
   std::optional<std::uint32_t> queue_packets = std::nullopt;

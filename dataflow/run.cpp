@@ -17,8 +17,8 @@ namespace {
 /// did.
 bool walks_in_bundles(const RunOptions& options) { return !options.computer.machine && !options.watching.is_metered(); }
 
-/// What was dealt before the start would have to be done before anything can be kept.
-bool is_dealt_on_the_way(const RunOptions& options) {
+/// What was assigned before the start would have to be done before anything can be kept.
+bool is_assigned_on_the_way(const RunOptions& options) {
   return options.are_frames || options.continuation.start != nullptr || options.continuation.keep;
 }
 
@@ -56,7 +56,7 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
     }
     Regions regions = regions_for(node_count, loads, settings, options).regions;
     const MeasuredParts parts = measure_parts(database, settings, regions);
-    return measure_shares(settings, std::span(&regions, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options),
+    return measure_shares(settings, std::span(&regions, 1), std::span(&parts, 1), stop, !is_assigned_on_the_way(options),
                           request.pixel_order())
         .front();
   };
@@ -125,7 +125,7 @@ PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& 
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .is_dealt_on_the_way = is_dealt_on_the_way(options),
+          .is_assigned_on_the_way = is_assigned_on_the_way(options),
           .bundles = settings.skips.bundles && options.rays.tested_objects == 0 && walks_in_bundles(options),
           .has_instances = settings.header.has_instances != 0};
 }
@@ -134,7 +134,7 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
                  const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
   Balanced balanced = regions_for(options.computer.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, balanced.regions, stop, !is_dealt_on_the_way(options),
+  Prepared prepared{.distribution = distribute(database, settings, balanced.regions, stop, !is_assigned_on_the_way(options),
                                                plan_request({}, settings, options).pixel_order()),
                     .predicted = std::move(balanced.predicted),
                     .detail = settings.fine_detail(database)};
@@ -144,7 +144,7 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 }
 
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program) {
-  return pictures::specifications_without_host(plan, make_program, nodes::patience_of(number_of(Kind::film), plan.film_credits));
+  return pictures::specifications_without_host(plan, make_program, nodes::batching_of(number_of(Kind::film), plan.film_credits));
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
@@ -155,18 +155,18 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     const core::DatabasePart& part = distribution.parts[index];
     return make_node_program(
         node, plan,
-        NodeDeal{part.header, std::span(part.bytes), distribution.primaries[index], settings, distribution.regions,
-                 distribution.outline, distribution.pages[index], distribution.runs_of_unit[index]},
+        NodeAssignment{part.header, std::span(part.bytes), distribution.primaries[index], settings, distribution.regions,
+                       distribution.proxy, distribution.pages[index], distribution.runs_of_unit[index]},
         nodes::meter_for(options.watching, options.computer, node.id()));
   };
   std::vector<nodes::NodeSpecification> specifications = specifications_without_host(plan, make_program);
-  const auto deal = [&settings, &distribution, stop, order = plan.request.pixel_order()](const core::Pass& pass,
-                                                                                         const core::PixelMask& done) {
-    std::optional runs = deal_primaries(settings, distribution.regions, pass, done, stop, order);
+  const auto assign = [&settings, &distribution, stop, order = plan.request.pixel_order()](const core::Pass& pass,
+                                                                                           const core::PixelMask& done) {
+    std::optional runs = assign_primaries(settings, distribution.regions, pass, done, stop, order);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
-  const auto make_host = [&, deal, detail](nodes::Node& node) {
-    return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation, detail);
+  const auto make_host = [&, assign, detail](nodes::Node& node) {
+    return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, assign, options.continuation, detail);
   };
   specifications.back().make_program = make_host;
   return specifications;

@@ -1,4 +1,4 @@
-// Renders a picture on N nodes between which rays travel: deals the scene, plans the memory, runs, and reports.
+// Renders a picture on N nodes between which rays travel: assigns the scene, plans the memory, runs, and reports.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/database/database.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
 #include "dataflow/distribution.h"
@@ -22,9 +22,9 @@
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
 #include "nodes/gathering.h"
+#include "nodes/observers/watching.h"
 #include "nodes/pictures/computer.h"
 #include "nodes/runner.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::dataflow {
 
@@ -35,9 +35,9 @@ struct RunOptions {
   MakeRegions make_regions = {};  ///< regions of one's own, in place of those that `rays` asks for
   nodes::Watching watching = {};  ///< rays look up no pages: those kinds of a heat map stay zero
   /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
-  /// primary rays until none is left. So with any of it the host deals all of them after the start.
+  /// primary rays until none is left. So with any of it the host assigns all of them after the start.
   core::Continuation continuation = {};
-  /// Several pictures follow each other (dataflow/frames.h): then, too, the host deals all primary rays after the start.
+  /// Several pictures follow each other (dataflow/frames.h): then, too, the host assigns all primary rays after the start.
   bool are_frames = false;
 };
 
@@ -48,7 +48,7 @@ struct NodeReport : nodes::NodeFigures {
   double region_share = 0;             ///< of the grid's volume that is in them
   std::size_t part_bytes = 0;          ///< the records of its regions
   std::uint64_t primitive_copies = 0;  ///< in them
-  std::uint64_t primary_rays = 0;      ///< dealt before the start
+  std::uint64_t primary_rays = 0;      ///< assigned before the start
 };
 
 struct Report : pictures::Report<NodeReport> {
@@ -80,19 +80,19 @@ nodes::Traffic ray_traffic(const nodes::TrafficByKind& by_kind);
 
 /// All that is settled before a run.
 struct Prepared {
-  Distribution distribution;      ///< regions on their nodes, and what these are dealt
+  Distribution distribution;      ///< regions on their nodes, and what these are assigned
   std::vector<double> predicted;  ///< as in Report
   double duplication = 1;         ///< as in Report
   core::FineDetail detail;        ///< of the picture, if it is refined
   Plan plan;
 };
 
-/// Balances, deals and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After
+/// Balances, assigns and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After
 /// a stop is requested it makes haste, and what it returns is good for nothing but a run that the same stop ends at once.
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop = {});
 
-/// What prepare() asks make_plan() for, where the nodes are dealt these shares.
+/// What prepare() asks make_plan() for, where the nodes are assigned these shares.
 PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options);
 
 /// Renders what prepare() has prepared with the same settings and options. On ranks rank 0 calls it, and the others follow()

@@ -94,11 +94,11 @@ class Termination {
     }
     token_.balance += token.balance;
     token_.is_black |= token.is_black;
-    is_told_ = --awaited_ == 0;
+    is_reported_ = --awaited_ == 0;
   }
 
   /// Is called and has not called its children, or knows what they tell.
-  bool holds_token() const { return is_called_ || is_told_; }
+  bool holds_token() const { return is_called_ || is_reported_; }
 
   /// Asks a *passive* member: what is to be handed on, or nothing if it holds no token, or, on the host, if the end is proved
   /// (is_terminated()).
@@ -111,7 +111,7 @@ class Termination {
     }
     token_.balance += balance_;
     token_.is_black |= is_black_ ? 1U : 0U;
-    return is_initiator_ ? judge() : tell_parent();
+    return is_initiator_ ? judge() : notify_parent();
   }
 
   /// Only the host can know: no ray is left anywhere, and no ray packet is under way. For good.
@@ -142,7 +142,7 @@ class Termination {
     return {.token = {}, .first = nodes::NodeId{place_.first_child}, .count = place_.child_count};
   }
 
-  TokenHandover tell_parent() { return {.token = give_up_token(), .first = place_.parent}; }
+  TokenHandover notify_parent() { return {.token = give_up_token(), .first = place_.parent}; }
 
   /// The host's judgement on a round: the end, or another.
   std::optional<TokenHandover> judge() {
@@ -153,7 +153,7 @@ class Termination {
 
   /// The round is over for this member.
   Token give_up_token() {
-    is_called_ = is_told_ = false;
+    is_called_ = is_reported_ = false;
     is_black_ = false;
     return std::exchange(token_, {});
   }
@@ -165,7 +165,7 @@ class Termination {
   bool is_initiator_;
   bool is_black_ = false;
   bool is_called_;
-  bool is_told_ = false;
+  bool is_reported_ = false;
   bool is_terminated_ = false;
 };
 

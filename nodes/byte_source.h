@@ -58,7 +58,7 @@ class ByteSource {
     stream_->read(into);
   }
   /// Where a piece lies for good. Not of a stream.
-  std::span<const std::byte> lasting(std::size_t offset_bytes, std::size_t bytes) const {
+  std::span<const std::byte> immutable(std::size_t offset_bytes, std::size_t bytes) const {
     core::expect(stream_ == nullptr, "nothing lasts of a stream");
     return whole_.subspan(offset_bytes, bytes);
   }

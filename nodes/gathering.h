@@ -14,9 +14,9 @@
 #include "nodes/flat_bytes.h"
 #include "nodes/local_memory.h"
 #include "nodes/node.h"
+#include "nodes/observers/watching.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
 
@@ -32,18 +32,18 @@ inline NodeFigures figures_of(Node& node) { return {node.counters(), node.memory
 
 /// To be called on all ranks alike. tell(index, flat) writes what the program of a node that is here has to say; take(index,
 /// flat) reads it, in the same order: of all nodes, by number, where the host is; elsewhere of those that are there.
-template <class Tell, class Take>
-void gather_nodes(Runner& runner, std::uint32_t node_count, const Tell& tell, const Take& take) {
-  const std::vector<std::string> told = runner.gather([&](std::size_t index) {
+template <class Report, class Take>
+void gather_nodes(Runner& runner, std::uint32_t node_count, const Report& report, const Take& take) {
+  const std::vector<std::string> reported = runner.gather([&](std::size_t index) {
     FlatWriter flat;
     if (index < node_count) {
-      tell(index, flat);
+      report(index, flat);
     }
     return flat.take();
   });
   for (std::uint32_t index = 0; index < node_count; ++index) {
-    if (!told[index].empty()) {
-      FlatReader flat(told[index]);
+    if (!reported[index].empty()) {
+      FlatReader flat(reported[index]);
       take(index, flat);
     }
   }
@@ -57,11 +57,11 @@ std::vector<RankFigures> gather_rank_figures(Runner& runner, const Planned& plan
   if (links == nullptr) {
     return {};
   }
-  const std::vector<RankReport> told = runner.gather_ranks(seen ? seen() : std::string());
-  for (std::size_t rank = 1; add && rank < told.size(); ++rank) {
-    add(told[rank].told, told[rank].clock);
+  const std::vector<RankReport> reported = runner.gather_ranks(seen ? seen() : std::string());
+  for (std::size_t rank = 1; add && rank < reported.size(); ++rank) {
+    add(reported[rank].reported, reported[rank].clock);
   }
-  return rank_figures(peers_of(planned), *links, told);
+  return rank_figures(peers_of(planned), *links, reported);
 }
 
 }  // namespace dmpc::nodes

@@ -58,7 +58,7 @@ MemoryPlan& MemoryPlan::operator+=(const MemoryPlan& more) {
   for (std::size_t category = 0; category < bytes.size(); ++category) {
     bytes[category] += more.bytes[category];
   }
-  lasting_bytes += more.lasting_bytes;
+  immutable_bytes += more.immutable_bytes;
   return *this;
 }
 
@@ -68,18 +68,18 @@ LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
     ASAN_POISON_MEMORY_REGION(block.get(), bytes);
     return block;
   } catch (const std::bad_alloc&) {
-    throw core::RoomError("this computer has no " + std::to_string(bytes) +
-                          " bytes for a node's local memory: ask for fewer nodes or less memory a node");
+    throw core::CapacityError("this computer has no " + std::to_string(bytes) +
+                              " bytes for a node's local memory: ask for fewer nodes or less memory a node");
   }
 }
 
-LocalMemory::LocalMemory(const MemoryPlan& plan, Lasting lasting)
-    : plan_(plan), lasting_(lasting), block_(reserve(block_bytes())) {
+LocalMemory::LocalMemory(const MemoryPlan& plan, Immutable immutable)
+    : plan_(plan), immutable_(immutable), block_(reserve(block_bytes())) {
   used_[Category::reserve] = plan[Category::reserve];
 }
 
 std::size_t LocalMemory::block_bytes() const {
-  return plan_.total() - plan_[Category::reserve] - (lasting_ == Lasting::is_referred_to ? plan_.lasting_bytes : 0);
+  return plan_.total() - plan_[Category::reserve] - (immutable_ == Immutable::is_referred_to ? plan_.immutable_bytes : 0);
 }
 
 /// Returns the bytes of the cache lines that `bytes` take.
@@ -92,10 +92,10 @@ std::size_t LocalMemory::count(Category category, std::size_t bytes) {
   return lines_bytes;
 }
 
-void LocalMemory::count_lasting(Category category, std::size_t bytes) {
-  core::expect(lasting_ == Lasting::is_referred_to, "bytes that are copied are allocated");
-  used_.lasting_bytes += count(category, bytes);
-  core::expect(used_.lasting_bytes <= plan_.lasting_bytes, "lasting bytes stay within the plan of them");
+void LocalMemory::count_immutable(Category category, std::size_t bytes) {
+  core::expect(immutable_ == Immutable::is_referred_to, "bytes that are copied are allocated");
+  used_.immutable_bytes += count(category, bytes);
+  core::expect(used_.immutable_bytes <= plan_.immutable_bytes, "immutable bytes stay within the plan of them");
 }
 
 std::byte* LocalMemory::allocate_bytes(Category category, std::size_t bytes) {

@@ -47,7 +47,7 @@ class Category {
 /// Bytes by category: what a program will need, known before anything is allocated.
 struct MemoryPlan {
   std::array<std::size_t, category_count> bytes{};  ///< by Category::number()
-  std::size_t lasting_bytes = 0;  ///< of all of them, room for LastingPieces, which a modelled machine's nodes do not fill
+  std::size_t immutable_bytes = 0;  ///< of all of them, room for ImmutablePieces, which a modelled machine's nodes do not fill
 
   /// Bytes of one category.
   std::size_t& operator[](Category category) { return bytes[index_of(category)]; }
@@ -68,7 +68,7 @@ inline MemoryPlan operator+(MemoryPlan sum, const MemoryPlan& more) { return sum
 
 /// How a memory keeps bytes that never change and outlive the run: as copies, or, where the nodes are modelled, by their places.
 /// Either takes the same bytes of the plan, and no program can tell.
-enum class Lasting : std::uint8_t { is_copied, is_referred_to };
+enum class Immutable : std::uint8_t { is_copied, is_referred_to };
 
 /// Whether objects that are value-initialised are all zero bytes, as far as that can be seen when they are compiled.
 template <class T>
@@ -90,9 +90,10 @@ class LocalMemory {
   static constexpr std::size_t alignment = 64;
 
   /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
-  /// counts as used from the start. Where lasting bytes are referred to, it reserves no room for them, either. The real computer
-  /// sets bytes aside when they are first written. Throws core::RoomError if it has not so much, as far as it knows by then.
-  explicit LocalMemory(const MemoryPlan& plan, Lasting lasting = Lasting::is_copied);
+  /// counts as used from the start. Where immutable bytes are referred to, it reserves no room for them, either. The real
+  /// computer sets bytes aside when they are first written. Throws core::CapacityError if it has not so much, as far as it knows
+  /// by then.
+  explicit LocalMemory(const MemoryPlan& plan, Immutable immutable = Immutable::is_copied);
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
   /// T needs no destructor. Objects that begin as zeros are not touched: the block is zero, and so are they. The real computer
@@ -115,10 +116,10 @@ class LocalMemory {
     return (count * sizeof(T) + alignment - 1) / alignment * alignment;
   }
 
-  /// For LastingPieces.
-  Lasting lasting() const { return lasting_; }
-  /// For LastingPieces: counts as allocate<std::byte>() does, where lasting bytes are referred to, and takes nothing.
-  void count_lasting(Category category, std::size_t bytes);
+  /// For ImmutablePieces.
+  Immutable immutable() const { return immutable_; }
+  /// For ImmutablePieces: counts as allocate<std::byte>() does, where immutable bytes are referred to, and takes nothing.
+  void count_immutable(Category category, std::size_t bytes);
 
   /// From now on allocate() is a broken invariant.
   void seal() { sealed_ = true; }
@@ -138,7 +139,7 @@ class LocalMemory {
 
   MemoryPlan plan_;
   MemoryPlan used_;
-  Lasting lasting_;
+  Immutable immutable_;
   Block block_;
   std::size_t offset_ = 0;
   bool sealed_ = false;

@@ -29,8 +29,8 @@
 //     publication of all, so whatever holds for one packet holds for a batch.
 // (4) What senders of small, senders of bulk and sleepers change lies on different cache lines: the inbox, the two heads,
 //     the links of the two classes, the slots. The links of 16 slots of one class share a line.
-// (5) A receiver with a bell is no thread: whoever replaces ASLEEP rings it, once, where else the system would wake and
-//     the count be raised. That is done by who hears the bell (threads/awake_nodes.h). wait() is not called.
+// (5) A receiver with a wake-up is no thread: whoever replaces ASLEEP rings it, once, where else the system would wake and
+//     the count be raised. That is done by who hears the wake-up (threads/awake_nodes.h). wait() is not called.
 #pragma once
 
 #include <algorithm>
@@ -51,13 +51,13 @@
 namespace dmpc::nodes {
 
 /// Of a receiver that shares its thread with others, which is to be told that this one is no longer asleep.
-class Bell {
+class WakeUp {
  public:
   /// Never blocks. Called by the thread that has replaced ASLEEP, which is counted itself.
   virtual void ring() = 0;
 
  protected:
-  ~Bell() = default;
+  ~WakeUp() = default;
 };
 
 /// Room in a node's mailbox, derived by the strategy from who can have how many packets under way.
@@ -84,8 +84,9 @@ class BasicMailbox {
         small_(make_pool(memory, 0, capacity.small_slots, small_stride_bytes(capacity))),
         bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
 
-  /// From now on `bell`, which outlives the mailbox's use, is rung in place of waking a thread. Before any other thread knows it.
-  void give_bell(Bell& bell) { bell_ = &bell; }
+  /// From now on `wake-up`, which outlives the mailbox's use, is rung in place of waking a thread. Before any other thread knows
+  /// it.
+  void set_wake_up(WakeUp& wake_up) { wake_up_ = &wake_up; }
 
   /// Packets of one sender that lie in slots, and that the receiver does not see yet. Belongs to its sender, who hands it over.
   class Batch {
@@ -106,7 +107,7 @@ class BasicMailbox {
     if (!add(batch, header, payload, front)) {
       return false;
     }
-    hand_over(batch, awake);
+    migration(batch, awake);
     return true;
   }
 
@@ -129,7 +130,7 @@ class BasicMailbox {
   }
 
   /// Gives all packets of the batch to the receiver, in their order, and wakes it if it sleeps. `awake` as push()'s.
-  void hand_over(Batch& batch, BasicAwakeCount<Atomics>& awake) {
+  void migration(Batch& batch, BasicAwakeCount<Atomics>& awake) {
     if (batch.is_empty()) {
       return;
     }
@@ -301,7 +302,7 @@ class BasicMailbox {
 
   /// One attempt to put `batch` on the inbox whose word was `head`; sets `head` anew if that failed.
   bool try_publish(const Batch& batch, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
-    const bool wakes = head == asleep, counts = wakes && bell_ == nullptr;
+    const bool wakes = head == asleep, counts = wakes && wake_up_ == nullptr;
     links_[batch.oldest_].store(wakes ? empty : head, std::memory_order_relaxed);
     if (counts) {
       awake.raise();
@@ -317,7 +318,7 @@ class BasicMailbox {
     return published;
   }
 
-  void wake_receiver() { bell_ == nullptr ? Atomics::wake(*inbox_) : bell_->ring(); }
+  void wake_receiver() { wake_up_ == nullptr ? Atomics::wake(*inbox_) : wake_up_->ring(); }
 
   /// Reverses a stack taken from the inbox; returns its oldest slot.
   SlotIndex turned_round(SlotIndex newest) {
@@ -340,7 +341,7 @@ class BasicMailbox {
   std::span<Atomic<SlotIndex>> links_;
   Pool small_;
   Pool bulk_;
-  Bell* bell_ = nullptr;
+  WakeUp* wake_up_ = nullptr;
 };
 
 using Mailbox = BasicMailbox<SystemAtomics>;

@@ -37,14 +37,14 @@ bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<c
 }
 
 bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
-                    std::span<const std::byte> lasting, std::span<std::byte> room) {
-  core::expect(room.size() == front.size() + lasting.size(), "a packet has room for its parts, and they fill it");
+                    std::span<const std::byte> immutable, std::span<std::byte> room) {
+  core::expect(room.size() == front.size() + immutable.size(), "a packet has room for its parts, and they fill it");
   if (!take_credit(target, channel, kind, room.size())) {
     return false;
   }
-  if (!network_->deliver_in_place(target, header_of(kind, room.size()), front, lasting)) {
+  if (!network_->deliver_in_place(target, header_of(kind, room.size()), front, immutable)) {
     const auto end = std::copy(front.begin(), front.end(), room.begin());
-    std::copy(lasting.begin(), lasting.end(), end);
+    std::copy(immutable.begin(), immutable.end(), end);
     network_->deliver(target, header_of(kind, room.size()), room);
   }
   return true;

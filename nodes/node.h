@@ -37,7 +37,7 @@ class Network {
   /// Delivers a payload with an end that lasts, of which the place will do. False, and nothing is delivered, if bytes are all
   /// that this network carries.
   virtual bool deliver_in_place(NodeId /*target*/, const PacketHeader& /*header*/, std::span<const std::byte> /*front*/,
-                                std::span<const std::byte> /*lasting*/) {
+                                std::span<const std::byte> /*immutable*/) {
     return false;
   }
 };
@@ -71,10 +71,10 @@ class Node {
   /// and go on receiving. A node may send to itself.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload);
 
-  /// Tries to send a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put
+  /// Tries to send a payload that is `front` and then `immutable`, bytes that never change and outlive the run. They are put
   /// together in `room`, which is as long, unless the runner hands over what lasts where it is; both count alike.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
-                              std::span<const std::byte> lasting, std::span<std::byte> room);
+                              std::span<const std::byte> immutable, std::span<std::byte> room);
 
   /// Tries to send a trivially copyable value.
   template <PacketValue T>

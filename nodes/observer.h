@@ -27,19 +27,19 @@ struct ProgramPoint {
 /// Nanoseconds along a chain in which each link begins when the one before ends, from the start of a run to some moment: the
 /// parts add up to that moment.
 struct PathTimes {
-  std::uint64_t computing_ns = 0;   ///< operations that programs charged
-  std::uint64_t stolen_ns = 0;      ///< others' requests served in the midst of that
-  std::uint64_t sending_ns = 0;     ///< of messages
-  std::uint64_t travelling_ns = 0;  ///< latency, hops and bytes, and behind messages to the same node
-  std::uint64_t links_ns = 0;       ///< waiting for links that other messages held
-  std::uint64_t receiving_ns = 0;   ///< of messages
-  std::uint64_t serving_ns = 0;     ///< requests that were waited for, by an interrupt
-  std::uint64_t messages = 0;       ///< that led from one node to another
+  std::uint64_t computing_ns = 0;     ///< operations that programs charged
+  std::uint64_t service_busy_ns = 0;  ///< others' requests served in the midst of that
+  std::uint64_t sending_ns = 0;       ///< of messages
+  std::uint64_t travelling_ns = 0;    ///< latency, hops and bytes, and behind messages to the same node
+  std::uint64_t links_ns = 0;         ///< waiting for links that other messages held
+  std::uint64_t receiving_ns = 0;     ///< of messages
+  std::uint64_t serving_ns = 0;       ///< requests that were waited for, by an interrupt
+  std::uint64_t messages = 0;         ///< that led from one node to another
   /// The same by the kinds of messages: all but computing and stolen.
   std::array<std::uint64_t, packet_kind_count> by_kind_ns{};
 
   std::uint64_t total_ns() const {
-    return computing_ns + stolen_ns + sending_ns + travelling_ns + links_ns + receiving_ns + serving_ns;
+    return computing_ns + service_busy_ns + sending_ns + travelling_ns + links_ns + receiving_ns + serving_ns;
   }
   bool operator==(const PathTimes&) const = default;
 };
@@ -100,9 +100,9 @@ struct Passing {
   std::span<const std::byte> payload;
   /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
   MessageTimes times;
-  std::size_t lasting_bytes = 0;  ///< that follow `payload` where they are (modelled machines, nodes/packet.h)
+  std::size_t immutable_bytes = 0;  ///< that follow `payload` where they are (modelled machines, nodes/packet.h)
 
-  std::size_t payload_bytes() const { return payload.size() + lasting_bytes; }
+  std::size_t payload_bytes() const { return payload.size() + immutable_bytes; }
   /// What many protocols say first, a number; 0 where there is none.
   std::uint32_t first_word() const {
     std::uint32_t word = 0;

@@ -39,12 +39,12 @@ struct Packet {
   std::span<const std::byte> payload;
   /// What follows it, if the sender has said that it lasts and the runner hands it over where it is. Else it is the payload's
   /// end.
-  std::span<const std::byte> lasting = {};
+  std::span<const std::byte> immutable = {};
 
-  std::size_t payload_bytes() const { return payload.size() + lasting.size(); }
+  std::size_t payload_bytes() const { return payload.size() + immutable.size(); }
   /// What follows the first `front_bytes`, wherever it is: all that lasts, if that is how the packet was sent.
   std::span<const std::byte> behind(std::size_t front_bytes) const {
-    return lasting.empty() ? payload.subspan(front_bytes) : lasting;
+    return immutable.empty() ? payload.subspan(front_bytes) : immutable;
   }
 
   /// The payload as one value of a trivially copyable type; expects that the size is right.

@@ -35,13 +35,13 @@ std::string describe(const Processors<Processor>& processors) {
 }
 
 /// What the processors say of themselves, by index.
-template <class Processor, class Tell>
-std::vector<std::string> told_by(const Processors<Processor>& processors, std::size_t peer_count, const Tell& tell) {
-  std::vector<std::string> told(peer_count);
+template <class Processor, class Report>
+std::vector<std::string> reported_by(const Processors<Processor>& processors, std::size_t peer_count, const Report& report) {
+  std::vector<std::string> reported(peer_count);
   for (const auto& processor : processors) {
-    told[index_of(processor->node.id())] = tell(index_of(processor->node.id()));
+    reported[index_of(processor->node.id())] = report(index_of(processor->node.id()));
   }
-  return told;
+  return reported;
 }
 
 /// Expects, at a regular end, that packets sent are packets received; of those of other ranks `came` here and `went` there.

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "nodes/batching.h"
 #include "nodes/computer_request.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
 #include "nodes/observer.h"
-#include "nodes/patience.h"
 #include "nodes/program.h"
 #include "nodes/ranks/rank_report.h"
 #include "nodes/virtual/virtual_times.h"
@@ -29,13 +29,14 @@ struct NodeSpecification {
   MemoryPlan plan;  ///< includes mailbox, credits table (Category::queues) and thread stack (Category::reserve)
   MailboxCapacity mailbox;
   std::function<std::unique_ptr<Program>(Node&)> make_program;
-  /// Under chaos: room for packets held back (HeldPackets::room_bytes(), in `plan` under Category::queues). 0: none is held back.
+  /// Under chaos: room for packets held back (DelayedPackets::room_bytes(), in `plan` under Category::queues). 0: none is held
+  /// back.
   std::size_t held_bytes = 0;
   /// A bit for each kind of packet that a runner with a clock delivers at once, by an interrupt, whatever the program is
   /// computing. Only for kinds whose receive() reads nothing but what never changes, and changes nothing but counters.
   std::uint32_t interrupt_kinds = 0;
   /// What may wait at a sender on threads, where waking one costs microseconds. A model knows no wake-ups.
-  Patience patience = {};
+  Batching batching = {};
 };
 static_assert(packet_kind_count <= 32);
 
@@ -55,7 +56,7 @@ enum class RunEnd : std::uint8_t { finished, interrupted };
 
 /// Has what each node says of itself; of several ranks all have it. After it a runner's programs can be looked at, and what they
 /// say be gathered.
-struct StandstillError : core::InternalError {
+struct DeadlockError : core::InternalError {
   using InternalError::InternalError;
 };
 
@@ -78,10 +79,10 @@ class Runner {
   virtual bool is_here(std::size_t /*index*/) const { return true; }
 
   /// What a node has to say when it is over, in bytes.
-  using Tell = std::function<std::string(std::size_t index)>;
+  using Report = std::function<std::string(std::size_t index)>;
   /// After run(): calls tell(index) for each node and the host where it is. What all have said, by index; on a rank that is not
   /// the host's, only what was said there.
-  virtual std::vector<std::string> gather(const Tell& tell) = 0;
+  virtual std::vector<std::string> gather(const Report& report) = 0;
   /// After gather(), where there are ranks, on all of them: what each has to say of itself, by number; on those without the host
   /// nothing.
   virtual std::vector<RankReport> gather_ranks(const std::string& /*told*/) { return {}; }

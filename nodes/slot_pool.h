@@ -76,7 +76,7 @@ class BasicSlotPool {
     std::uint64_t head = head_->word.load(std::memory_order_relaxed);
     do {
       links_[slot].store(index_of_head(head) + link_offset, std::memory_order_relaxed);
-      // Release: the taker's acquire sees the link, and writes only after our reads.
+      // Release: the recipient's acquire sees the link, and writes only after our reads.
     } while (
         !head_->word.compare_exchange_weak(head, with_index(head, slot), std::memory_order_release, std::memory_order_relaxed));
   }

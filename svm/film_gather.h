@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/packets.h"

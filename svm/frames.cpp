@@ -5,7 +5,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/gathering.h"
-#include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/heartbeats.h"
 #include "svm/host.h"
 #include "svm/packets.h"
 #include "svm/ranks.h"
@@ -44,7 +44,7 @@ void check_conservation(const Report& report) {
   core::expect(report.host_pages_served == requests_received(report.host), "every page request to the host was served");
   core::expect(pages.faults == pages.served + report.host_pages_served, "every fault was served, by a node or the host");
   const WorkCounters work = report.work();
-  core::expect(work.items_given + report.items_dealt == work.items_taken, "every work item given was taken");
+  core::expect(work.items_given + report.items_assigned == work.items_taken, "every work item given was taken");
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
@@ -60,14 +60,14 @@ constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 
 std::vector<PageId> resident_pages(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                                    nodes::RankLinks* ranks, const std::stop_token& stop) {
   const auto find = [&] { return most_used_pages(database, settings, plan.resident_count, stop); };
-  return ranks == nullptr || plan.resident_count == 0 ? find() : nodes::with_life_signs(*ranks, find);
+  return ranks == nullptr || plan.resident_count == 0 ? find() : nodes::with_heartbeats(*ranks, find);
 }
 
 }  // namespace
 
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program) {
   std::vector<nodes::NodeSpecification> all =
-      pictures::specifications_without_host(plan, make_program, plan.patience(), interrupt_kinds);
+      pictures::specifications_without_host(plan, make_program, plan.batching(), interrupt_kinds);
   all.back().interrupt_kinds =
       are_at_host(plan.request.pages.homes) ? interrupt_kinds : 0;  // its service costs what a node's does
   return all;
@@ -86,13 +86,13 @@ std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan) 
   std::vector<NodeReport> reports;
   nodes::gather_nodes(
       runner, plan.request.computer.node_count,
-      [&](std::size_t index, nodes::FlatWriter& told) {
-        told.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
-        told.put(nodes::figures_of(runner.node(index)));
+      [&](std::size_t index, nodes::FlatWriter& reported) {
+        reported.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
+        reported.put(nodes::figures_of(runner.node(index)));
       },
-      [&](std::size_t, nodes::FlatReader& told) {
-        const auto program = told.take<ProgramReport>();
-        reports.push_back({{told.take<nodes::NodeFigures>()}, program});
+      [&](std::size_t, nodes::FlatReader& reported) {
+        const auto program = reported.take<ProgramReport>();
+        reports.push_back({{reported.take<nodes::NodeFigures>()}, program});
       });
   return reports;
 }
@@ -130,7 +130,7 @@ Report PictureComputer::render(std::stop_token stop) {
   const auto& host = dynamic_cast<const HostProgram&>(computer_.host());
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
-  report.items_dealt = host.items_given();
+  report.items_assigned = host.items_given();
   report.host_pages_served = host.pages_served();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);

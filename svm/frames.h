@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/database/database.h"
-#include "core/picture/fine_detail.h"
 #include "core/picture/pixel_task.h"
+#include "core/picture/sampling/fine_detail.h"
 #include "nodes/byte_source.h"
 #include "nodes/pictures/computer.h"
 #include "svm/pages/node_program.h"
-#include "svm/pages/watch/reference_log.h"
+#include "svm/pages/observers/reference_log.h"
 #include "svm/plan.h"
 #include "svm/run.h"
 #include "svm/strategy.h"

@@ -14,7 +14,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       plan_(plan),
       pixels_sent_(plan.request.refinement.is_wanted() ? plan.node_count() : 0),
       node_count_(plan.node_count()),
-      dealt_side_(plan.request.is_dealt() ? plan.work_item_side : 0),
+      assigned_side_(plan.request.is_assigned() ? plan.work_item_side : 0),
       is_masked_(plan.request.is_masked()),
       items_({}, 0),
       pixels_found_done_(pixels_with_light()) {
@@ -59,7 +59,7 @@ void HostProgram::receive(const nodes::Packet& packet) {
     case Kind::passed_request:
       return serve(packet);
     case Kind::work_request:
-      return deal(packet.as<WorkRequest>());
+      return assign(packet.as<WorkRequest>());
     case Kind::done:
       return take_done(packet.as<Done>());
     case Kind::mask_acknowledgement:
@@ -87,7 +87,7 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   }
   node_->grant(packet.source, control_channel);
   node_->send_reserved(packet.source, control_channel, number_of(Kind::film_acknowledgement), FilmAcknowledgement{header.count});
-  tell_progress(pixels_with_light());
+  report_progress(pixels_with_light());
   if (is_due()) {
     keep_interrupted();
   }
@@ -111,16 +111,17 @@ void HostProgram::take_done(const Done& done) {
 }
 
 PixelRectangle HostProgram::share_of(std::uint32_t index) const {
-  return svm::share_of(image(), index, dealt_side_ > 0 ? 0 : plan_.worker_count, plan_.request.pages.pixel_shares);
+  return svm::share_of(image(), index, assigned_side_ > 0 ? 0 : plan_.worker_count, plan_.request.pages.pixel_shares);
 }
 
 void HostProgram::start_dealing() {
-  if (dealt_side_ > 0) {
-    items_ = WorkItems(image(), dealt_side_);
+  if (assigned_side_ > 0) {
+    items_ = WorkItems(image(), assigned_side_);
   }
 }
 
-/// Which samples an item's pixels have: an item that is dealt has none that has arrived, but those that another run had rendered.
+/// Which samples an item's pixels have: an item that is assigned has none that has arrived, but those that another run had
+/// rendered.
 ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   for (std::uint32_t i = 0; i < item.pixel_count() && is_masked_; ++i) {
@@ -142,19 +143,19 @@ std::optional<PixelRectangle> HostProgram::next_item() {
   return std::nullopt;
 }
 
-/// An empty item says that all are dealt.
-void HostProgram::deal(const WorkRequest& request) {
-  core::expect(dealt_side_ > 0, "the host is asked for work where it deals it");
+/// An empty item says that all are assigned.
+void HostProgram::assign(const WorkRequest& request) {
+  core::expect(assigned_side_ > 0, "the host is asked for work where it assigns it");
   const std::optional<PixelRectangle> item = next_item();
   items_given_ += item ? 1 : 0;
-  const nodes::NodeId asker{request.asker};
+  const nodes::NodeId requester{request.requester};
   const WorkReply reply{SentItem(item.value_or(PixelRectangle{})), node_count_};
-  node_->grant(asker, control_channel);  // the place that the request has reserved
+  node_->grant(requester, control_channel);  // the place that the request has reserved
   if (is_masked_) {
-    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply),
+    node_->send_reserved(requester, control_channel, number_of(Kind::work_reply),
                          MaskedWorkReply{reply, steps_of(reply.item.rectangle())});
   } else {
-    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply), reply);
+    node_->send_reserved(requester, control_channel, number_of(Kind::work_reply), reply);
   }
 }
 

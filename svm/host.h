@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/picture/film.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/film.h"
+#include "core/picture/film/partial_picture.h"
 #include "nodes/node.h"
+#include "nodes/observers/watching.h"
 #include "nodes/pictures/host.h"
-#include "nodes/watch/watching.h"
 #include "svm/packets.h"
 #include "svm/pages/home_pages.h"
 #include "svm/pages/page_server.h"
@@ -20,8 +20,8 @@ namespace dmpc::svm {
 
 /// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
 /// node is done and the film complete, it ends the pass; if another follows, it sends each node its share's part of the mask,
-/// and begins it when all have theirs; else it sends each node a Stop. Where it deals the work, in items of the whole picture, no
-/// node has a share, and it tells each asker which samples an item's pixels have. Where it is home to all pages, it
+/// and begins it when all have theirs; else it sends each node a Stop. Where it assigns the work, in items of the whole picture,
+/// no node has a share, and it tells each requester which samples an item's pixels have. Where it is home to all pages, it
 /// replies to requests for them from its own memory, as a node would.
 class HostProgram final : public pictures::Host {
  public:
@@ -43,7 +43,7 @@ class HostProgram final : public pictures::Host {
   void keep_interrupted() const override;
   /// Replies to requests for pages.
   std::uint64_t pages_served() const { return home_ ? home_->server.served() - served_before_ : 0; }
-  /// Work items dealt, over all passes.
+  /// Work items assigned, over all passes.
   std::uint64_t items_given() const { return items_given_; }
   /// By this run, over all passes.
   std::uint64_t pixels_done() const { return pixels_of_old_passes_ + pixels_with_light() - pixels_found_done_; }
@@ -62,7 +62,7 @@ class HostProgram final : public pictures::Host {
   PixelRectangle image() const { return {0, 0, plan_.request.width, plan_.request.height}; }
   PixelRectangle share_of(std::uint32_t index) const;
   void start_dealing();
-  void deal(const WorkRequest& request);
+  void assign(const WorkRequest& request);
   std::optional<PixelRectangle> next_item();
   ItemSteps steps_of(const PixelRectangle& item) const;
   void end_pass();
@@ -73,9 +73,9 @@ class HostProgram final : public pictures::Host {
   const Plan& plan_;
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
   std::uint32_t node_count_;
-  std::uint32_t dealt_side_;  ///< of the work items that nodes ask the host for, in pixels; 0: they ask each other
+  std::uint32_t assigned_side_;  ///< of the work items that nodes ask the host for, in pixels; 0: they ask each other
   bool is_masked_;
-  WorkItems items_;  ///< not dealt yet
+  WorkItems items_;  ///< not assigned yet
   std::optional<Home> home_;
   std::uint64_t served_before_ = 0;  ///< pages, for earlier pictures
   std::uint64_t items_given_ = 0;

@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/record/records.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/node.h"
 #include "svm/pages/node_program.h"
 #include "svm/pages/page_capacity.h"
@@ -26,7 +26,7 @@ class LocalCopy : public PlainRecords {
   }
   /// What the constructor takes.
   static nodes::MemoryPlan layout(std::size_t database_bytes) {
-    return nodes::LastingPieces::layout(core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
+    return nodes::ImmutablePieces::layout(core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
   }
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }

@@ -1,8 +1,8 @@
 // What nodes tell each other and the host about pixels, whatever they have of the scene: values, without pointers.
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
-//   work_request           node -> next node   ring      small  its asker: one under way for each node
-//   work_reply             giver -> asker      control   small  the work request
+//   work_request           node -> next node   ring      small  its requester: one under way for each node
+//   work_reply             donor -> requester      control   small  the work request
 //   film_sums              node -> host        bulk      bulk   the sender's film credits
 //   film_acknowledgement   host -> node        control   small  the film packet
 //   done                   node -> host        control   small  once a pass
@@ -11,7 +11,7 @@
 //   mask_acknowledgement   node -> host        control   small  the part of the mask
 //   begin_pass             host -> node        control   small  once a pass, when all nodes are done with the one before
 //
-// Work requests go to the host where that deals the items. Masks and passes exist only where the picture is refined: when all
+// Work requests go to the host where that assigns the items. Masks and passes exist only where the picture is refined: when all
 // nodes are done with a pass, each gets the mask of its share, which tells how many more samples each pixel has, part by part,
 // and when all nodes have theirs the pass begins.
 #pragma once
@@ -25,20 +25,20 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
-#include "core/picture/film.h"
-#include "core/picture/sample_pass.h"
+#include "core/picture/film/film.h"
+#include "core/picture/sampling/sample_pass.h"
 #include "nodes/packet.h"
 #include "svm/pages/packets.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
 
-/// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
+/// The node `requester` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
 /// asked or passed over.
 struct WorkRequest {
-  std::uint32_t asker = 0;
+  std::uint32_t requester = 0;
   std::uint32_t visits_left = 0;
-  std::uint32_t pass = 0;  ///< the asker's, from 0 on
+  std::uint32_t pass = 0;  ///< the requester's, from 0 on
 };
 static_assert(is_small_packet<WorkRequest>);
 
@@ -64,10 +64,10 @@ struct SentItem {
   }
 };
 
-/// An item of `giver`'s share; an empty one says that the request has been all round the ring: there is no more work.
+/// An item of `donor`'s share; an empty one says that the request has been all round the ring: there is no more work.
 struct WorkReply {
   SentItem item;
-  std::uint32_t giver = 0;
+  std::uint32_t donor = 0;
 };
 static_assert(is_small_packet<WorkReply>);
 

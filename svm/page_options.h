@@ -18,12 +18,12 @@ class ReferenceLog;
 inline constexpr std::uint32_t bundle_pixels = core::bundle_rays_max;
 
 /// Whom a node without pixels asks for a work item.
-enum class WorkGiver : std::uint8_t {
+enum class WorkDonor : std::uint8_t {
   ring,  ///< the nodes round the ring: each starts with a share of the pixels, and gives of what is left of it
-  host   ///< the host, which has the whole picture: nodes start with nothing, and every item is dealt on demand
+  host   ///< the host, which has the whole picture: nodes start with nothing, and every item is assigned on demand
 };
 /// As the command line calls it.
-constexpr const char* name_of(WorkGiver giver) { return giver == WorkGiver::ring ? "ring" : "host"; }
+constexpr const char* name_of(WorkDonor donor) { return donor == WorkDonor::ring ? "ring" : "host"; }
 
 /// Options of svm and, as far as no page travels, of replicated. `optional` without a value means: choose.
 struct PageOptions {
@@ -44,8 +44,8 @@ struct PageOptions {
   /// On a modelled machine, too, rays of neighbouring pixels walk together: with look-ups, events and times of their own, in less
   /// of the real computer's time. Where nobody looks on pixel by pixel, and 16 pixels are in flight; svm only.
   bool bundles_on_machines = false;
-  WorkGiver work_giver = WorkGiver::ring;           ///< host: not with work_item_side = 0
-  PixelShares pixel_shares = PixelShares::submaps;  ///< interleaved: not with work_giver = host, where nodes start with none
+  WorkDonor work_donor = WorkDonor::ring;           ///< host: not with work_item_side = 0
+  PixelShares pixel_shares = PixelShares::submaps;  ///< interleaved: not with work_donor = host, where nodes start with none
   /// Nodes that render, the first ones; the others lend their memories and serve pages, as the article had for scenes that one
   /// memory does not hold. Without it all do.
   std::optional<std::uint32_t> worker_count = std::nullopt;

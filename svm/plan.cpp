@@ -7,10 +7,10 @@
 #include "core/database/database.h"
 #include "core/picture/bundle_task.h"
 #include "core/picture/memory_use.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 #include "svm/host.h"
 #include "svm/packets.h"
 #include "svm/slots.h"
@@ -61,7 +61,7 @@ std::uint64_t node_pixels_max(const PlanRequest& request) {
 }
 
 std::uint32_t film_credits_of(const PlanRequest& request) {
-  return nodes::patient_credits(request.computer.node_count, request.computer.machine.has_value());
+  return nodes::batching_credits(request.computer.node_count, request.computer.machine.has_value());
 }
 
 /// On a modelled machine all entries have both: what a packet takes there is part of every virtual time.
@@ -81,7 +81,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
   // Work requests: each other node has at most one on the ring, unless they go to the host.
-  const std::uint32_t passed_on = ring && !request.is_dealt() ? request.computer.node_count - 1 : 0;
+  const std::uint32_t passed_on = ring && !request.is_assigned() ? request.computer.node_count - 1 : 0;
   capacity.small_slots = passed_on                   // work requests
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
@@ -91,7 +91,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
     capacity.bulk_slots = 1;    // a part of the mask: the next one follows its acknowledgement
     capacity.bulk_payload_bytes = sizeof(MaskPart);
   }
-  request.strategy->add_places(plan, capacity);
+  request.strategy->add_slots(plan, capacity);
   return capacity;
 }
 
@@ -100,7 +100,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   return {.small_slots = request.computer.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.computer.node_count
                                                            : 0)  // acknowledgements: one for each node's part of the mask
-                         + (request.is_dealt() ? request.worker_count() : 0)  // work requests: one from each worker
+                         + (request.is_assigned() ? request.worker_count() : 0)  // work requests: one from each worker
                          + (is_host_home(request) ? request.computer.node_count * plan.request_credits
                                                   : 0),                          // page requests: each node's credits
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
@@ -111,7 +111,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
 void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.request_credits = nodes::shrunk_credits(chaos, plan.request_credits, request_channel);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, bulk_channel);
-  plan.held_bytes = nodes::HeldPackets::room_bytes(
+  plan.held_bytes = nodes::DelayedPackets::room_bytes(
       std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));  // a page reply or film
 }
 
@@ -179,14 +179,14 @@ void check_recording(const PlanRequest& request) {
 }
 
 void check_work(const PlanRequest& request) {
-  constexpr core::Field giver = field_of<&PageOptions::work_giver>();
+  constexpr core::Field donor = field_of<&PageOptions::work_donor>();
   const std::uint32_t workers = request.worker_count(), in_flight = request.pages.in_flight.value_or(1);
   check_use(workers >= 1 && workers <= request.computer.node_count, field_of<&PageOptions::worker_count>(), "=", workers,
             ": expected at least one worker, and at most as many as there are nodes, ", request.computer.node_count);
-  check_use(!request.is_dealt() || request.pages.work_item_side != 0U, giver, "=host does not go with ",
-            field_of<&PageOptions::work_item_side>(), "=0: the host deals items of a pixel or more");
-  check_use(!request.is_dealt() || request.pages.pixel_shares == PixelShares::submaps, field_of<&PageOptions::pixel_shares>(),
-            "=interleaved does not go with ", giver, "=host: where the host deals items, no pixel is a node's own");
+  check_use(!request.is_assigned() || request.pages.work_item_side != 0U, donor, "=host does not go with ",
+            field_of<&PageOptions::work_item_side>(), "=0: the host assigns items of a pixel or more");
+  check_use(!request.is_assigned() || request.pages.pixel_shares == PixelShares::submaps, field_of<&PageOptions::pixel_shares>(),
+            "=interleaved does not go with ", donor, "=host: where the host assigns items, no pixel is a node's own");
   check_use(in_flight >= 1 && in_flight <= in_flight_max, field_of<&PageOptions::in_flight>(), "=", in_flight, ": from 1 to ",
             in_flight_max, " pixels");
 }
@@ -276,7 +276,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   } else {
     sentence.add(request.strategy->advice());
   }
-  throw core::Refusal<core::RoomError>(sentence);
+  throw core::Refusal<core::CapacityError>(sentence);
 }
 
 void note_reductions(Plan& plan) {
@@ -343,17 +343,17 @@ WorkShape Plan::work() const {
           .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
           .shares = request.pages.pixel_shares,
-          .dealer = request.is_dealt() ? std::optional(request.computer.node_count) : std::nullopt,
+          .dealer = request.is_assigned() ? std::optional(request.computer.node_count) : std::nullopt,
           .is_masked = request.is_masked(),
           .start = request.start};
 }
 
-nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }
+nodes::Batching Plan::batching() const { return nodes::batching_of(number_of(Kind::film_sums), film_credits); }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan = nodes::memory_beside_program(node_mailbox, request.computer.node_count + 1, held_bytes,
                                                         request.computer.stack_reserve_bytes) +
-                           nodes::LastingPieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
+                           nodes::ImmutablePieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
                            FilmGather::layout(film()) + WorkSource::layout(work(), index) +
                            request.strategy->layout(*this, index);
   const auto waiting_max = static_cast<std::uint32_t>(request.waiting_hits_max);

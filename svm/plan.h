@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "core/base/refusal.h"
-#include "core/picture/partial_picture.h"
-#include "core/picture/refinement.h"
+#include "core/picture/film/partial_picture.h"
+#include "core/picture/sampling/refinement.h"
+#include "nodes/batching.h"
 #include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
-#include "nodes/patience.h"
 #include "svm/film_gather.h"
 #include "svm/page_options.h"
 #include "svm/pages/page.h"
@@ -53,8 +53,8 @@ struct PlanRequest {
   std::uint32_t worker_count() const { return pages.worker_count.value_or(computer.node_count); }
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
-  /// The host deals the work.
-  bool is_dealt() const { return pages.work_giver == WorkGiver::host; }
+  /// The host assigns the work.
+  bool is_assigned() const { return pages.work_donor == WorkDonor::host; }
 };
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
@@ -87,7 +87,7 @@ struct Plan {
   FilmCapacity film() const;
   WorkShape work() const;
   /// Which packets need not wake their target each.
-  nodes::Patience patience() const;
+  nodes::Batching batching() const;
 
   /// What is under way on a node: a task waits for one page at a time.
   std::uint32_t task_count() const { return in_flight / pixels_a_task; }
@@ -96,8 +96,8 @@ struct Plan {
   std::uint32_t faults_max() const;
 };
 
-/// Throws core::Refusal<core::UsageError> for a value out of range or a wrong combination, of core::RoomError if the memory is
-/// too small; the latter names the smallest node memory that works for this node count and, if there is one up to
+/// Throws core::Refusal<core::UsageError> for a value out of range or a wrong combination, of core::CapacityError if the memory
+/// is too small; the latter names the smallest node memory that works for this node count and, if there is one up to
 /// nodes::node_count_max, the smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);
 

@@ -27,10 +27,10 @@
 #include "core/picture/pixel_task.h"
 #include "core/trace/charge.h"
 #include "nodes/byte_source.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/node.h"
+#include "nodes/observers/meter.h"
 #include "nodes/pictures/computer.h"
-#include "nodes/watch/meter.h"
 #include "svm/film_gather.h"
 #include "svm/packets.h"
 #include "svm/pages/node_program.h"
@@ -45,7 +45,7 @@ namespace dmpc::svm {
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram, public pictures::PictureProgram {
  public:
-  /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
+  /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/immutable_pieces.h). make_tracer(Records&)
   /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
@@ -291,7 +291,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     stopped_ = true;
   }
 
-  nodes::LastingPieces settings_room_;
+  nodes::ImmutablePieces settings_room_;
   const core::RenderSettings* settings_;
   nodes::Node* node_;
   nodes::NodeId host_;

@@ -67,8 +67,8 @@ std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const Pl
 class Job {
  public:
   /// Makes the plan anew and expects it to be the same.
-  Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const Following& following) {
-    PlanRequest request = take_request(flat, ranks, following.strategies);
+  Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const WorkerCallbacks& callbacks) {
+    PlanRequest request = take_request(flat, ranks, callbacks.strategies);
     start_ = take_start(flat, request);
     request.start = start_ ? &*start_ : nullptr;
     plan_ = make_plan(request);
@@ -78,7 +78,7 @@ class Job {
 
   const Plan& plan() const { return plan_; }
   std::vector<nodes::NodeSpecification> specifications(const core::RenderSettings& settings, nodes::StreamFromHost& stream,
-                                                       const nodes::Watching& watching, const Following* watched) {
+                                                       const nodes::Watching& watching, const WorkerCallbacks* watched) {
     pages_.emplace(stream, plan_.pages().database_bytes());
     std::vector<ReferenceLog>* const logs = watched == nullptr ? nullptr : watched->reference_logs();
     return specifications_without_host(plan_, plan_.request.strategy->maker(plan_, settings, *pages_, watching, logs));
@@ -94,22 +94,22 @@ class Job {
 }  // namespace
 
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
-              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
+              const std::string& observer_order, bool are_frames, nodes::RankLinks& links) {
   const auto put_own = [&](nodes::FlatWriter& job) {
     put(job, plan.request);
     put(job, plan.request.start);
     job.put_all(plan.resident);
     job.put_bytes(figures_of(plan));
   };
-  const auto deal = [&](nodes::StreamsToRanks& streams, std::uint32_t rank, std::uint32_t node) {
+  const auto assign = [&](nodes::StreamsToRanks& streams, std::uint32_t rank, std::uint32_t node) {
     plan.request.strategy->for_each_piece(
         plan, node, [&](std::size_t offset, std::size_t bytes) { streams.write_piece(rank, database.bytes(), offset, bytes); });
   };
-  pictures::hand_out(settings, plan.node_count(), watch_order, are_frames, links, put_own, deal);
+  pictures::hand_out(settings, plan.node_count(), observer_order, are_frames, links, put_own, assign);
 }
 
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
-  return pictures::follow<Job>(links, stop, following);
+nodes::WorkerOutcome follow(nodes::RankLinks& links, std::stop_token stop, const WorkerCallbacks& callbacks) {
+  return pictures::follow<Job>(links, stop, callbacks);
 }
 
 }  // namespace dmpc::svm

@@ -10,7 +10,7 @@
 #include "core/picture/pixel_task.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/repeated_runs.h"
-#include "svm/pages/watch/reference_log.h"
+#include "svm/pages/observers/reference_log.h"
 #include "svm/plan.h"
 #include "svm/strategy.h"
 
@@ -20,10 +20,10 @@ namespace dmpc::svm {
 /// pages that its programs keep. Returns when all have their nodes. `are_frames`: these are kept, for nodes::hand_out_again() of
 /// settings before another picture. Throws what fails on another rank.
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
-              const std::string& watch_order, bool are_frames, nodes::RankLinks& links);
+              const std::string& observer_order, bool are_frames, nodes::RankLinks& links);
 
 /// What a rank brings to a run of these strategies.
-struct Following : nodes::Following {
+struct WorkerCallbacks : nodes::WorkerCallbacks {
   /// Those that it may be a run of.
   Strategies strategies = {svm_strategy(), replicated_strategy()};
   /// Called after watch(): where references are to be noted, by node; nothing if nobody wants to know.
@@ -33,6 +33,6 @@ struct Following : nodes::Following {
 /// What another rank does while rank 0 renders by run_by(), with one of its strategies. No more of the scene is in its
 /// memory than its nodes' pages. Where there are several frames it goes on with the next, or with new nodes, until rank 0 ends:
 /// throws nodes::Dismissed then, and as run_by() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following = {});
+nodes::WorkerOutcome follow(nodes::RankLinks& links, std::stop_token stop, const WorkerCallbacks& callbacks = {});
 
 }  // namespace dmpc::svm

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/picture/camera/subsample.h"
 #include "core/picture/render.h"
-#include "core/picture/subsample.h"
 #include "core/record/records.h"
 
 namespace dmpc::svm {

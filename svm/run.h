@@ -14,18 +14,18 @@
 
 #include "core/base/expect.h"
 #include "core/database/database.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/computer_request.h"
 #include "nodes/gathering.h"
+#include "nodes/observers/meter.h"
+#include "nodes/observers/watching.h"
 #include "nodes/pictures/computer.h"
 #include "nodes/runner.h"
-#include "nodes/watch/meter.h"
-#include "nodes/watch/watching.h"
 #include "svm/local_copy.h"
 #include "svm/page_options.h"
 #include "svm/pages/node_program.h"
-#include "svm/pages/watch/reference_log.h"
+#include "svm/pages/observers/reference_log.h"
 #include "svm/plan.h"
 #include "svm/program.h"
 #include "svm/strategy.h"
@@ -51,7 +51,7 @@ struct Report : pictures::Report<NodeReport> {
   Plan plan = {};
   std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
   std::uint64_t pixels_done = 0;              ///< by this run, over all passes
-  std::uint64_t items_dealt = 0;              ///< work items that the host gave
+  std::uint64_t items_assigned = 0;           ///< work items that the host gave
   std::uint64_t host_pages_served = 0;        ///< replies of the host to requests for pages
 
   core::Operations operations() const { return summed(&ProgramReport::operations); }

@@ -14,9 +14,9 @@
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
-#include "nodes/watch/watching.h"
+#include "nodes/observers/watching.h"
 #include "svm/pages/node_program.h"
-#include "svm/pages/watch/reference_log.h"
+#include "svm/pages/observers/reference_log.h"
 
 namespace dmpc::svm {
 
@@ -60,7 +60,7 @@ class Strategy {
   /// Packets that ask for something which one node may have under way to one other.
   virtual std::uint32_t request_credits(const Plan& /*plan*/) const { return 0; }
   /// Adds the places in a node's mailbox for packets about records.
-  virtual void add_places(const Plan& /*plan*/, nodes::MailboxCapacity& /*capacity*/) const {}
+  virtual void add_slots(const Plan& /*plan*/, nodes::MailboxCapacity& /*capacity*/) const {}
   /// What the records of node `index` take.
   virtual nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) const = 0;
   /// Calls visit(offset in bytes, bytes) for each piece of the database that the program of node `index` reads when it is made,

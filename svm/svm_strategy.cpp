@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "core/base/units.h"
+#include "svm/pages/observers/observed_pagers.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/watched_pagers.h"
 #include "svm/program_maker.h"
 #include "svm/strategy.h"
 
@@ -52,14 +52,14 @@ class SvmStrategy final : public Strategy {
     if (!do_pages_travel(request)) {
       return 0;
     }
-    const std::uint32_t askers = askers_of(request);  // the host's memory is large
+    const std::uint32_t requesters = askers_of(request);  // the host's memory is large
     const std::uint32_t each =
-        askers == 0 ? request_credits_max : std::clamp(request_slots_wanted / askers, 1U, request_credits_max);
+        requesters == 0 ? request_credits_max : std::clamp(request_slots_wanted / requesters, 1U, request_credits_max);
     const std::uint32_t homes = are_at_host(request.pages.homes) ? 1 : request.computer.node_count;
     return std::min({plan.faults_max(), core::ceil_divide(request.page_count, homes), each});
   }
 
-  void add_places(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
+  void add_slots(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
     // Page requests: each other node's credits for this home, or, in a tree, those of all nodes below.
     capacity.small_slots += askers_of(plan.request) * plan.request_credits;
     if (do_pages_travel(plan.request)) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/picture/sample_pass.h"
+#include "core/picture/sampling/sample_pass.h"
 
 namespace dmpc::svm {
 

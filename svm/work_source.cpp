@@ -54,8 +54,8 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_ov
       tile_(shape.tile),
       share_(own_share(shape, self_)),
       items_(share_, item_side_),
-      first_giver_(shape.dealer.value_or((self_ + 1) % worker_count_)),
-      last_giver_(first_giver_),
+      first_donor_(shape.dealer.value_or((self_ + 1) % worker_count_)),
+      last_donor_(first_donor_),
       is_alone_(is_alone(shape, self_)),
       no_more_(is_alone_) {
   std::tie(mask_, kept_) = layout(shape, self_).in(node.memory());
@@ -87,7 +87,7 @@ void WorkSource::take_mask(const MaskPart& part) {
 void WorkSource::begin_pass() {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
   items_ = WorkItems(share_, item_side_);
-  last_giver_ = first_giver_;
+  last_donor_ = first_donor_;
   no_more_ = is_alone_;
   ++pass_;
   skip_unwanted();
@@ -178,19 +178,19 @@ void WorkSource::ask() {
   }
   asking_ = true;
   ++counters_.items_asked;
-  send(last_giver_, {self_, worker_count_ - 1, pass_});
+  send(last_donor_, {self_, worker_count_ - 1, pass_});
 }
 
 void WorkSource::send(std::uint32_t node, const WorkRequest& request) {
-  node_->grant(nodes::NodeId{node}, ring_channel);  // the asker's place on the ring: one request a node
+  node_->grant(nodes::NodeId{node}, ring_channel);  // the requester's place on the ring: one request a node
   node_->send_reserved(nodes::NodeId{node}, ring_channel, number_of(Kind::work_request), request);
 }
 
 void WorkSource::answer(const WorkRequest& request) {
-  core::expect(request.asker != self_ && request.visits_left > 0, "a work request asks each other node once");
+  core::expect(request.requester != self_ && request.visits_left > 0, "a work request asks each other node once");
   if (const auto item = give()) {
     ++counters_.items_given;
-    reply(request.asker, *item);
+    reply(request.requester, *item);
   } else if (keeps(request)) {
     kept_[kept_count_++] = request;
   } else {
@@ -202,7 +202,7 @@ void WorkSource::answer(const WorkRequest& request) {
 bool WorkSource::knows_of(const WorkRequest& request) const { return passes_over_idle_ && request.pass == pass_; }
 
 bool WorkSource::keeps(const WorkRequest& request) const {
-  return asking_ && knows_of(request) && kept_count_ < kept_.size() && rank_of(request.asker) < rank_of(self_);
+  return asking_ && knows_of(request) && kept_count_ < kept_.size() && rank_of(request.requester) < rank_of(self_);
 }
 
 /// This node has its answer.
@@ -215,36 +215,36 @@ void WorkSource::pass_on_kept() {
 /// Along the ring.
 std::uint32_t WorkSource::steps_to(std::uint32_t node) const { return (node + worker_count_ - self_) % worker_count_; }
 
-/// As far as this node knows, to the first that may have an item, be it the asker; once round the ring if none does.
+/// As far as this node knows, to the first that may have an item, be it the requester; once round the ring if none does.
 std::uint32_t WorkSource::steps_for(const WorkRequest& request) const {
   if (!knows_of(request)) {
     return 1;
   }
-  return no_more_ ? worker_count_ : steps_to(last_giver_);
+  return no_more_ ? worker_count_ : steps_to(last_donor_);
 }
 
-/// To the first node on the ring that may have an item, or back if there is none. The asker is known to have nothing.
+/// To the first node on the ring that may have an item, or back if there is none. The requester is known to have nothing.
 void WorkSource::pass_on(const WorkRequest& request) {
-  const std::uint32_t to_asker = steps_to(request.asker);
+  const std::uint32_t to_requester = steps_to(request.requester);
   std::uint32_t steps = steps_for(request);
-  steps += steps == to_asker ? 1 : 0;
-  const std::uint32_t visits = steps - (to_asker < steps ? 1 : 0);  // of those ahead, the last of which is to be asked
+  steps += steps == to_requester ? 1 : 0;
+  const std::uint32_t visits = steps - (to_requester < steps ? 1 : 0);  // of those ahead, the last of which is to be asked
   nodes_passed_over_ += std::min(visits, request.visits_left) - 1;
   if (visits < request.visits_left) {
-    send((self_ + steps) % worker_count_, {request.asker, request.visits_left - visits, request.pass});
+    send((self_ + steps) % worker_count_, {request.requester, request.visits_left - visits, request.pass});
   } else {
-    reply(request.asker, {});
+    reply(request.requester, {});
   }
 }
 
-void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
-  node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
+void WorkSource::reply(std::uint32_t requester, const PixelRectangle& item) {
+  node_->grant(nodes::NodeId{requester}, control_channel);  // the place that the request has reserved
   const WorkReply work{SentItem(item), self_};
   if (is_masked()) {
-    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply),
+    node_->send_reserved(nodes::NodeId{requester}, control_channel, number_of(Kind::work_reply),
                          MaskedWorkReply{work, steps_of(item)});
   } else {
-    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
+    node_->send_reserved(nodes::NodeId{requester}, control_channel, number_of(Kind::work_reply), work);
   }
 }
 
@@ -257,7 +257,7 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   no_more_ = item.pixel_count() == 0;
   if (!no_more_) {
     ++counters_.items_taken;
-    last_giver_ = reply.giver;
+    last_donor_ = reply.donor;
     open(item, masked.steps);
   }
   pass_on_kept();

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "core/picture/background.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/camera/background.h"
+#include "core/picture/film/partial_picture.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
@@ -30,13 +30,13 @@ struct WorkShape {
 };
 
 /// A node without pixels sends one work request at a time. It hops along the ring of workers, from i to i + 1 mod N; the first
-/// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
+/// that has items left answers the requester directly; the last of all others to be asked tells it that there is no more work,
 /// and since shares only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
-/// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
-/// that gave last, because all before it had nothing. Where the host deals all items, every request goes to it.
+/// a requester that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
+/// that gave last, because all before it had nothing. Where the host assigns all items, every request goes to it.
 ///
 /// For the same reason a node without items need not pass a request on to the next node (the skip idle-nodes): from itself up to
-/// the node that gave it an item last, nobody has any, so requests go from giver to giver; and a node that knows of no more work
+/// the node that gave it an item last, nobody has any, so requests go from donor to donor; and a node that knows of no more work
 /// answers for all. This is the find of disjoint sets (R. Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm",
 /// 1975), a node's set being those that it knows to be idle. Where many run out at one time nobody knows anything yet: so a node
 /// that waits for an answer keeps a few of the others' requests until it has it. It keeps those of nodes of lower rank, an order
@@ -68,7 +68,7 @@ class WorkSource {
   PixelRectangle take_background(const core::BackgroundTiles& background, std::uint32_t height_max);
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
   void ask();
-  /// Gives an item to the asker, or passes the request on or keeps it for a while, or says that there is none.
+  /// Gives an item to the requester, or passes the request on or keeps it for a while, or says that there is none.
   void answer(const WorkRequest& request);
   /// Takes the answer to this node's own request.
   void take_reply(const nodes::Packet& packet);
@@ -102,7 +102,7 @@ class WorkSource {
   void open_next();
   void skip_unwanted();
   std::optional<PixelRectangle> give();
-  void reply(std::uint32_t asker, const PixelRectangle& item);
+  void reply(std::uint32_t requester, const PixelRectangle& item);
 
   nodes::Node* node_;
   std::uint32_t worker_count_;
@@ -118,8 +118,8 @@ class WorkSource {
   ItemSteps steps_;  ///< of the item under way, if is_masked()
   WorkCounters counters_;
   std::uint64_t nodes_passed_over_ = 0;
-  std::uint32_t first_giver_;
-  std::uint32_t last_giver_;  ///< between this node and it nobody has an item in this pass
+  std::uint32_t first_donor_;
+  std::uint32_t last_donor_;  ///< between this node and it nobody has an item in this pass
   std::uint32_t pass_ = 0;
   std::span<WorkRequest> kept_;  ///< the first kept_count_
   std::uint32_t kept_count_ = 0;

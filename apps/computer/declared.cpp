@@ -1,6 +1,6 @@
 #include "apps/computer/declared.h"
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 
 namespace dmpc::apps {
 

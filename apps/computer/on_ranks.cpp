@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/ranks/parts.h"
-#include "apps/edge/ranks/rank_group.h"
-#include "apps/edge/run/option_words.h"
-#include "apps/edge/system/digest.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/ranks/parts.h"
+#include "apps/frontend/ranks/rank_group.h"
+#include "apps/frontend/run/option_words.h"
+#include "apps/frontend/system/digest.h"
 #include "core/base/expect.h"
 #include "nodes/runner.h"
 
@@ -27,10 +27,10 @@ std::uint64_t program_digest() {
   return digest.value();
 }
 
-Likeness program_likeness() {
-  Likeness likeness = call_likeness();
-  likeness.emplace_back("the program", hash_text(program_digest()));
-  return likeness;
+Compatibility program_compatibility() {
+  Compatibility compatibility = call_compatibility();
+  compatibility.emplace_back("the program", hash_text(program_digest()));
+  return compatibility;
 }
 
 void choose_nodes(ProgramOptions& options, const RankGroup& group) {
@@ -41,7 +41,7 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
 }
 
 /// A program's own error of usage as one of ours, which rank 0 tells the others.
-int with_usage_told(const std::function<int()>& act) {
+int with_usage_reported(const std::function<int()>& act) {
   try {
     return act();
   } catch (const dmpc::UsageError& error) {
@@ -53,7 +53,7 @@ int with_usage_told(const std::function<int()>& act) {
 
 int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
                  const std::function<int(RankRounds&)>& act) {
-  const RankStart start = {.own = program_likeness(), .module_of = CompanionOf::own_program};
+  const RankStart start = {.own = program_compatibility(), .module_of = CompanionOf::own_program};
   return run_as_rank(start, [&](RankGroup& group) {
     choose_nodes(options, group);
     if (group.rank_count() == 1 && !options.quiet) {
@@ -62,11 +62,11 @@ int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::fu
     const RankNeeds own = needs();
     nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, group.default_idle(options.computer));
     if (!options.quiet) {
-      links.tell_to([&call](const std::string& text) { std::cerr << call.name + ": " + text + '\n'; });
+      links.report_to([&call](const std::string& text) { std::cerr << call.name + ": " + text + '\n'; });
     }
     options.computer.ranks = &links;
     RankRounds rounds(links);
-    return rounds.is_first() ? lead(links, [&] { return with_usage_told([&] { return act(rounds); }); })
+    return rounds.is_first() ? lead(links, [&] { return with_usage_reported([&] { return act(rounds); }); })
                              : follow(links, [&] { act(rounds); });
   });
 }

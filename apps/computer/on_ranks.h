@@ -7,14 +7,14 @@
 #include "apps/computer/options.h"
 #include "apps/computer/program_main.h"
 #include "apps/computer/rank_rounds.h"
-#include "apps/edge/ranks/likeness.h"
+#include "apps/frontend/ranks/compatibility.h"
 
 namespace dmpc::apps {
 
 /// What ranks need to know of a program before they talk to each other.
 struct RankNeeds {
   std::size_t payload_bytes_max = 0;  ///< of its packets
-  Likeness alike = {};                ///< what it must be on all of them, beside its words
+  Compatibility alike = {};           ///< what it must be on all of them, beside its words
 };
 
 /// Runs act() as one of the ranks, with as many nodes as there are processors for them where the options do not say it; returns

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/run/option_words.h"
-#include "apps/edge/show/trace/perfetto.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/run/option_words.h"
+#include "apps/frontend/show/trace/perfetto.h"
+#include "apps/frontend/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 

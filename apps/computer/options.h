@@ -9,8 +9,8 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/run/runner_kind.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/run/runner_kind.h"
 #include "nodes/computer_request.h"
 #include "svm/pages/task_plan.h"
 

@@ -8,12 +8,12 @@
 
 namespace dmpc::apps {
 
-PairWatch::PairWatch(std::uint32_t node_count) : node_count_(node_count) {
+PairObserver::PairObserver(std::uint32_t node_count) : node_count_(node_count) {
   const std::size_t pair_count = std::size_t{node_count} * node_count;
   pairs_ = {.packets = std::vector<std::uint64_t>(pair_count), .bytes = std::vector<std::uint64_t>(pair_count)};
 }
 
-void PairWatch::sent(const nodes::Passing& packet) {
+void PairObserver::sent(const nodes::Passing& packet) {
   const std::size_t pair = std::size_t{index_of(packet.node)} * node_count_ + index_of(packet.peer);
   nodes::Traffic one;
   one.add(packet.payload_bytes());
@@ -21,14 +21,14 @@ void PairWatch::sent(const nodes::Passing& packet) {
   pairs_.bytes[pair] += one.bytes;
 }
 
-std::string PairWatch::bytes() const {
+std::string PairObserver::bytes() const {
   nodes::FlatWriter flat;
   flat.put_all(pairs_.packets);
   flat.put_all(pairs_.bytes);
   return flat.take();
 }
 
-void PairWatch::add(std::string_view bytes) {
+void PairObserver::add(std::string_view bytes) {
   nodes::FlatReader flat(bytes);
   for (std::vector<std::uint64_t>* const counts : {&pairs_.packets, &pairs_.bytes}) {
     const auto more = flat.take_all<std::uint64_t>();

@@ -18,9 +18,9 @@ struct PacketPairs {
 };
 
 /// Counts what is sent. Thread safety: as an Observer; pairs() when the run is over.
-class PairWatch final : public nodes::Observer {
+class PairObserver final : public nodes::Observer {
  public:
-  explicit PairWatch(std::uint32_t node_count);
+  explicit PairObserver(std::uint32_t node_count);
 
   void ended(const nodes::Span&, const nodes::Program&) override {}
   void sent(const nodes::Passing& packet) override;

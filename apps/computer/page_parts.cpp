@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/computer/record.h"
-#include "apps/edge/show/page/node_bands.h"
-#include "apps/edge/show/page/traffic.h"
-#include "apps/edge/show/page/view_conclusions.h"
+#include "apps/frontend/show/page/node_bands.h"
+#include "apps/frontend/show/page/traffic.h"
+#include "apps/frontend/show/page/view_conclusions.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {
@@ -33,9 +33,9 @@ constexpr std::array own_words = {
 };
 
 /// What dmpc says of these, any program would.
-constexpr std::array<std::string_view, 14> common_words = {"asleep", "cache",  "eviction",        "fault",   "fetch",
-                                                           "lru",    "node",   "idle at the end", "lent",    "link",
-                                                           "p95",    "stolen", "stack distance",  "topology"};
+constexpr std::array<std::string_view, 14> common_words = {"asleep", "cache",        "eviction",        "fault",        "fetch",
+                                                           "lru",    "node",         "idle at the end", "service while idle", "link",
+                                                           "p95",    "service while busy", "stack distance",  "topology"};
 
 std::vector<GlossaryEntry> all_words() {
   std::vector<GlossaryEntry> all(own_words.begin(), own_words.end());

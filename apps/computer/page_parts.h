@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "apps/computer/options.h"
-#include "apps/edge/help/glossary.h"
-#include "apps/edge/show/page/losses.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/show/page/view_tables.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/help/glossary.h"
+#include "apps/frontend/show/page/losses.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/show/page/view_tables.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "nodes/machine.h"
 #include "nodes/ranks/rank_figures.h"
 

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "apps/computer/declared.h"
-#include "apps/edge/system/digest.h"
+#include "apps/frontend/system/digest.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "nodes/runner.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 
 namespace dmpc::apps {
 namespace {
@@ -122,7 +122,7 @@ void ProgramPlan::count_places() {
                         .bulk_slots = static_cast<std::uint32_t>(bulk[node]),
                         .bulk_payload_bytes = longest};
   }
-  held_bytes_ = chaos_ ? nodes::HeldPackets::room_bytes(longest) : 0;
+  held_bytes_ = chaos_ ? nodes::DelayedPackets::room_bytes(longest) : 0;
 }
 
 std::size_t ProgramPlan::payload_bytes_max() const {
@@ -183,11 +183,11 @@ void ProgramPlan::check_memory(const nodes::ComputerRequest& computer) const {
     most = std::max(most, memory(node).total());
   }
   if (most > node_bytes_max) {
-    throw core::RoomError("a node takes " + std::to_string(most) + " bytes: ask for other nodes, or declare less");
+    throw core::CapacityError("a node takes " + std::to_string(most) + " bytes: ask for other nodes, or declare less");
   }
   if (computer.node_memory_bytes && most > *computer.node_memory_bytes) {
-    throw core::RoomError("--node-memory=" + std::to_string(*computer.node_memory_bytes) + ": a node takes " +
-                          std::to_string(most) + " bytes; ask for as many, or for other nodes");
+    throw core::CapacityError("--node-memory=" + std::to_string(*computer.node_memory_bytes) + ": a node takes " +
+                              std::to_string(most) + " bytes; ask for as many, or for other nodes");
   }
 }
 

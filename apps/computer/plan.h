@@ -21,7 +21,7 @@ enum class ProgramMemory : std::uint8_t { declared };
 class ProgramPlan {
  public:
   /// Throws core::UsageError for needs that contradict each other or go beyond the computer's bounds, naming them, and
-  /// core::RoomError for more than `computer.node_memory_bytes`, naming what would do.
+  /// core::CapacityError for more than `computer.node_memory_bytes`, naming what would do.
   ProgramPlan(Needs needs, const nodes::ComputerRequest& computer);
 
   const Needs& needs() const { return needs_; }

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/system/interrupt.h"
 #include "nodes/call_board.h"
 #include "nodes/signal_stack.h"
 
@@ -19,7 +19,7 @@ namespace dmpc::apps {
 namespace {
 
 /// So many seconds a call may take before it is told.
-constexpr std::uint32_t patience_seconds = 10;
+constexpr std::uint32_t timeout_seconds = 10;
 /// A fault so far below a call comes of its stack.
 constexpr std::size_t stack_bytes_max = std::size_t{64} << 20U, stack_bytes_min = std::size_t{4} << 10U;
 
@@ -33,7 +33,7 @@ struct Call {
 
 thread_local Call call;
 
-nodes::CallBoard board(patience_seconds);
+nodes::CallBoard board(timeout_seconds);
 
 /// What is said before the program's name is known, or by a signal: the text has to be there.
 std::array<char, 256> name_bytes{};
@@ -131,7 +131,7 @@ ProgramEnds::~ProgramEnds() {
 std::function<void()> ProgramEnds::look() const {
   return [] {
     for (const nodes::CallBoard::Long& found : board.look()) {
-      const Digits node(found.node), seconds(patience_seconds);
+      const Digits node(found.node), seconds(timeout_seconds);
       say({name_bytes.data(), ": ", found.what, " of node ", node.text.data(), " has not returned for ", seconds.text.data(),
            " s: a call is one bounded piece of work, and all wait for it (a second Ctrl-C ends them)\n"});
     }

@@ -30,7 +30,7 @@ class CallUnderWay {
 /// ", in work() of node 1".
 std::string place_of_call(std::uint32_t node, const char* what);
 
-/// What act() returns. What is not ours that it throws comes as a ProgramError that says where, or as core::RoomError where
+/// What act() returns. What is not ours that it throws comes as a ProgramError that says where, or as core::CapacityError where
 /// memory ends; dmpc::UsageError and our own errors as they are.
 template <class Act>
 std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* what, const Act& act) {
@@ -38,7 +38,7 @@ std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* wh
   try {
     return act();
   } catch (const std::bad_alloc&) {
-    throw core::RoomError("there is no more memory" + place_of_call(node, what) + ": ask for fewer nodes");
+    throw core::CapacityError("there is no more memory" + place_of_call(node, what) + ": ask for fewer nodes");
   } catch (const ProgramError& error) {
     throw ProgramError(error.what() + place_of_call(node, what));
   } catch (const dmpc::UsageError&) {

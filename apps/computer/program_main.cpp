@@ -11,13 +11,13 @@
 #include <variant>
 
 #include "apps/computer/program_call.h"
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/help_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/ranks/launcher.h"
-#include "apps/edge/ranks/rank_group.h"
-#include "apps/edge/system/memory_room.h"
-#include "apps/edge/system/output_set.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/line/help_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/ranks/launcher.h"
+#include "apps/frontend/ranks/rank_group.h"
+#include "apps/frontend/system/available_memory.h"
+#include "apps/frontend/system/output_set.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -52,8 +52,8 @@ int status_of(const ProgramCall& call, const ProgramMain& program) {
     return read_and_act(call, program, interrupt);
   } catch (const Interrupted&) {
     return complain(name, std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
-  } catch (const core::RoomError& error) {
-    return complain(name, error.what(), no_room_status);
+  } catch (const core::CapacityError& error) {
+    return complain(name, error.what(), no_capacity_status);
   } catch (const core::InputError& error) {
     return complain(name, error.what(), input_status);
   } catch (const core::UsageError& error) {
@@ -63,7 +63,7 @@ int status_of(const ProgramCall& call, const ProgramMain& program) {
   } catch (const ProgramError& error) {
     return complain(name, std::string("the program: ") + error.what(), internal_status);
   } catch (const std::bad_alloc&) {
-    return complain(name, "there is no more memory: ask for fewer nodes", no_room_status);
+    return complain(name, "there is no more memory: ask for fewer nodes", no_capacity_status);
   } catch (const std::exception& error) {
     return complain(name, error.what(), internal_status);
   } catch (...) {

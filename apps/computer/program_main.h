@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/computer/options.h"
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 
 namespace dmpc::apps {
 

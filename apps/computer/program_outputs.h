@@ -5,7 +5,7 @@
 
 #include "apps/computer/options.h"
 #include "apps/computer/record.h"
-#include "apps/edge/system/output_set.h"
+#include "apps/frontend/system/output_set.h"
 
 namespace dmpc::apps {
 

@@ -9,9 +9,9 @@
 
 #include "apps/computer/declared.h"
 #include "apps/computer/plan.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/page/node_table.h"
-#include "apps/edge/show/page/shares.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/page/node_table.h"
+#include "apps/frontend/show/page/shares.h"
 #include "svm/pages/packets.h"
 
 namespace dmpc::apps::html {

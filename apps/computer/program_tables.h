@@ -7,12 +7,12 @@
 
 #include "apps/computer/page_parts.h"
 #include "apps/computer/record.h"
-#include "apps/edge/show/page/losses.h"
-#include "apps/edge/show/page/number_map.h"
-#include "apps/edge/show/page/traffic.h"
-#include "apps/edge/show/page/view_tables.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/show/page/losses.h"
+#include "apps/frontend/show/page/number_map.h"
+#include "apps/frontend/show/page/traffic.h"
+#include "apps/frontend/show/page/view_tables.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 
 namespace dmpc::apps::html {
 

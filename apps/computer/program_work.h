@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/computer/vocabulary.h"
-#include "nodes/watch/activity_profile.h"
+#include "nodes/observers/activity_profile.h"
 
 namespace dmpc::apps {
 

@@ -15,21 +15,21 @@ RankRounds::RankRounds(nodes::RankLinks& links) : links_(links) {
   }
 }
 
-void RankRounds::here(const std::function<void()>& errand) {
-  errands_.send([&] {
+void RankRounds::here(const std::function<void()>& forwarded_call) {
+  call_forwarder_.send([&] {
     expect_no_failure();
     try {
-      errand();
+      forwarded_call();
     } catch (...) {
-      failed_errand_ = std::current_exception();
+      failed_call_ = std::current_exception();
       throw;
     }
   });
 }
 
 void RankRounds::expect_no_failure() const {
-  if (failed_errand_) {
-    std::rethrow_exception(failed_errand_);
+  if (failed_call_) {
+    std::rethrow_exception(failed_call_);
   }
 }
 

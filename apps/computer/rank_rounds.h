@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "nodes/ranks/errands.h"
-#include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/call_forwarder.h"
+#include "nodes/ranks/heartbeats.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/streams.h"
 
@@ -29,12 +29,12 @@ class RankRounds {
   /// What work() returns or throws, on a thread of its own: others know meanwhile that this rank lives.
   template <class Work>
   auto apart(const Work& work) {
-    return errands_.while_working(
-        work, [this] { look_after(); }, [this] { nodes::show_life(links_); });
+    return call_forwarder_.while_working(
+        work, [this] { look_after(); }, [this] { nodes::send_heartbeat(links_); });
   }
   /// From work apart: what is to be done on the communicating thread. After one that fails none is done any more, and all fail
   /// so: this rank and others would not know of each other where they are.
-  void here(const std::function<void()>& errand);
+  void here(const std::function<void()>& forwarded_call);
 
   /// What comes next is the same on all ranks: throws ProgramError where it is not rank 0's.
   void agree(const std::string& next);
@@ -48,8 +48,8 @@ class RankRounds {
   void look_after();
 
   nodes::RankLinks& links_;
-  nodes::Errands errands_;
-  std::exception_ptr failed_errand_;
+  nodes::CallForwarder call_forwarder_;
+  std::exception_ptr failed_call_;
   std::optional<nodes::StreamsToRanks> to_others_;
   std::optional<nodes::StreamFromHost> from_first_;
 };

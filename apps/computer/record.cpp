@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/time_parts.h"
-#include "apps/edge/show/trace/perfetto.h"
-#include "apps/edge/show/trace/view.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/time_parts.h"
+#include "apps/frontend/show/trace/perfetto.h"
+#include "apps/frontend/show/trace/view.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "svm/pages/packets.h"

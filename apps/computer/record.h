@@ -10,17 +10,17 @@
 #include "apps/computer/options.h"
 #include "apps/computer/packet_pairs.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/edge/run/run_view.h"
+#include "apps/frontend/run/run_view.h"
 #include "nodes/counters.h"
 #include "nodes/local_memory.h"
+#include "nodes/observers/trace.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/virtual/virtual_times.h"
-#include "nodes/watch/trace.h"
 #include "svm/pages/node_program.h"
+#include "svm/pages/observers/reference_log.h"
 #include "svm/pages/run_tasks.h"
 #include "svm/pages/task_heat.h"
 #include "svm/pages/task_plan.h"
-#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

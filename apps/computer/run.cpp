@@ -11,15 +11,15 @@
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/program_observer.h"
 #include "apps/computer/program_outputs.h"
-#include "apps/computer/program_watch.h"
 #include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/computer_room.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/computer_capacity.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "nodes/gathering.h"
 #include "nodes/program.h"
 #include "nodes/runner.h"
@@ -50,10 +50,10 @@ const HostedProgram& hosted(nodes::Runner& runner, std::size_t index) {
 
 /// Each node's program is made, on ranks everybody's.
 std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecification>& all, const ProgramOptions& options,
-                                           ProgramWatch& watch, RankRounds* rounds) {
+                                           ProgramObserver& observer, RankRounds* rounds) {
   const nodes::RankLinks* const links = options.computer.ranks;
   check_room(nodes::rank_memory(nodes::peers_of(all), links, links == nullptr ? 0 : links->rank()));
-  const auto make = [&] { return nodes::make_runner(all, options.computer, watch.observer()); };
+  const auto make = [&] { return nodes::make_runner(all, options.computer, observer.observer()); };
   if (rounds == nullptr) {
     return make();
   }
@@ -64,12 +64,12 @@ std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecific
 
 /// Who waits for whom, if all nodes stand still. To be called on all ranks.
 std::vector<std::vector<Unanswered>> awaited_of_all(nodes::Runner& runner, const ProgramPlan& plan) {
-  const auto told = runner.gather([&](std::size_t index) {
+  const auto reported = runner.gather([&](std::size_t index) {
     return index == plan.node_count() ? std::string() : flat_bytes(hosted(runner, index).node().awaited());
   });
   std::vector<std::vector<Unanswered>> awaited;
   for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
-    awaited.push_back(told[node].empty() ? std::vector<Unanswered>() : unanswered_from(told[node]));
+    awaited.push_back(reported[node].empty() ? std::vector<Unanswered>() : unanswered_from(reported[node]));
   }
   return awaited;
 }
@@ -82,9 +82,9 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
       throw Interrupted{};
     }
     return true;
-  } catch (const nodes::StandstillError& error) {
+  } catch (const nodes::DeadlockError& error) {
     const std::string circle = circle_text(awaited_of_all(runner, plan));
-    return is_first ? throw nodes::StandstillError(error.what() + circle) : false;
+    return is_first ? throw nodes::DeadlockError(error.what() + circle) : false;
   }
 }
 
@@ -94,20 +94,20 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
   std::vector<std::string> outcomes;
   nodes::gather_nodes(
       runner, plan.node_count(),
-      [&](std::size_t index, nodes::FlatWriter& told) {
+      [&](std::size_t index, nodes::FlatWriter& reported) {
         const HostedProgram& program = hosted(runner, index);
-        told.put(runner.node(index).counters());
-        told.put(program.charges());
-        told.put_all(program.node().used_bytes());
-        told.put_bytes(program.outcome(application.outcome));
+        reported.put(runner.node(index).counters());
+        reported.put(program.charges());
+        reported.put_all(program.node().used_bytes());
+        reported.put_bytes(program.outcome(application.outcome));
       },
-      [&](std::uint32_t node, nodes::FlatReader& told) {
+      [&](std::uint32_t node, nodes::FlatReader& reported) {
         ProgramNode& own = record.nodes.emplace_back();
-        own.counters = told.take<nodes::NodeCounters>();
-        own.charges = told.take<nodes::Charges>();
+        own.counters = reported.take<nodes::NodeCounters>();
+        own.charges = reported.take<nodes::Charges>();
         own.memory = plan.memory(node);
-        own.used_bytes = told.take_all<std::size_t>();
-        outcomes.emplace_back(told.take_bytes());
+        own.used_bytes = reported.take_all<std::size_t>();
+        outcomes.emplace_back(reported.take_bytes());
       });
   return outcomes;
 }
@@ -136,9 +136,9 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
     check_outputs(options, outputs);
   }
   const Vocabulary vocabulary = vocabulary_of(plan.needs());
-  ProgramWatch watch(options, vocabulary, {.node_count = plan.node_count()});
+  ProgramObserver observer(options, vocabulary, {.node_count = plan.node_count()});
   const std::vector<nodes::NodeSpecification> all = specifications(plan, application);
-  const auto runner = made_runner(all, options, watch, rounds);
+  const auto runner = made_runner(all, options, observer, rounds);
   ProgramRecord record{.name = call.name, .options = options, .vocabulary = vocabulary};
   Stopwatch stopwatch;
   if (!run_to_end(*runner, plan, interrupt, is_first)) {
@@ -146,8 +146,8 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
   }
   record.wall_seconds = stopwatch.lap();
   const std::vector<std::string> outcomes = gather_outcomes(record, *runner, plan, application);
-  const auto add = [&watch](std::string_view seen, const nodes::ClockDrift& clock) { watch.add(seen, clock); };
-  record.ranks = nodes::gather_rank_figures(*runner, all, options.computer.ranks, add, [&watch] { return watch.seen(); });
+  const auto add = [&observer](std::string_view seen, const nodes::ClockDrift& clock) { observer.add(seen, clock); };
+  record.ranks = nodes::gather_rank_figures(*runner, all, options.computer.ranks, add, [&observer] { return observer.seen(); });
   nodes::expect_nothing_lost(record.ranks);
   if (!is_first) {
     return 0;
@@ -157,7 +157,7 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
     if (record.network) {
       record.add(*record.network);
     }
-    watch.take(record);
+    observer.take(record);
     check_answers(record, plan);
     record.result = application.result(outcomes);
     return end_program(record, outputs);

@@ -11,17 +11,17 @@
 #include "apps/computer/on_ranks.h"
 #include "apps/computer/options.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/program_observer.h"
 #include "apps/computer/program_outputs.h"
-#include "apps/computer/program_watch.h"
 #include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/run/computer_room.h"
-#include "apps/edge/run/option_words.h"
-#include "apps/edge/system/digest.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/run/computer_capacity.h"
+#include "apps/frontend/run/option_words.h"
+#include "apps/frontend/system/digest.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "svm/pages/packets.h"
@@ -165,9 +165,9 @@ class AskedComputer final : public PagedComputer {
   std::uint32_t node_count() const override { return options_.computer.node_count; }
   std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
   /// Puts what was seen of the last run into the record. Call it once, in the end.
-  void take_sights() {
-    if (last_watch_) {
-      last_watch_->take(record_);
+  void take_run_profile() {
+    if (last_observer_) {
+      last_observer_->take(record_);
     }
   }
 
@@ -200,11 +200,11 @@ class AskedComputer final : public PagedComputer {
         with_options_named(computer_words, [&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
     const WatchedRun watched = {plan.node_count(), plan.pages().page_count, count};
-    last_watch_ = std::make_unique<ProgramWatch>(options_, record_.vocabulary, watched);
+    last_observer_ = std::make_unique<ProgramObserver>(options_, record_.vocabulary, watched);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {
       std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };
-    svm::TaskWatching watching = last_watch_->watching();
+    svm::TaskWatching watching = last_observer_->watching();
     watching.communicate = [this](const std::function<void()>& run) {
       rounds_->here([&] {
         rounds_->meet();
@@ -234,14 +234,14 @@ class AskedComputer final : public PagedComputer {
   ProgramRecord& record_;
   const Interrupt& interrupt_;
   RankRounds* rounds_;
-  std::unique_ptr<ProgramWatch> last_watch_;
+  std::unique_ptr<ProgramObserver> last_observer_;
 };
 
 int end_tasks(AskedComputer& computer, ProgramRecord& record, const ProgramOutputs& outputs) {
   if (record.tasks.run_count == 0) {
     throw ProgramError("no tasks were run");
   }
-  computer.take_sights();
+  computer.take_run_profile();
   return end_program(record, outputs);
 }
 

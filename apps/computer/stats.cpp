@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/computer/record.h"
-#include "apps/edge/line/json_format.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/stats/counters_json.h"
+#include "apps/frontend/line/json_format.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/stats/counters_json.h"
 
 namespace dmpc::apps {
 namespace {

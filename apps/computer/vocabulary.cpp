@@ -12,9 +12,9 @@ namespace {
 
 using core::Charge;
 
-constexpr std::array<Charge, task_operations_max> free_charges = {Charge::ray_setup,     Charge::cell_step,   Charge::brick_read,
-                                                                  Charge::triangle_test, Charge::sphere_test, Charge::cone_test,
-                                                                  Charge::shading,       Charge::ray_packing};
+constexpr std::array<Charge, task_operations_max> free_charges = {
+    Charge::ray_setup,   Charge::cell_step, Charge::bvh_node_read, Charge::triangle_test,
+    Charge::sphere_test, Charge::cone_test, Charge::shading,       Charge::ray_packing};
 
 NamedPacket named(svm::Kind kind) {
   std::string name = name_of(kind);

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "apps/edge/system/descriptor.h"
 #include "apps/foreign/mesh/scene_files.h"
+#include "apps/frontend/system/descriptor.h"
 
 namespace dmpc::apps {
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <string_view>
 
-#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/obj/reader.h"
 #include "apps/foreign/pbrt/reader.h"
@@ -11,6 +10,7 @@
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
+#include "apps/frontend/line/small_letters.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/memory_file.h"
 #include "apps/foreign/service.h"
+#include "apps/frontend/system/memory_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/lights.h"
@@ -16,6 +15,7 @@
 #include "apps/foreign/mesh/textures.h"
 #include "apps/formats/view_faults.h"
 #include "apps/formats/whole_view.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
 

@@ -54,7 +54,7 @@ void serve_one(const Message& request, Line& line, const std::function<void(cons
     serve(request, line);
   } catch (const std::bad_alloc&) {
     line.send(Saying::out_of_memory);
-  } catch (const core::RoomError& error) {
+  } catch (const core::CapacityError& error) {
     line.send(Saying::no_room, Packer().add_text(error.what()));
   } catch (const std::exception& error) {
     line.send(Saying::bad_input, Packer().add_text(error.what()));

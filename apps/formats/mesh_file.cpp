@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/edge/line/small_letters.h"
-#include "apps/edge/line/words.h"
 #include "apps/formats/mesh_session.h"
 #include "apps/formats/other_formats.h"
+#include "apps/frontend/line/small_letters.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -52,8 +52,8 @@ MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, boo
       throw core::InputError(how_to_convert(path));
     }
     return MeshSession(path, options, shows_progress, limits).read();
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(with_path(path, error.what()));
+  } catch (const core::CapacityError& error) {
+    throw core::CapacityError(with_path(path, error.what()));
   } catch (const core::InputError& error) {
     throw core::InputError(with_path(path, error.what()));
   }

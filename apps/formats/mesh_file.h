@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/opened_files.h"
 #include "apps/formats/mesh_options.h"
 #include "apps/formats/mesh_sky.h"
+#include "apps/frontend/system/opened_files.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -37,7 +37,7 @@ std::string known_mesh_formats();
 /// time, and whose crash is an error of the file's. Of what the file refers to only ordinary files beside or below it are opened,
 /// unless `options` allow others. Throws core::InputError "PATH: ..." for what cannot be read or makes no scene
 /// (apps/foreign/mesh/geometry.h, apps/foreign/gltf/places.h), has no triangle at all, or refers to files that cannot be had,
-/// unless `options` allow that; core::RoomError or std::bad_alloc if memory ends. `shows_progress` on stderr.
+/// unless `options` allow that; core::CapacityError or std::bad_alloc if memory ends. `shows_progress` on stderr.
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options = {}, bool shows_progress = false);
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits);
 

@@ -10,12 +10,12 @@
 #include <span>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/system/input_memory.h"
 #include "apps/formats/named_file.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/system/input_memory.h"
 #include "apps/picture/texture_file.h"
 #include "core/base/expect.h"
 #include "core/scene/texture.h"
@@ -101,10 +101,10 @@ MeshFile MeshSession::read() {
                            ": the file is damaged, or more than its reader can take; write it anew, or as another format");
   } catch (const Nonsense& nonsense) {
     throw core::InputError(std::string(nonsense.what()) + ": the file is damaged; write it anew, or as another format");
-  } catch (const core::RoomError& error) {
+  } catch (const core::CapacityError& error) {
     const std::string text = error.what();
     throw text.starts_with("took")
-        ? core::RoomError("the reader of " + format_of(path_) + " files " + text + ": make the scene smaller, or divide it")
+        ? core::CapacityError("the reader of " + format_of(path_) + " files " + text + ": make the scene smaller, or divide it")
         : error;
   }
   note_alpha();
@@ -165,7 +165,7 @@ bool MeshSession::answer(const Message& message) {
     throw core::InputError(Unpacker(message.bytes).take_text());
   }
   if (message.saying == Saying::no_room) {
-    throw core::RoomError(Unpacker(message.bytes).take_text());
+    throw core::CapacityError(Unpacker(message.bytes).take_text());
   }
   if (receiver_.take(message)) {
     return false;
@@ -186,7 +186,7 @@ void MeshSession::refuse_if_missing(const std::function<void()>& act) {
     throw;
   } catch (const Nonsense&) {
     throw;
-  } catch (const core::RoomError&) {  // nothing is missing
+  } catch (const core::CapacityError&) {  // nothing is missing
     throw;
   } catch (const core::InputError& error) {
     process_.send(Saying::no, Packer().add_text(error.what()));
@@ -335,7 +335,7 @@ void MeshSession::say_memory() const {
   const std::uint64_t bytes = estimated_reading_bytes(format_of(path_), file_bytes_);
   const std::string text =
       "dmpc: reading " + shown(path_) + " takes some " + bytes_text(bytes) + " of memory (half to twice that)";
-  if (const MemoryRoom room = memory_room(); bytes > room.bytes) {
+  if (const AvailableMemory room = available_memory(); bytes > room.bytes) {
     std::cerr << text + ", and " + room.source + " is " + bytes_text(room.bytes) + '\n';
   } else if (bytes >= much && shows_progress_ && stderr_is_terminal()) {
     std::cerr << clear_line << text + '\n';  // in place of the progress, which comes again below

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/scene_blocks.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
 #include "apps/reader/process.h"

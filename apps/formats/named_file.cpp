@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <system_error>
 
-#include "apps/edge/line/small_letters.h"
+#include "apps/frontend/line/small_letters.h"
 
 namespace dmpc::apps {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/system/text_input.h"
 #include "apps/formats/nff_tokens.h"
+#include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -29,7 +29,7 @@ inline constexpr int resolution_max = 65'535;
 /// pixels, points beyond view_coordinate_max, or an angle outside (0, 180); an empty stream; no view at all.
 core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max = picture_pixels_max);
 
-/// Reads a file; also throws for what is no file and no pipe (apps/edge/system/text_input.h). `progress`, if any, is called
+/// Reads a file; also throws for what is no file and no pipe (apps/frontend/system/text_input.h). `progress`, if any, is called
 /// now and then with the bytes read and the bytes of the file, unless that is a pipe or the like.
 core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max = picture_pixels_max,
                           const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});

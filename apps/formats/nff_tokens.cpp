@@ -6,9 +6,9 @@
 #include <istream>
 #include <optional>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/system/byte_order_mark.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

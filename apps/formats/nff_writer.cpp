@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "apps/edge/system/output_file.h"
+#include "apps/frontend/system/output_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "apps/edge/line/small_letters.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/small_letters.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 #include "core/database/record_writer.h"
 #include "core/record/record.h"
@@ -33,7 +33,7 @@ void check_database(std::uint64_t triangles) {
   constexpr std::uint64_t bytes = values * sizeof(float) + 2 * sizeof(std::uint32_t);  // a block's id and reference beside them
   constexpr double gibibyte = 0x1p30;
   if (triangles > core::RecordWriter::bytes_max / bytes) {
-    throw core::RoomError(
+    throw core::CapacityError(
         "its " + grouped(triangles) + " triangles need a database of at least " +
         fixed(static_cast<double>(triangles * bytes) / gibibyte, 1) + " GiB, and one has " +
         fixed(static_cast<double>(core::RecordWriter::bytes_max) / gibibyte, 0) +

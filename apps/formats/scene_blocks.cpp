@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
@@ -45,7 +45,7 @@ class BlockSender {
     const auto all = std::as_bytes(std::span(pool));
     for (std::size_t first = 0; first < all.size(); first += most) {
       const auto part = all.subspan(first, std::min(most, all.size() - first));
-      if (!hand_over(part, saying) && !send_messages(part, sizeof(T), saying)) {
+      if (!migration(part, saying) && !send_messages(part, sizeof(T), saying)) {
         return false;
       }
       const std::size_t before = std::min(first, page);  // of the page that the last part ended in
@@ -57,7 +57,7 @@ class BlockSender {
 
  private:
   /// Returns whether it has been taken from here; once it has not, nothing will be.
-  bool hand_over(std::span<const std::byte> part, Saying saying) {
+  bool migration(std::span<const std::byte> part, Saying saying) {
     if (handing_ == Handing::in_messages || part.size() <= message_bytes_max) {
       return false;
     }
@@ -350,9 +350,9 @@ void SceneReceiver::settle_instances() {
   check_instances();
   const std::uint64_t bytes = core::settled_size(scene_, instances_, copies_).bytes();
   if (bytes > limits_.expanded_bytes) {
-    throw core::RoomError("with every instance it takes " + bytes_text(bytes) + " of memory, and there are " +
-                          bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes" +
-                          (copies_ == core::Copies::put ? ", or have dmpc render keep each once (--instances=keep)" : ""));
+    throw core::CapacityError("with every instance it takes " + bytes_text(bytes) + " of memory, and there are " +
+                              bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes" +
+                              (copies_ == core::Copies::put ? ", or have dmpc render keep each once (--instances=keep)" : ""));
   }
   core::settle(scene_, std::exchange(instances_, {}), copies_);
   Unpacker::require(std::ranges::all_of(scene_.vertices, [](const Vec3d& point) { return is_in_reach(point); }));
@@ -368,7 +368,7 @@ void SceneReceiver::check_copies() const {
   for (const core::Scene& mesh : scene_.kept->meshes) {
     boxes.push_back(core::Box::around(mesh.vertices));
   }
-  for (const core::KeptPlace& place : scene_.kept->places) {
+  for (const core::BaseMeshInstance& place : scene_.kept->places) {
     Unpacker::require(is_in_reach(boxes[place.mesh], place.world));
   }
 }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/input_memory.h"
 #include "apps/formats/indexed_vertices.h"
+#include "apps/frontend/system/input_memory.h"
 #include "apps/reader/line.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
@@ -36,9 +36,9 @@ struct ReceivingLimits {
   std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every instance that is copied
 };
 
-/// Puts it together, with every instance expanded, or with copies of kept meshes left out. Throws Nonsense for what no scene may
+/// Puts it together, with every instance expanded, or with copies of base meshes left out. Throws Nonsense for what no scene may
 /// hold: more than was announced; an index, a count, a kind or a number out of its range; a view that shows nothing;
-/// core::RoomError if the instances need more than there is; std::bad_alloc if memory ends.
+/// core::CapacityError if the instances need more than there is; std::bad_alloc if memory ends.
 class SceneReceiver {
  public:
   explicit SceneReceiver(const ReceivingLimits& limits = {}, core::Copies copies = core::Copies::put)

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/machine/machines.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "core/families/scenes.h"

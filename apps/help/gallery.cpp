@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <iostream>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/glyphs.h"
 #include "apps/picture/image_file.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/picture/image_file.h"
 
 namespace dmpc::apps {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <ostream>
 
-#include "apps/edge/line/typed_line.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/typed_line.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/table/table.h"
 #include "apps/help/choices.h"
 #include "apps/help/gallery.h"
 #include "core/base/expect.h"

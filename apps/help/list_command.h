@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 
 namespace dmpc::apps {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
@@ -72,7 +72,7 @@ void add_options(OptionSet options, InfoOptions& info) {
     if (info.system) {
       settle(options, info);
     }
-    settle_instances(options, {info.system}, info.database, info.picture.staging.mesh);
+    settle_instances(options, {info.system}, info.database, info.picture.scene_setup.mesh);
     check_voxels(options, info.database.build);
     check_regions(options, info.balance);
   });
@@ -106,7 +106,7 @@ InfoRecord find_out(const InfoOptions& options) {
   record.loss = subject.loss;
   record.width = subject.settings.camera.width();
   record.height = subject.settings.camera.height();
-  record.room = memory_room();
+  record.room = available_memory();
   record.forecast = forecast_for(options, subject);
   return record;
 }

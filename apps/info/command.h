@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/run/systems.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"

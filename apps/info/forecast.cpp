@@ -1,6 +1,6 @@
 #include "apps/info/forecast.h"
 
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/run/strategy_options.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/run.h"
@@ -46,7 +46,7 @@ class Forecaster {
     }
   }
 
-  /// All computers added. The primary rays are dealt to all at one go.
+  /// All computers added. The primary rays are assigned to all at one go.
   Forecast result() {
     stopwatch_.lap();
     const auto shares = dataflow::measure_shares(settings_, partitions_, parts_, {}, true, request_for({}).pixel_order());
@@ -82,7 +82,7 @@ class Forecaster {
   }
 
   bool can_share_out(std::uint32_t node_count) const { return dataflow::can_share_out(loads_.lattice, node_count, balance_); }
-  /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
+  /// From the loads known already; on their nodes, since some primary rays are assigned to nodes by number.
   dataflow::Regions regions(std::uint32_t node_count) const {
     dataflow::Regions regions = dataflow::share_out(loads_, node_count, balance_).regions;
     if (dataflow::Bsp* const bsp = regions.bsp()) {

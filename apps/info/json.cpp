@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "apps/edge/line/json_format.h"
+#include "apps/frontend/line/json_format.h"
 #include "apps/info/record.h"
 #include "apps/run/strategy_options.h"
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 
 namespace dmpc::apps {
 
@@ -81,14 +81,14 @@ Json meshes_json(const InfoRecord& record) {
     return {};
   }
   const std::uint64_t here = record.database.bytes, otherwise = record.database.bytes_otherwise(meshes.stored_share);
-  const bool are_kept = record.database.instances > 0;
+  const bool are_instanced = record.database.instances > 0;
   return {{"count", meshes.count},
           {"places", meshes.places},
           {"triangles", meshes.triangles},
           {"placed_triangles", meshes.triangles_in_places},
-          {"kept_places", record.database.instances},
-          {"kept_bytes", are_kept ? here : otherwise},
-          {"expanded_bytes", are_kept ? otherwise : here}};
+          {"instances", record.database.instances},
+          {"instanced_bytes", are_instanced ? here : otherwise},
+          {"expanded_bytes", are_instanced ? otherwise : here}};
 }
 
 Json database_json(const DatabaseFigures& database) {
@@ -102,10 +102,10 @@ Json database_json(const DatabaseFigures& database) {
           {"page_size", database.page_size_bytes},
           {"bytes_per_primitive", each(database.bytes_each())},
           {"copies_per_primitive", each(database.copies_each())},
-          {"primitives_per_block", each(database.primitives_a_block())},
+          {"primitives_per_leaf", each(database.primitives_a_leaf())},
           {"cells", database.cells},
-          {"top_cells", database.top_cells},
-          {"occupied_top_cells", database.occupied_top_cells},
+          {"macro_cells", database.macro_cells},
+          {"occupied_macro_cells", database.occupied_macro_cells},
           {"levels_max", database.levels_max},
           {"records", records},
           {"unused_bytes", database.unused_bytes}};

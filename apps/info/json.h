@@ -12,7 +12,7 @@ struct InfoRecord;
 /// - program: name and version
 /// - scene: name or path
 /// - objects: polygon, patch, textured, sphere, cone (how many of each), total
-/// - primitives: count, dropped (degenerate ones: no area or length, radius 0, or not finite), copies (in blocks of all cells)
+/// - primitives: count, dropped (degenerate ones: no area or length, radius 0, or not finite), copies (in leaves of all cells)
 /// - rounding, what it takes from the picture, 0 where that is nothing: moved (primitives that may be off), moved_pixels (by how
 ///   much, at most), collapsed (of the dropped ones, those that have a size in the file), collapsed_pixels (the largest's)
 /// - bounds: low, high, extent; null if nothing is finite
@@ -21,9 +21,9 @@ struct InfoRecord;
 /// - lights, for each: light (what --light takes), position, color
 /// - materials: count, mirroring, transmitting, textured
 /// - textures, for each: name, width, height, levels, format, tiles, tile_bytes, table_bytes
-/// - database: bytes, pages, page_size, bytes_per_primitive, copies_per_primitive, primitives_per_block, cells and top_cells
-///   (along x, y, z), occupied_top_cells, levels_max (bricks from a top cell to a block), records (for each kind: kind, count,
-///   bytes), unused_bytes (between records)
+/// - database: bytes, pages, page_size, bytes_per_primitive, copies_per_primitive, primitives_per_leaf, cells and macro_cells
+///   (along x, y, z), occupied_macro_cells, levels_max (BVH nodes from a macro cell to a leaf), records (for each kind: kind,
+///   count, bytes), unused_bytes (between records)
 /// - build_peak: the most memory that this process held until the database was built, libraries included: a render holds
 ///   more than this, and more than `all` below
 /// - regions, of dataflow: balance (equal-size or subsampled)

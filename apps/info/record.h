@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "apps/edge/system/memory_room.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
 #include "apps/run/systems.h"
-#include "core/picture/rounding_loss.h"
+#include "core/picture/film/rounding_loss.h"
 
 namespace dmpc::apps {
 
@@ -20,7 +20,7 @@ struct InfoRecord {
   Forecast forecast;
   std::optional<System> system;                ///< that was asked about
   std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
-  MemoryRoom room;                             ///< for a render here
+  AvailableMemory room;                        ///< for a render here
   int width = 1, height = 1;                   ///< of the picture, in pixels
   double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
 };

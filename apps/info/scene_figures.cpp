@@ -8,7 +8,7 @@
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
@@ -25,13 +25,13 @@ ObjectCounts count_own(const core::Scene& scene) {
   return counts;
 }
 
-/// With all copies of kept meshes, whether the scene has them or not.
+/// With all copies of base meshes, whether the scene has them or not.
 ObjectCounts count_objects(const core::Scene& scene) {
   ObjectCounts counts = count_own(scene);
   if (leaves_copies_out(scene)) {
     std::vector<ObjectCounts> of_meshes;
     std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(of_meshes), count_own);
-    for (const core::KeptPlace& place : scene.kept->places) {
+    for (const core::BaseMeshInstance& place : scene.kept->places) {
       for (std::size_t kind = 0; kind < counts.size(); ++kind) {
         counts[kind] += place.has_copy ? 0 : of_meshes[place.mesh][kind];
       }
@@ -49,14 +49,14 @@ std::uint64_t triangle_count(const core::Scene& mesh) {
 }
 
 MeshFigures count_meshes(const core::Scene& scene) {
-  const core::KeptShare share = core::kept_share(scene);
+  const core::InstancingShare share = core::instancing_share(scene);
   MeshFigures figures{.places = share.places};
   if (share.places > 0) {
     std::vector<std::uint64_t> triangles;
     std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(triangles), triangle_count);
     figures.count = triangles.size();
     figures.triangles = std::accumulate(triangles.begin(), triangles.end(), std::uint64_t{0});
-    for (const core::KeptPlace& place : scene.kept->places) {
+    for (const core::BaseMeshInstance& place : scene.kept->places) {
       figures.triangles_in_places += triangles[place.mesh];
     }
     figures.stored_share = static_cast<double>(share.stored) / static_cast<double>(share.seen);

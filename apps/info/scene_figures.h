@@ -32,11 +32,11 @@ struct TextureFigures {
 /// "srgb", "srgb of 10 bits", "srgb with alpha" or "shared exponent".
 const char* name_of(core::TexelFormat format);
 
-/// Meshes of a scene that stand in several places of it (core/scene/kept_meshes.h).
+/// Meshes of a scene that stand in several places of it (core/scene/base_meshes.h).
 struct MeshFigures {
   std::uint64_t count = 0, places = 0;
   std::uint64_t triangles = 0, triangles_in_places = 0;  ///< of all of them once; of all places
-  double stored_share = 1;  ///< of the scene's corners, with each mesh once (core/scene/kept_meshes.h)
+  double stored_share = 1;  ///< of the scene's corners, with each mesh once (core/scene/base_meshes.h)
 };
 
 struct SceneFigures {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/table/table.h"
 #include "apps/info/record.h"
 #include "apps/run/strategy_options.h"
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 #include "apps/scene/subject.h"
 #include "nodes/size_text.h"
 
@@ -84,10 +84,10 @@ std::string meshes_line(const InfoRecord& record) {
   if (meshes.places == 0) {
     return "";
   }
-  const bool are_kept = record.database.instances > 0;
+  const bool are_instanced = record.database.instances > 0;
   return "\nmeshes     " + grouped(meshes.count) + " in " + counted(meshes.places, "place") + ": " +
          counted(meshes.triangles, "triangle") + " for " + grouped(meshes.triangles_in_places) +
-         (are_kept ? "; kept once in " + counted(record.database.instances, "place") + ", with a copy in each place about "
+         (are_instanced ? "; kept once in " + counted(record.database.instances, "place") + ", with a copy in each place about "
           : meshes.stored_share >= 1 ? "; a copy in each place, kept once no less than "
                                      : "; a copy in each place, kept once (--instances=keep) about ") +
          bytes_text(record.database.bytes_otherwise(meshes.stored_share)) + " of database";
@@ -98,17 +98,17 @@ std::string sizes_text(const std::array<std::int32_t, 3>& sizes) {
 }
 
 std::string grid_text(const DatabaseFigures& database) {
-  if (database.has_voxels && database.occupied_top_cells == 0) {
-    return sizes_text(database.top_cells) + " voxels, none of them with a list";
+  if (database.has_voxels && database.occupied_macro_cells == 0) {
+    return sizes_text(database.macro_cells) + " voxels, none of them with a list";
   }
   if (database.has_voxels) {
-    const double each = static_cast<double>(database.references) / static_cast<double>(database.occupied_top_cells);
-    return sizes_text(database.top_cells) + " voxels, " + grouped(database.occupied_top_cells) + " of them with lists, of " +
-           fixed(each, 2) + " blocks in the mean; " + fixed(database.primitives_a_block(), 2) + " primitives a block";
+    const double each = static_cast<double>(database.references) / static_cast<double>(database.occupied_macro_cells);
+    return sizes_text(database.macro_cells) + " voxels, " + grouped(database.occupied_macro_cells) + " of them with lists, of " +
+           fixed(each, 2) + " leaves in the mean; " + fixed(database.primitives_a_leaf(), 2) + " primitives a leaf";
   }
-  return sizes_text(database.cells) + " cells, " + sizes_text(database.top_cells) + " top cells, " +
-         grouped(database.occupied_top_cells) + " of them occupied; trees of up to " + counted(database.levels_max, "level") +
-         ", " + fixed(database.primitives_a_block(), 2) + " primitives a block";
+  return sizes_text(database.cells) + " cells, " + sizes_text(database.macro_cells) + " macro cells, " +
+         grouped(database.occupied_macro_cells) + " of them occupied; trees of up to " + counted(database.levels_max, "level") +
+         ", " + fixed(database.primitives_a_leaf(), 2) + " primitives a leaf";
 }
 
 std::string process_text(const InfoRecord& record) {

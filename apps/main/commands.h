@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "apps/edge/line/command_description.h"
+#include "apps/frontend/line/command_description.h"
 #include "apps/program/commands.h"
 
 namespace dmpc::apps {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/companion_path.h"
+#include "apps/frontend/system/companion_path.h"
 #include "apps/main/allocation.h"
 #include "apps/program/run_program.h"
 #include "core/base/expect.h"

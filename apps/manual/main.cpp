@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_description.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/manual/completion.h"
-#include "apps/edge/manual/man_page.h"
+#include "apps/frontend/line/command_description.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/manual/completion.h"
+#include "apps/frontend/manual/man_page.h"
 #include "apps/main/commands.h"
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"

@@ -1,7 +1,7 @@
 // The module dmpc_embree.so: what dmpc calls of Embree.
 
 #include "apps/oracle/embree.h"
-#include "apps/edge/system/module.h"
+#include "apps/frontend/system/module.h"
 
 namespace dmpc::apps::embree {
 namespace {

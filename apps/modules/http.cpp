@@ -22,16 +22,16 @@
 #include <thread>
 #include <vector>
 
-#include "apps/edge/system/module.h"
-#include "apps/edge/web/web_server.h"
+#include "apps/frontend/system/module.h"
+#include "apps/frontend/web/web_server.h"
 
 namespace dmpc::apps {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// As apps/edge/web/web_server.h has them.
-constexpr std::chrono::seconds request_patience{2}, deaf_patience{1}, end_patience{2};
+// As apps/frontend/web/web_server.h has them.
+constexpr std::chrono::seconds request_timeout{2}, deaf_timeout{1}, end_timeout{2};
 constexpr std::size_t request_bytes_max = std::size_t{32} << 10U, bytes_a_second_least = std::size_t{16} << 10U;
 /// Of what a request brings.
 constexpr std::size_t payload_bytes_max = 4096;
@@ -105,7 +105,7 @@ class Crew final : public httplib::TaskQueue {
 /// When a server ends.
 class End {
  public:
-  void come() { at_.store((Clock::now() + end_patience).time_since_epoch().count(), std::memory_order_relaxed); }
+  void come() { at_.store((Clock::now() + end_timeout).time_since_epoch().count(), std::memory_order_relaxed); }
   bool has_come() const { return at_.load(std::memory_order_relaxed) != never; }
   /// What nobody waits beyond.
   Clock::time_point last() const { return Clock::time_point(Clock::duration(at_.load(std::memory_order_relaxed))); }
@@ -141,9 +141,9 @@ class Connection final : public httplib::Stream {
 
   ssize_t write(const char* from, std::size_t size) override {
     const Clock::time_point begin = Clock::now();
-    const bool is_ready = wait_for(POLLOUT, begin + deaf_patience);
+    const bool is_ready = wait_for(POLLOUT, begin + deaf_timeout);
     waited_ += Clock::now() - begin;
-    if (!is_ready || waited_ > deaf_patience + std::chrono::seconds(sent_bytes_ / bytes_a_second_least)) {
+    if (!is_ready || waited_ > deaf_timeout + std::chrono::seconds(sent_bytes_ / bytes_a_second_least)) {
       return -1;
     }
     const ssize_t sent = ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -157,7 +157,7 @@ class Connection final : public httplib::Stream {
 
  private:
   bool fill() {
-    if (read_bytes_ >= request_bytes_max || !wait_for(POLLIN, begin_ + request_patience)) {
+    if (read_bytes_ >= request_bytes_max || !wait_for(POLLIN, begin_ + request_timeout)) {
       return false;
     }
     const ssize_t count = ::recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);

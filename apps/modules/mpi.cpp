@@ -18,12 +18,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/ranks/mpi_library.h"
-#include "apps/edge/system/module.h"
+#include "apps/frontend/ranks/mpi_library.h"
+#include "apps/frontend/system/module.h"
 #include "core/base/expect.h"
 #include "core/base/usual_arithmetic.h"
+#include "nodes/ranks/backoff.h"
 #include "nodes/ranks/fabric.h"
-#include "nodes/ranks/nap.h"
 
 namespace dmpc::apps {
 namespace {
@@ -216,23 +216,23 @@ nodes::Fabric& make_fabric(std::size_t frame_bytes, const std::vector<std::strin
 /// Takes and drops what comes, as its senders wait for that, until is_over() or the time is over; returns whether it is.
 template <class IsOver>
 bool drop_until(std::chrono::steady_clock::time_point end, const IsOver& is_over) {
-  nodes::Nap nap;
+  nodes::Backoff backoff;
   while (!is_over()) {
     if (std::chrono::steady_clock::now() > end) {
       return false;
     }
     if (fabric && fabric->take()) {
-      nap.end();
+      backoff.end();
       continue;
     }
-    const timespec time{.tv_sec = 0, .tv_nsec = nap.next().count()};
+    const timespec time{.tv_sec = 0, .tv_nsec = backoff.next().count()};
     ::nanosleep(&time, nullptr);
   }
   return true;
 }
 
-bool finish(std::chrono::milliseconds patience) {
-  const auto end = std::chrono::steady_clock::now() + patience;
+bool finish(std::chrono::milliseconds timeout) {
+  const auto end = std::chrono::steady_clock::now() + timeout;
   if (!drop_until(end, [] { return !fabric || fabric->has_sent_all(); })) {
     return false;
   }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "apps/edge/system/module.h"
+#include "apps/frontend/system/module.h"
 #include "apps/oracle/curved.h"
 #include "core/base/expect.h"
 

@@ -6,7 +6,7 @@
 #include "apps/oracle/curved.h"
 #include "apps/oracle/embree.h"
 #include "core/record/instance.h"
-#include "core/trace/placed_block.h"
+#include "core/trace/placed_leaf.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {
@@ -123,13 +123,13 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
 
 namespace {
 
-/// t of lane `lane` of the block at `record` by our own kernels.
+/// t of lane `lane` of the leaf at `record` by our own kernels.
 float distance_in(const core::Ray& ray, const std::byte* record, std::uint32_t lane) {
-  core::BlockHeader header;
+  core::LeafHeader header;
   std::memcpy(&header, record, sizeof(header));
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
   const auto shared_distance = [&] {
-    float times[core::block_lanes] = {};
+    float times[core::leaf_lanes] = {};
     core::hit_shared_faces(core::ShearedRay(ray), record, core::no_primitive, ray.t_max, times);
     return times[lane];
   };
@@ -145,10 +145,10 @@ float distance_in(const core::Ray& ray, const std::byte* record, std::uint32_t l
 /// By our own kernels, so that its bits do not depend on who named the primitive. Where they deny the hit (the ray brushes the
 /// silhouette), Embree's t stays.
 float EmbreeTracer::own_distance(const core::Ray& ray, const core::Hit& hit) const {
-  const std::byte* record = find(hit.block);
-  core::PlacedBlock placed;
+  const std::byte* record = find(hit.leaf);
+  core::PlacedLeaf placed;
   if (is_in_instance(hit)) {
-    placed.place(record, core::MeshPlace(core::read<core::InstanceRecord>(find(instance_of(hit))), *frame_));
+    placed.place(record, core::PlacedMesh(core::read<core::InstanceRecord>(find(instance_of(hit))), *frame_));
     record = placed.record();
   }
   const float t = distance_in(ray, record, hit.lane & core::lane_mask);
@@ -166,7 +166,7 @@ core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, cor
     return core::Traced::miss;
   }
   const core::Database::Place place = places_[best.primitive];
-  best.block = place.block;
+  best.leaf = place.leaf;
   best.lane = place.lane;
   best.t = own_distance(ray, best);
   return core::Traced::hit;

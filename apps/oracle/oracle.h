@@ -13,7 +13,7 @@
 
 namespace dmpc::apps {
 
-/// Embree's own two settings: `robust` avoids leaks along edges and is what our grid is compared with; `fast` is the rival.
+/// Embree's own two settings: `robust` avoids leaks along edges and is what our grid is compared with; `fast` is the baseline.
 enum class EmbreeMode : std::uint8_t { robust, fast };
 
 /// All primitives of a database as an Embree scene: one triangle mesh without shared vertices, and one user geometry of spheres
@@ -28,7 +28,7 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   /// The hit with the least (t, primitive) in (0, ray.t_max) by Embree's own t, the triangle ray.ignored_primitive left out;
-  /// `block` and `lane` stay unset. Among equal t Embree may have culled a lower id before it was tested. NaN or infinite rays
+  /// `leaf` and `lane` stay unset. Among equal t Embree may have culled a lower id before it was tested. NaN or infinite rays
   /// miss.
   core::Hit closest(const core::Ray& ray) const;
   /// Whether anything but the triangle ray.ignored_primitive lies in (0, ray.t_max). NaN or infinite rays are free.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/picture/image_file.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 
 namespace dmpc::apps {
 

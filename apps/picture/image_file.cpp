@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
-#include "apps/edge/line/small_letters.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/line/small_letters.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/picture/exr_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/picture/png_file.h"
@@ -32,7 +32,7 @@ struct PictureValues {
 
 /// Its process, dmpc_picture_writer, starts at the first call and waits until the end, so that a picture that is done has a
 /// writer: where it has died another is started. Both throw core::InternalError or
-/// InstallationError where there is none, and core::RoomError where this computer has no room for it. Not
+/// InstallationError where there is none, and core::CapacityError where this computer has no room for it. Not
 /// thread-safe.
 class PictureWriter {
  public:
@@ -180,10 +180,10 @@ std::string file_of(const fs::path& path, const Image& image) {
                               .values = are_floats ? std::as_bytes(std::span(image.rgb)) : std::as_bytes(std::span(bytes))};
   try {
     return picture_writer().file_of(path.string(), picture);
-  } catch (const ComputerRoomError&) {
+  } catch (const ComputerCapacityError&) {
     throw;
-  } catch (const core::RoomError&) {
-    throw ComputerRoomError(path.string() + ": there is no memory to write it");
+  } catch (const core::CapacityError&) {
+    throw ComputerCapacityError(path.string() + ": there is no memory to write it");
   } catch (const core::InputError& error) {
     throw core::InputError(path.string() + ": " + error.what());
   }

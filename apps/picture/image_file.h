@@ -50,8 +50,8 @@ struct Channel {
 
 /// Throws core::InputError unless a picture can be written at `path`: the extension is .exr, .png, or one that OpenImageIO
 /// writes, `path` is no pipe or device, a file can be made there as check_output_path() says, and the format holds a picture of
-/// one pixel; InstallationError or ComputerRoomError if what would write it cannot be loaded. Then it is, so nothing is left to
-/// fail for that after a render. `option` names the option that gave it, for the message.
+/// one pixel; InstallationError or ComputerCapacityError if what would write it cannot be loaded. Then it is, so nothing is left
+/// to fail for that after a render. `option` names the option that gave it, for the message.
 void check_image_path(const std::filesystem::path& path, std::string_view option);
 
 /// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other

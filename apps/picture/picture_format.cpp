@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/edge/line/small_letters.h"
+#include "apps/frontend/line/small_letters.h"
 
 namespace dmpc::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/system/descriptor.h"
+#include "apps/frontend/system/descriptor.h"
 
 namespace dmpc::apps {
 

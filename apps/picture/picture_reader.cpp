@@ -9,9 +9,9 @@
 #include <cstring>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/input_memory.h"
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/picture/picture_format.h"
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
@@ -57,7 +57,7 @@ PictureFile open_picture(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     ending.erase(0, 1);
     return {std::move(file.descriptor), file.bytes, path.string(), ending, true};
-  } catch (const ComputerRoomError&) {
+  } catch (const ComputerCapacityError&) {
     throw;
   } catch (const core::InputError& error) {
     throw core::InputError(path.string() + ": " + error.what());
@@ -133,16 +133,16 @@ void PictureReader::read(const PictureFile& file, const Request& request, const 
     process_.reset();
     throw core::InputError(file.name + ": the reader of " + format + " " + death.what() +
                            ": the file is damaged; write it anew, or as another format");
-  } catch (const ComputerRoomError& error) {
+  } catch (const ComputerCapacityError& error) {
     process_.reset();
-    throw ComputerRoomError(file.name + ": " + error.what());
-  } catch (const core::RoomError& error) {
+    throw ComputerCapacityError(file.name + ": " + error.what());
+  } catch (const core::CapacityError& error) {
     process_.reset();
     const std::string text = file.name + ": the reader of " + format + " " + error.what();
     if (memory_bytes_for(file.bytes) < reader_memory_bytes_max()) {
       throw core::InputError(text + " for a file of " + std::to_string(file.bytes) + " bytes: it is damaged");
     }
-    throw core::RoomError(text + ": make the picture smaller");
+    throw core::CapacityError(text + ": make the picture smaller");
   } catch (const Nonsense& nonsense) {
     process_.reset();
     throw core::InputError(file.name + ": " + nonsense.what() + ": the file is damaged; write it anew, or as another format");
@@ -197,8 +197,9 @@ void PictureReader::take_room(const Head& head, std::uint64_t& taken) const {
   const std::uint64_t most = memory_bytes_max();
   taken += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);
   if (taken > most) {
-    throw ComputerRoomError("with its " + size_text(head.width, head.height) + " texels the scene's textures take " +
-                            mebibytes_text(taken) + ", and there is room for " + mebibytes_text(most) + ": make them smaller");
+    throw ComputerCapacityError("with its " + size_text(head.width, head.height) + " texels the scene's textures take " +
+                                mebibytes_text(taken) + ", and there is room for " + mebibytes_text(most) +
+                                ": make them smaller");
   }
 }
 
@@ -216,9 +217,9 @@ void PictureReader::check_sky(const Head& head) const {
   }
   const std::uint64_t bytes = std::uint64_t{head.width} * head.height * texel_bytes;
   if (bytes + texture_bytes_ > memory_bytes_max()) {
-    throw ComputerRoomError("a sky of " + size + " texels takes " + mebibytes_text(bytes) +
-                            (texture_bytes_ == 0 ? "" : ", the scene's textures " + mebibytes_text(texture_bytes_)) +
-                            ", and there is room for " + mebibytes_text(memory_bytes_max()) + ": make it smaller");
+    throw ComputerCapacityError("a sky of " + size + " texels takes " + mebibytes_text(bytes) +
+                                (texture_bytes_ == 0 ? "" : ", the scene's textures " + mebibytes_text(texture_bytes_)) +
+                                ", and there is room for " + mebibytes_text(memory_bytes_max()) + ": make it smaller");
   }
 }
 

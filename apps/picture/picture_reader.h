@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "apps/edge/system/descriptor.h"
+#include "apps/frontend/system/descriptor.h"
 #include "apps/picture/image_file.h"
 #include "apps/picture/texture_file.h"
 #include "apps/reader/process.h"
@@ -31,8 +31,8 @@ PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name
 /// Keeps its process from one picture to the next, as long as that lives: one that reads PNG, JPEG and EXR alone, until one
 /// comes that it does not read, and from then on that which reads all, and takes long to start. All pictures together have one
 /// budget of time, which their bytes alone renew, and textures one of memory, which is looked at before there is room for one.
-/// All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no room for the process or
-/// for the picture.
+/// All throw core::InputError "NAME: ...", and core::CapacityError, which says so, if this computer has no room for the process
+/// or for the picture.
 class PictureReader {
  public:
   explicit PictureReader(const ReaderLimits& limits = {}) : budget_(limits) {}
@@ -48,7 +48,7 @@ class PictureReader {
   /// database, has no texels, several layers, or several samples a texel.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
   /// Adds up what the textures of a scene take, by what stands before their pixels: read_texture() of all comes later. Throws
-  /// core::RoomError at the one that is too much, named and with both sizes, core::InputError where it cannot be told.
+  /// core::CapacityError at the one that is too much, named and with both sizes, core::InputError where it cannot be told.
   void weigh_texture(const PictureFile& file);
   /// How many of the textures had alpha that is not shown, of those where that is to be said.
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }

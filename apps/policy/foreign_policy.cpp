@@ -11,10 +11,10 @@
 #include <optional>
 #include <string_view>
 
-#include "apps/edge/system/child_process.h"
-#include "apps/edge/system/companion_path.h"
-#include "apps/edge/system/memory_file.h"
-#include "apps/edge/system/trusted_path.h"
+#include "apps/frontend/system/child_process.h"
+#include "apps/frontend/system/companion_path.h"
+#include "apps/frontend/system/memory_file.h"
+#include "apps/frontend/system/trusted_path.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
 #include "svm/pages/replacement.h"
@@ -98,7 +98,7 @@ std::uint64_t number_in(const std::string& line) {
 
 /// Whatever goes wrong with a policy is told with what names it.
 template <class Do>
-auto told_of(const std::string& place, const Do& made) {
+auto reported_of(const std::string& place, const Do& made) {
   try {
     return made();
   } catch (const core::InputError& error) {
@@ -109,7 +109,7 @@ auto told_of(const std::string& place, const Do& made) {
 }  // namespace
 
 ForeignPolicy::ForeignPolicy(const std::string& place, const std::function<void()>& check) : place_(place) {
-  told_of(place, [&] {
+  reported_of(place, [&] {
     path_ = place;
     if (place.starts_with(python)) {
       const std::size_t colon = place.rfind(':');
@@ -131,7 +131,7 @@ ForeignPolicy::ForeignPolicy(const std::string& place, const std::function<void(
 std::vector<std::uint64_t> ForeignPolicy::misses(std::span<const svm::PageId> references,
                                                  std::span<const std::uint32_t> cache_pages, std::uint32_t node,
                                                  const std::function<void()>& check, const std::function<void()>& fed) const {
-  return told_of(place_, [&] {
+  return reported_of(place_, [&] {
     const std::vector<std::string> lines = answers(references, cache_pages, node, check, fed);
     std::vector<std::uint64_t> misses;
     std::transform(lines.begin() + 1, lines.end(), std::back_inserter(misses), number_in);
@@ -156,22 +156,22 @@ std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> ref
     settings.arguments = {"-I", "-X", "utf8", "-c", policy_driver, path_, class_name_};
   }
   ChildProcess process(settings);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   const auto take = [&] {
     std::vector<std::string> lines = lines_of(answer.bytes());
-    for (; told + 1 < lines.size() && told < cache_pages.size(); ++told) {
+    for (; reported + 1 < lines.size() && reported < cache_pages.size(); ++reported) {
       fed();
     }
     return lines;
   };
   std::optional<int> status;
-  for (int nap_ms = 1; !(status = process.status()); nap_ms = std::min(2 * nap_ms, 100)) {
+  for (int backoff_ms = 1; !(status = process.status()); backoff_ms = std::min(2 * backoff_ms, 100)) {
     check();
     take();
     if (process.errors().size() > said_bytes_max || answer.bytes().size() > said_bytes_max) {
       throw core::InputError("it prints more than a megabyte, expected no more than a complaint");
     }
-    ::poll(nullptr, 0, nap_ms);
+    ::poll(nullptr, 0, backoff_ms);
   }
   std::vector<std::string> lines = take();
   if (*status != 0 || lines.size() != 1 + cache_pages.size()) {

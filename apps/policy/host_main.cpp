@@ -18,12 +18,12 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/system/module.h"
-#include "apps/edge/system/trusted_path.h"
+#include "apps/frontend/system/module.h"
+#include "apps/frontend/system/trusted_path.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
+#include "svm/pages/observers/optimum.h"
 #include "svm/pages/replacement.h"
-#include "svm/pages/watch/optimum.h"
 
 namespace dmpc::apps {
 namespace {
@@ -174,7 +174,7 @@ nodes::MemoryPlan nothing(std::uint32_t /*frame_count*/) { return {}; }
 std::unique_ptr<svm::ReplacementPolicy> made(const svm::PolicySite& site) { return std::make_unique<LibraryPolicy>(site); }
 
 /// Opens the library at `path` and tells `answer` its policy's name, then the faults of each cache. Once in a process. Throws
-/// core::InputError: the file may not be opened (apps/edge/system/trusted_path.h), is no library, has no policy or that of
+/// core::InputError: the file may not be opened (apps/frontend/system/trusted_path.h), is no library, has no policy or that of
 /// another version, or the policy complains, throws, or names a frame that there is not.
 void answer_by_library(const std::string& path, const PolicyRequest& request,
                        const std::function<void(const std::string& line)>& answer) {
@@ -191,15 +191,15 @@ bool is_done = false;
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
 /// Without memory, and perhaps on another stack.
-void tell_of_end(const char* how) {
+void report_of_end(const char* how) {
   const char* const call = policy_call_under_way();
   say(*call == '\0' ? "its library" : call);
   say(": ");
   say(how);
 }
 
-void tell_of_crash(int signal) {
-  tell_of_end("it crashed (");
+void report_of_crash(int signal) {
+  report_of_end("it crashed (");
   say(signal == SIGSEGV  ? "SIGSEGV"
       : signal == SIGBUS ? "SIGBUS"
       : signal == SIGFPE ? "SIGFPE"
@@ -209,9 +209,9 @@ void tell_of_crash(int signal) {
   ::_exit(1);
 }
 
-void tell_of_exit() {
+void report_of_exit() {
   if (!is_done) {
-    tell_of_end("it ended the process");
+    report_of_end("it ended the process");
     ::_exit(1);
   }
 }
@@ -221,12 +221,12 @@ void watch_over_crashes() {
   const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
   ::sigaltstack(&other, nullptr);
   struct sigaction action {};
-  action.sa_handler = tell_of_crash;
+  action.sa_handler = report_of_crash;
   action.sa_flags = SA_ONSTACK | SA_RESETHAND;
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     ::sigaction(signal, &action, nullptr);
   }
-  static_cast<void>(std::atexit(tell_of_exit));
+  static_cast<void>(std::atexit(report_of_exit));
 }
 
 /// Answers go where stdout went; what the library prints there goes to stderr.

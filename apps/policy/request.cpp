@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -18,7 +18,7 @@ void write_all(int file, const void* from, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(file, at, count);
     if (written < 0 && errno != EINTR) {
-      throw ComputerRoomError(std::string("the references cannot be kept in memory for a policy: ") + std::strerror(errno));
+      throw ComputerCapacityError(std::string("the references cannot be kept in memory for a policy: ") + std::strerror(errno));
     }
     at += written < 0 ? 0 : written;
     count -= written < 0 ? 0 : static_cast<std::size_t>(written);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/system/memory_file.h"
+#include "apps/frontend/system/memory_file.h"
 #include "svm/pages/page.h"
 
 namespace dmpc::apps {

@@ -5,14 +5,14 @@
 #include <string_view>
 #include <variant>
 
-#include "apps/edge/help/glossary.h"
-#include "apps/edge/line/help_text.h"
-#include "apps/edge/line/typed_line.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/system/output_file.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/frontend/help/glossary.h"
+#include "apps/frontend/line/help_text.h"
+#include "apps/frontend/line/typed_line.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/system/output_file.h"
 #include "apps/help/choices.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"

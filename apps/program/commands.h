@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/ranks/launcher.h"
-#include "apps/edge/ranks/rank_group.h"
-#include "apps/edge/run/runner_kind.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/ranks/launcher.h"
+#include "apps/frontend/ranks/rank_group.h"
+#include "apps/frontend/run/runner_kind.h"
+#include "apps/frontend/system/interrupt.h"
 
 namespace dmpc::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/edge/machine/machine_command.h"
+#include "apps/frontend/machine/machine_command.h"
 #include "apps/help/list_command.h"
 #include "apps/info/command.h"
 #include "apps/program/commands.h"

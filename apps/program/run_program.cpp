@@ -11,16 +11,16 @@
 #include <system_error>
 #include <vector>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/ranks/rank_group.h"
-#include "apps/edge/system/companion_path.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/last_words.h"
-#include "apps/edge/system/memory_room.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/surroundings.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/ranks/rank_group.h"
+#include "apps/frontend/system/available_memory.h"
+#include "apps/frontend/system/companion_path.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/system/last_words.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/surroundings.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -47,7 +47,7 @@ int complain_of_bug(const std::exception& error) {
     return complain(
         "building and reading take a thread for each processor, and this computer lets dmpc start no further one: ask for "
         "a higher limit (ulimit -u, pids.max of a container)",
-        no_room_status);
+        no_capacity_status);
   }
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
 }
@@ -65,8 +65,8 @@ int run(Parse parse, const std::vector<std::string>& arguments, Interrupt& inter
   } catch (const BrokenPipe&) {
     has_broken_pipe = true;
     return input_status;
-  } catch (const core::RoomError& error) {
-    return complain(error.what(), no_room_status);
+  } catch (const core::CapacityError& error) {
+    return complain(error.what(), no_capacity_status);
   } catch (const core::InputError& error) {
     return complain(error.what(), input_status);
   } catch (const core::UsageError& error) {
@@ -111,8 +111,8 @@ int run_program(Parse parse, int count, char** values) {
     return status;
   } catch (const std::bad_alloc&) {
     return complain_of_memory();
-  } catch (const core::RoomError& error) {
-    return complain(error.what(), no_room_status);
+  } catch (const core::CapacityError& error) {
+    return complain(error.what(), no_capacity_status);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 
 namespace dmpc::apps {
 

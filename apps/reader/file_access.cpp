@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -56,7 +56,7 @@ InputFile FileAccess::open(const fs::path& path) {
     open_input_file(file);
     opened_.add_resolved(file.resolved);
     return file;
-  } catch (const ComputerRoomError&) {
+  } catch (const ComputerCapacityError&) {
     throw;
   } catch (const core::InputError& error_found) {
     throw core::InputError(path.string() + " " + error_found.what());

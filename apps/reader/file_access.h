@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/reader/input_file.h"
 
 namespace dmpc::apps {
@@ -16,7 +16,7 @@ class FileAccess {
   /// Finds the scene's file. Throws core::InputError, a sentence that goes on "SCENE: ...", if there is none.
   FileAccess(const std::filesystem::path& scene, bool anywhere);
 
-  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened; ComputerRoomError if
+  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened; ComputerCapacityError if
   /// no further file can be open.
   InputFile open(const std::filesystem::path& path);
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

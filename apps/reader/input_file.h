@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "apps/edge/system/descriptor.h"
+#include "apps/frontend/system/descriptor.h"
 
 namespace dmpc::apps {
 
@@ -18,8 +18,8 @@ struct InputFile {
 bool is_ordinary_file(const std::filesystem::path& path);
 
 /// Finds the file without opening it for reading: opening a device may do things, and opening a pipe may wait. Throws
-/// core::InputError, a sentence that goes on "PATH: ...", if there is none or if it is no ordinary file, and ComputerRoomError if
-/// no further file can be open.
+/// core::InputError, a sentence that goes on "PATH: ...", if there is none or if it is no ordinary file, and
+/// ComputerCapacityError if no further file can be open.
 InputFile find_input_file(const std::filesystem::path& path);
 
 /// Opens what was found, and nothing else, for reading. Throws core::InputError likewise.

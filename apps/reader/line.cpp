@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/system/descriptor.h"
+#include "apps/frontend/system/descriptor.h"
 #include "apps/reader/packing.h"
 #include "apps/reader/saying.h"
 
@@ -45,7 +45,7 @@ class Line {
 /// In as many messages as they take. Returns whether they were sent: not if the other end is closed.
 bool send_bytes(std::span<const std::byte> bytes, Line& line);
 
-/// Both ends; closed when another program is started. Throws ComputerRoomError if none can be had.
+/// Both ends; closed when another program is started. Throws ComputerCapacityError if none can be had.
 std::pair<Descriptor, Descriptor> make_ends();
 
 }  // namespace dmpc::apps

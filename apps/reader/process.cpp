@@ -16,11 +16,11 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/companion_path.h"
-#include "apps/edge/system/memory_file.h"
-#include "apps/edge/system/memory_room.h"
-#include "apps/edge/system/shortage.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/available_memory.h"
+#include "apps/frontend/system/companion_path.h"
+#include "apps/frontend/system/memory_file.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
@@ -210,8 +210,8 @@ Message ReaderProcess::receive() {
     end("ended without a word");
   }
   if (message->saying == Saying::out_of_memory) {
-    const std::uint64_t most = std::min(memory_bytes_, memory_room().bytes);  // addresses of a large file are not all memory
-    throw core::RoomError("took more than the " + mebibytes_text(most) + " of memory that it may take");
+    const std::uint64_t most = std::min(memory_bytes_, available_memory().bytes);  // addresses of a large file are not all memory
+    throw core::CapacityError("took more than the " + mebibytes_text(most) + " of memory that it may take");
   }
   return std::move(*message);
 }

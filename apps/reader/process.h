@@ -23,7 +23,7 @@ class ReaderProcess {
  public:
   /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start, and from then on
   /// the time that `budget` has, which outlives it. What this computer does not confine it by is said, once. Throws
-  /// core::InternalError if there is no such program or if it does not get ready, ComputerRoomError if this computer lets it
+  /// core::InternalError if there is no such program or if it does not get ready, ComputerCapacityError if this computer lets it
   /// not, core::InputError where it is confined by less than the budget's sandbox asks for.
   ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget);
   ~ReaderProcess();
@@ -34,7 +34,7 @@ class ReaderProcess {
   void send(Saying saying, const Packer& fields = {}, const Descriptor* file = nullptr, std::uint64_t file_bytes = 0);
   /// After a request, in as many messages as they take; waits while it does not take them. Throws ReaderDeath if it has ended.
   void send_bytes(std::span<const std::byte> bytes);
-  /// The next message. Throws ReaderDeath if it has ended or takes too long, core::RoomError if its memory ended.
+  /// The next message. Throws ReaderDeath if it has ended or takes too long, core::CapacityError if its memory ended.
   Message receive();
   /// Fills `room` with what lies at `address` of its memory, once and for all: what the reader does to it meanwhile may show,
   /// what it does later does not. Returns false if there is not so much, if what all becomes of which a byte becomes `growth` is

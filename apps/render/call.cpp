@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "apps/edge/line/parsed_number.h"
+#include "apps/frontend/line/parsed_number.h"
 #include "apps/oracle/oracle.h"
 #include "apps/render/outputs.h"
 #include "apps/run/run_strategy.h"
@@ -28,9 +28,9 @@ void RenderCall::say(const std::vector<std::string>& notes) const {
   }
 }
 
-void RenderCall::tell_once(const std::vector<std::string>& notes) {
+void RenderCall::report_once(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    if (!note.empty() && told.insert(note).second) {
+    if (!note.empty() && reported.insert(note).second) {
       std::cerr << "dmpc: " << note << '\n';
     }
   }

@@ -9,15 +9,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "apps/edge/system/file_lock.h"
-#include "apps/edge/system/files.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/file_lock.h"
+#include "apps/frontend/system/files.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/frame_files.h"
 #include "apps/render/frame_scenes.h"
 #include "apps/render/live_view.h"
 #include "apps/run/render_options.h"
-#include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/heartbeats.h"
 
 namespace dmpc::apps {
 
@@ -31,14 +31,14 @@ struct RenderCall {
   /// Those of `notes` that say something, unless quiet.
   void say(const std::vector<std::string>& notes) const;
   /// Those of `notes` that say something, and have not been said of a frame before.
-  void tell_once(const std::vector<std::string>& notes);
+  void report_once(const std::vector<std::string>& notes);
   /// What an interruption means from now on, while a picture comes.
   void set_consequence();
 
   /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
   template <class Work>
   std::invoke_result_t<const Work&> apart(const Work& work) const {
-    return asked.computer.ranks == nullptr ? work() : nodes::with_life_signs(*asked.computer.ranks, work);
+    return asked.computer.ranks == nullptr ? work() : nodes::with_heartbeats(*asked.computer.ranks, work);
   }
 
   const RenderOptions asked;  ///< with names for all frames
@@ -49,7 +49,7 @@ struct RenderCall {
   std::optional<FileLock> lock;    ///< on the checkpoint
   std::unique_ptr<LiveView> live;  ///< outlives all that it looks on at
   std::optional<Checkpoints> checkpoints;
-  std::set<std::string> told;  ///< what is said once
+  std::set<std::string> reported;  ///< what is said once
 };
 
 /// Takes what can be had before the scene is: paths, libraries, the checkpoint's lock, the port at which browsers look on. Throws

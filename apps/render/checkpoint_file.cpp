@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/digest.h"
-#include "apps/edge/system/file_source.h"
+#include "apps/frontend/system/digest.h"
+#include "apps/frontend/system/file_source.h"
 #include "apps/picture/film_image.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"

@@ -8,9 +8,9 @@
 
 #include <filesystem>
 
-#include "apps/edge/system/output_file.h"
+#include "apps/frontend/system/output_file.h"
 #include "apps/render/picture_identity.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/render/checkpoint_file.h"
 #include "core/base/expect.h"
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <stop_token>
 
-#include "apps/edge/system/file_lock.h"
-#include "apps/edge/system/files.h"
+#include "apps/frontend/system/file_lock.h"
+#include "apps/frontend/system/files.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/checkpoint_options.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 
 namespace dmpc::apps {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/ranks/rank_group.h"
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/ranks/rank_group.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/render/outputs.h"
 #include "apps/render/ranks.h"
 #include "apps/render/self_test.h"
@@ -69,7 +69,7 @@ int render_all(RenderCall& call, const DueFrames& frames, std::optional<DueFrame
   return written.status;
 }
 
-void tell_end(const RenderCall& call, const std::string& said) {
+void notify_end(const RenderCall& call, const std::string& said) {
   if (call.live) {
     call.live->end({.said = said});
   }
@@ -88,10 +88,10 @@ int render_here(const RenderOptions& options, Interrupt& interrupt, std::ostream
   try {
     return render_all(call, frames, first);
   } catch (const Interrupted&) {
-    tell_end(call, "The run was interrupted: " + std::string(interrupt.consequence()) + ".");
+    notify_end(call, "The run was interrupted: " + std::string(interrupt.consequence()) + ".");
     throw;
   } catch (const std::exception& error) {
-    tell_end(call, "The run has failed: " + std::string(error.what()));
+    notify_end(call, "The run has failed: " + std::string(error.what()));
     throw;
   }
 }
@@ -111,7 +111,7 @@ int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostr
     interrupt.take_usr1_for_keep();
   }
   if (options.runner.kind == RunnerKind::mpi) {
-    return run_as_rank({.own = renderer_likeness()},
+    return run_as_rank({.own = renderer_compatibility()},
                        [&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
   }
   return render_here(options, interrupt, output, files);

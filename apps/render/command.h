@@ -3,8 +3,8 @@
 
 #include <iosfwd>
 
-#include "apps/edge/system/files.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/files.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/run/render_options.h"
 #include "nodes/ranks/fabric.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/render/outputs.h"
 #include "apps/run/frame_name.h"
 #include "core/base/expect.h"

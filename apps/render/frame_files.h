@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "apps/edge/system/output_set.h"
+#include "apps/frontend/system/output_set.h"
 #include "apps/run/render_options.h"
 #include "apps/run/render_record.h"
 

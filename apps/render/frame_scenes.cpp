@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/database/conversion.h"
@@ -20,8 +20,8 @@ auto of_frame(std::uint64_t frame, const Work& work) {
   const auto named = [frame](const std::exception& error) { return "frame " + grouped(frame) + ": " + error.what(); };
   try {
     return work();
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(named(error));
+  } catch (const core::CapacityError& error) {
+    throw core::CapacityError(named(error));
   } catch (const core::InputError& error) {
     throw core::InputError(named(error));
   }
@@ -68,7 +68,7 @@ core::Scene FrameScenes::load_still(OpenedFiles& opened) {
 
 core::Scene FrameScenes::load_at(double seconds, OpenedFiles& opened, StillScene* still) {
   PictureOptions picture = asked_.picture;
-  picture.staging.mesh.animation = {*asked_.frames.animation, seconds, asked_.frames.per_second, still_};
+  picture.scene_setup.mesh.animation = {*asked_.frames.animation, seconds, asked_.frames.per_second, still_};
   return load_scene(picture, notes_for(asked_), &opened, still);
 }
 

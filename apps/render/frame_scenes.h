@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/run/render_options.h"
 #include "apps/scene/camera_path.h"
 #include "core/base/box.h"

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/edge/run/work.h"
-#include "apps/edge/system/base64.h"
+#include "apps/frontend/run/work.h"
+#include "apps/frontend/system/base64.h"
 #include "core/base/srgb.h"
 
 namespace dmpc::apps {

@@ -43,11 +43,11 @@ void LivePicture::watch(const core::Film& film, const core::Refinement& pass, st
   new_samples_[pixel] = pass.pass().samples(pixel).count;
   is_dirty_[pixel / width_ / tile_side * columns_ + pixel % width_ / tile_side] = 1;
   if (is_asked_for_.load(std::memory_order_relaxed)) {
-    hand_over(film);
+    migration(film);
   }
 }
 
-void LivePicture::hand_over(const core::Film& film) {
+void LivePicture::migration(const core::Film& film) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) {
     return;

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <vector>
 
-#include "core/picture/film.h"
-#include "core/picture/partial_picture.h"
-#include "core/picture/refinement.h"
+#include "core/picture/film/film.h"
+#include "core/picture/film/partial_picture.h"
+#include "core/picture/sampling/refinement.h"
 
 namespace dmpc::apps {
 
@@ -46,7 +46,7 @@ class LivePicture {
 
  private:
   PictureTile tile_of(const core::Film& film, std::uint32_t index) const;
-  void hand_over(const core::Film& film);
+  void migration(const core::Film& film);
 
   std::uint32_t width_, height_, columns_;
   std::vector<std::uint8_t> is_dirty_;      ///< tile by tile: to be handed over

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/watch/activity_profile.h"
-#include "nodes/watch/live_counts.h"
+#include "nodes/observers/activity_profile.h"
+#include "nodes/observers/live_counts.h"
 
 namespace dmpc::apps {
 

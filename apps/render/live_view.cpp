@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/run/work.h"
+#include "apps/frontend/run/work.h"
 #include "apps/show/page/live_page.h"
 
 namespace dmpc::apps {
@@ -150,17 +150,17 @@ void LiveView::end(LiveEnd end, const std::stop_token& stop) {
   publisher_.request_stop();
   publisher_.join();
   try {
-    tell_end(std::move(end), stop);
+    notify_end(std::move(end), stop);
   } catch (const std::exception& error) {
     complain(error);
   }
 }
 
-void LiveView::tell_end(LiveEnd end, const std::stop_token& stop) {
+void LiveView::notify_end(LiveEnd end, const std::stop_token& stop) {
   say(end.said);
   publish_all(true);
-  const std::string told = json_of_end(end.said, end.figures, !end.page.empty());
-  server_.end(told,
+  const std::string reported = json_of_end(end.said, end.figures, !end.page.empty());
+  server_.end(reported,
               end.page.empty() ? std::nullopt : std::optional(PageServer::Page{std::move(end.page), "frame-ancestors 'none'"}),
               stop);
 }

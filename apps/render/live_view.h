@@ -14,11 +14,11 @@
 #include <string>
 #include <thread>
 
-#include "apps/edge/web/page_server.h"
+#include "apps/frontend/web/page_server.h"
 #include "apps/render/live_events.h"
 #include "apps/render/live_picture.h"
 #include "apps/render/live_steps.h"
-#include "nodes/watch/live_counts.h"
+#include "nodes/observers/live_counts.h"
 
 namespace dmpc::apps {
 
@@ -78,7 +78,7 @@ class LiveView {
   void publish_all(bool is_last = false);
   LiveState state(bool is_last);
   void publish_steps(LiveMoment moment);
-  void tell_end(LiveEnd end, const std::stop_token& stop);
+  void notify_end(LiveEnd end, const std::stop_token& stop);
   void complain(const std::exception& error);
   void publish_tiles(const std::vector<PictureTile>& tiles);
 

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/show/references/reference_file.h"
-#include "apps/edge/system/scratch_folder.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/show/references/reference_file.h"
+#include "apps/frontend/system/scratch_folder.h"
 #include "apps/picture/image_file.h"
 #include "apps/scene/load_scene.h"
 #include "apps/show/heat/picture.h"

@@ -1,7 +1,7 @@
 // The files that a render leaves.
 #pragma once
 
-#include "apps/edge/system/output_set.h"
+#include "apps/frontend/system/output_set.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps {

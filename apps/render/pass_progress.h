@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/system/progress.h"
 
 namespace dmpc::apps {
 

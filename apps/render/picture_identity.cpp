@@ -6,8 +6,8 @@
 #include <iterator>
 #include <span>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/digest.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/digest.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
 #include "core/scene/placed_objects.h"
@@ -55,18 +55,18 @@ std::string text_of_pools(const core::Scene& scene) {
   return text_of(digest);
 }
 
-/// Without copies of kept meshes, which meshes_text() tells: so it is the same whether the scene has them or not.
+/// Without copies of base meshes, which meshes_text() tells: so it is the same whether the scene has them or not.
 std::string objects_text(const core::Scene& scene) {
   return scene.kept == nullptr ? text_of_pools(scene) : text_of_pools(without_copies(scene));
 }
 
-/// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/kept_meshes.h).
-std::string meshes_text(const core::KeptMeshes& kept) {
+/// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/base_meshes.h).
+std::string meshes_text(const core::BaseMeshes& kept) {
   Digest digest;
   for (const core::Scene& mesh : kept.meshes) {
     digest.add(objects_text(mesh));
   }
-  for (const core::KeptPlace& place : kept.places) {
+  for (const core::BaseMeshInstance& place : kept.places) {
     for (const core::Vec3d& row : place.world.rows) {
       add(digest, row);
     }
@@ -77,7 +77,7 @@ std::string meshes_text(const core::KeptMeshes& kept) {
 }
 
 /// What few materials have, and NFF cannot say.
-void add_finish(Digest& digest, const core::Material& material) {
+void add_extension(Digest& digest, const core::Material& material) {
   add(digest, material.specular_color);
   add(digest, material.emission);
   for (const double number : {material.tinted_specular, material.mirror, material.alpha_cutoff}) {
@@ -124,8 +124,8 @@ std::string materials_text(const core::Scene& scene) {
       digest.add(number);
     }
     digest.add(std::uint64_t{material.texture});
-    if (material.has_finish()) {
-      add_finish(digest, material);
+    if (material.has_extension()) {
+      add_extension(digest, material);
     }
   }
   return text_of(digest);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/run/render_options.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

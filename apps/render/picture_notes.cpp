@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/formats/whole_view.h"
-#include "apps/scene/staging.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/scene/scene_setup.h"
 #include "core/base/expect.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 
 namespace dmpc::apps {
 

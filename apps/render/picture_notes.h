@@ -7,7 +7,7 @@
 
 #include "apps/formats/up_axis.h"
 #include "core/base/box.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

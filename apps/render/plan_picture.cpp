@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/render/picture_notes.h"
 #include "apps/render/stages.h"
 #include "apps/scene/load_scene.h"
@@ -24,7 +24,7 @@ bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const Due
 SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
   SceneFacts facts;
   facts.bounds = core::bounds_of(scene, core::Parallel(0));
-  facts.up = is_mesh(options.picture.scene) ? options.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
+  facts.up = is_mesh(options.picture.scene) ? options.picture.scene_setup.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
   if (options.report || options.frames.animation) {
     facts.digest = scene_digest(scene);
   }
@@ -75,7 +75,7 @@ BuiltScene build_scene(RenderCall& call, ReadScene read) {
   Stopwatch stopwatch;
   BuiltScene built{.subject = build_subject_quietly(std::move(read.scene), call.asked.picture, call.asked.database, true),
                    .facts = std::move(read.facts)};
-  call.tell_once(notes_of(built.subject));
+  call.report_once(notes_of(built.subject));
   const bool looks_for_detail = built.subject.built.keeps_instances && call.asked.picture.is_refined;
   if (call.asked.tracer != TracerChoice::embree && !looks_for_detail) {
     built.subject.database.forget_primitives();
@@ -140,7 +140,7 @@ core::Continuation continuation_of(RenderCall& call) {
 }
 
 void plan(RenderCall& call, PlannedPicture& picture) {
-  nodes::Watching watching = picture.onlookers.watching();
+  nodes::Watching watching = picture.observers.watching();
   if (!call.asked.frames.are_several()) {  // of which each looks at the database for where it shows nothing
     watching.distributed = [&picture] { picture.built.subject.database.forget_records(); };  // the nodes have theirs
   }
@@ -148,7 +148,7 @@ void plan(RenderCall& call, PlannedPicture& picture) {
   const std::vector<std::string> notes = picture.nodes.plan(watching, continuation_of(call));
   picture.built.facts.seconds.prepare = stopwatch.lap();
   if (!call.asked.quiet) {
-    call.tell_once(notes);
+    call.report_once(notes);
   }
 }
 
@@ -156,7 +156,7 @@ void plan(RenderCall& call, PlannedPicture& picture) {
 void go_on(RenderCall& call, const DueFrame& frame, PlannedPicture& picture) {
   picture.options = options_of(frame, picture.built.subject);
   picture.nodes.move_to(call.scenes.view(frame.number));
-  picture.onlookers.begin_again();
+  picture.observers.begin_again();
   show_next(call, frame, picture.nodes.camera());
 }
 
@@ -165,11 +165,11 @@ void go_on(RenderCall& call, const DueFrame& frame, PlannedPicture& picture) {
 PlannedPicture::PlannedPicture(RenderCall& call, const DueFrame& frame, BuiltScene scene)
     : built(std::move(scene)),
       options(options_of(frame, built.subject)),
-      onlookers(watch_order(options, static_cast<std::uint32_t>(built.subject.database.page_count()),
-                            built.subject.settings.camera.pixel_count()),
+      observers(observer_order(options, static_cast<std::uint32_t>(built.subject.database.page_count()),
+                               built.subject.settings.camera.pixel_count()),
                 show_next(call, frame, built.subject.settings.camera)),
       nodes(options, built.subject.database, settings_of(call, frame, built.subject)) {
-  options.pages.reference_logs = onlookers.reference_logs();
+  options.pages.reference_logs = observers.reference_logs();
 }
 
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,

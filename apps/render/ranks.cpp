@@ -7,11 +7,11 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/ranks/parts.h"
-#include "apps/edge/run/computer_room.h"
-#include "apps/edge/run/option_words.h"
-#include "apps/render/onlookers.h"
-#include "apps/render/watch_order.h"
+#include "apps/frontend/ranks/parts.h"
+#include "apps/frontend/run/computer_capacity.h"
+#include "apps/frontend/run/option_words.h"
+#include "apps/render/observer_order.h"
+#include "apps/render/observers.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "nodes/ranks/repeated_runs.h"
@@ -24,26 +24,26 @@ namespace dmpc::apps {
 
 namespace {
 
-/// What another rank has for its part of a run, in which `onlookers` are as soon as rank 0 has said what they are to see.
-svm::Following following_for(std::optional<Onlookers>& onlookers) {
-  svm::Following following;
-  following.check_room = [](const nodes::RankMemory& memory) { check_room(memory); };
-  following.watch = [&onlookers](std::string_view order) { return onlookers.emplace(watch_order_from(order)).watching(); };
-  following.watch_again = [&onlookers] { onlookers->begin_again(); };
-  following.seen = [&onlookers] { return onlookers->seen(); };
-  following.strategies.push_back(svm::forest_strategy());
-  following.reference_logs = [&onlookers] { return onlookers->reference_logs(); };
-  return following;
+/// What another rank has for its part of a run, in which `observers` are as soon as rank 0 has said what they are to see.
+svm::WorkerCallbacks following_for(std::optional<Observers>& observers) {
+  svm::WorkerCallbacks callbacks;
+  callbacks.check_room = [](const nodes::RankMemory& memory) { check_room(memory); };
+  callbacks.watch = [&observers](std::string_view order) { return observers.emplace(observer_order_from(order)).watching(); };
+  callbacks.watch_again = [&observers] { observers->begin_again(); };
+  callbacks.seen = [&observers] { return observers->seen(); };
+  callbacks.strategies.push_back(svm::forest_strategy());
+  callbacks.reference_logs = [&observers] { return observers->reference_logs(); };
+  return callbacks;
 }
 
 /// Any other rank's part of a run.
 void take_part(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
-  std::optional<Onlookers> onlookers;
-  const svm::Following following = following_for(onlookers);
+  std::optional<Observers> observers;
+  const svm::WorkerCallbacks callbacks = following_for(observers);
   if (strategy == Strategy::dataflow) {
-    dataflow::follow(links, stop, following);
+    dataflow::follow(links, stop, callbacks);
   } else {
-    svm::follow(links, stop, following);
+    svm::follow(links, stop, callbacks);
   }
 }
 
@@ -65,9 +65,9 @@ void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
                    const std::stop_token& stop) {
-  nodes::RankLinks links(fabric, {.longest = std::chrono::seconds(options.runner.patience_seconds)}, options.runner.idle);
+  nodes::RankLinks links(fabric, {.longest = std::chrono::seconds(options.runner.timeout_seconds)}, options.runner.idle);
   if (!options.quiet) {
-    links.tell_to([](const std::string& text) { std::cerr << "dmpc: " + text + '\n'; });
+    links.report_to([](const std::string& text) { std::cerr << "dmpc: " + text + '\n'; });
   }
   return links.rank() == 0 ? lead(links, [&] { return render(links); })
                            : follow(links, [&] { take_part(links, options.strategy, stop); });

@@ -4,13 +4,13 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/render/pass_progress.h"
 #include "apps/render/stages.h"
 #include "core/base/expect.h"
-#include "core/picture/refinement.h"
+#include "core/picture/sampling/refinement.h"
 
 namespace dmpc::apps {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/digest.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/digest.h"
 #include "core/database/database.h"
 #include "core/families/scenes.h"
 #include "core/picture/bundle_task.h"
@@ -65,12 +65,12 @@ SelfTest self_test() {
   return {databases.value(), pictures.value()};
 }
 
-Likeness renderer_likeness() {
+Compatibility renderer_compatibility() {
   const SelfTest test = self_test();
-  Likeness likeness = call_likeness();
-  likeness.emplace_back("digest of databases", hash_text(test.databases));
-  likeness.emplace_back("digest of self-test rays", hash_text(test.pictures));
-  return likeness;
+  Compatibility compatibility = call_compatibility();
+  compatibility.emplace_back("digest of databases", hash_text(test.databases));
+  compatibility.emplace_back("digest of self-test rays", hash_text(test.pictures));
+  return compatibility;
 }
 
 }  // namespace dmpc::apps

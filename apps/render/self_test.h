@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "apps/edge/ranks/likeness.h"
+#include "apps/frontend/ranks/compatibility.h"
 
 namespace dmpc::apps {
 
@@ -15,6 +15,6 @@ struct SelfTest {
 SelfTest self_test();
 
 /// What ranks that render must have in common: the build, the words, and what the test came to.
-Likeness renderer_likeness();
+Compatibility renderer_compatibility();
 
 }  // namespace dmpc::apps

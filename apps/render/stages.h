@@ -8,7 +8,7 @@
 
 #include "apps/formats/up_axis.h"
 #include "apps/render/call.h"
-#include "apps/render/onlookers.h"
+#include "apps/render/observers.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/render_record.h"
 #include "apps/run/report.h"
@@ -44,7 +44,7 @@ struct PlannedPicture {
 
   BuiltScene built;
   RenderOptions options;  ///< the frame's, with what the scene decides and where references are noted
-  Onlookers onlookers;
+  Observers observers;
   WarmNodes nodes;
 };
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <variant>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/attempts.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/system/attempts.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/outputs.h"
 #include "apps/render/picture_notes.h"
@@ -104,13 +104,13 @@ void end_checkpoint(RenderCall& call, bool is_written, Attempts& attempts) {
   }
 }
 
-/// What the onlookers have seen; says so if some of a trace was lost, or there is none.
-Sights take_sights(const RenderCall& call, Onlookers& onlookers) {
-  Sights sights = onlookers.take();
-  if (sights.trace) {
-    call.say({loss_note(*sights.trace), empty_note(*sights.trace)});
+/// What the observers have seen; says so if some of a trace was lost, or there is none.
+RunProfile take_run_profile(const RenderCall& call, Observers& observers) {
+  RunProfile run_profile = observers.take();
+  if (run_profile.trace) {
+    call.say({loss_note(*run_profile.trace), empty_note(*run_profile.trace)});
   }
-  return sights;
+  return run_profile;
 }
 
 /// What goes to the standard output: counters if they were asked for there, then the closing lines, which it returns.
@@ -150,8 +150,8 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
     attempts.make([&] { call.live->show(account.film); });
   }
   end_checkpoint(call, is_written, attempts);
-  Sights sights;
-  attempts.make([&] { sights = take_sights(call, planned.onlookers); });
+  RunProfile run_profile;
+  attempts.make([&] { run_profile = take_run_profile(call, planned.observers); });
   const ProcessorTime all = processor_time();
   rendered.seconds.user = all.user;
   rendered.seconds.system = all.system;
@@ -160,10 +160,10 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
                                .database = planned.built.subject.database,
                                .report = rendered.report,
                                .seconds = rendered.seconds,
-                               .heat = planned.onlookers.heat(),
-                               .trace = sights.trace ? &*sights.trace : nullptr,
-                               .view = sights.view ? &*sights.view : nullptr,
-                               .references = sights.references.empty() ? nullptr : &sights.references,
+                               .heat = planned.observers.heat(),
+                               .trace = run_profile.trace ? &*run_profile.trace : nullptr,
+                               .view = run_profile.view ? &*run_profile.view : nullptr,
+                               .references = run_profile.references.empty() ? nullptr : &run_profile.references,
                                .samples_found_done = samples_found_done(call),
                                .scene_digest = scene.digest};
   write_others(call, frame, record, attempts, written);

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/option_values.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 
 namespace dmpc::apps {
 

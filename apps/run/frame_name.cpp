@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/parsed_number.h"
+#include "apps/frontend/line/parsed_number.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

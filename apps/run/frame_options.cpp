@@ -1,8 +1,8 @@
 #include "apps/run/frame_options.h"
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/parsed_number.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/parsed_number.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/scene/camera_path.h"
 
 namespace dmpc::apps {

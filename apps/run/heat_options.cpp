@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/picture/heat_kind.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/run/strategy_options.h"
 #include "core/picture/heat_kind.h"
 
@@ -18,8 +18,8 @@ struct HeatRequest {
   std::filesystem::path path;
 };
 
-/// All kinds in both formats, and most of them again. They are under way at a time, for which apps/edge/system/interrupt.cpp has
-/// room.
+/// All kinds in both formats, and most of them again. They are under way at a time, for which apps/frontend/system/interrupt.cpp
+/// has room.
 inline constexpr std::size_t heat_requests_max = 32;
 
 /// "KIND:FILE.exr" or "KIND:FILE.png". Throws core::UsageError for anything else.

@@ -62,7 +62,7 @@ void settle_instances(const OptionSet& options, const RayTracers& tracers, Datab
   }
   mesh.copies = core::Copies::left_out;
   if (database.instances == InstancesChoice::keep) {
-    database.keep_instances();
+    database.store_instances();
   }
 }
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "apps/edge/line/command_line.h"
 #include "apps/formats/mesh_options.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "apps/scene/database_options.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/run/instance_options.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
@@ -41,7 +41,7 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
                      "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
   options.add_number(
-      "--patience", render.runner.patience_seconds, 1, 86400, "600",
+      "--rank-timeout", render.runner.timeout_seconds, 1, 86400, "600",
       "Seconds that ranks wait for one of which they hear nothing, as it stands still; said every 30 (mpi). A process "
       "that ends takes all with it at once");
   add_machine_option(options, render.runner.machine_name, " (virtual)");
@@ -144,8 +144,8 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_tracer(render);
   check_runner(options, render.runner.kind);
   check_tracer_and_runner(render);
-  if (options.is_given("--patience") && render.runner.kind != RunnerKind::mpi) {
-    throw UsageError("--patience goes with --runner=mpi");
+  if (options.is_given("--rank-timeout") && render.runner.kind != RunnerKind::mpi) {
+    throw UsageError("--rank-timeout goes with --runner=mpi");
   }
   check_heat(render.heat_maps, render.strategy);
   check_trace(render.trace);
@@ -202,7 +202,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     }
     settle_database(options, render.strategy, render.database);
     settle_instances(options, {render.system, render.tracer, render.rays.tested_objects}, render.database,
-                     render.picture.staging.mesh);
+                     render.picture.scene_setup.mesh);
     render.is_node_count_given = options.is_given("--nodes");
     render.has_several_frames = render.frames.are_several();
     check(options, render);

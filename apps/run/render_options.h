@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/run/checkpoint_options.h"
 #include "apps/run/frame_options.h"
 #include "apps/run/heat_options.h"

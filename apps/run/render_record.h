@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/run/render_options.h"
 #include "apps/run/report.h"
 #include "core/database/database.h"
-#include "nodes/watch/heat_map.h"
+#include "nodes/observers/heat_map.h"
 
 namespace dmpc::nodes {
 struct Trace;

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/run/time_parts.h"
+#include "apps/frontend/run/time_parts.h"
 #include "apps/run/strategy_options.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "core/trace/operations.h"
 #include "dataflow/run.h"
 #include "nodes/counters.h"

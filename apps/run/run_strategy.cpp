@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/run/computer_room.h"
-#include "apps/edge/run/option_words.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/run/computer_capacity.h"
+#include "apps/frontend/run/option_words.h"
 #include "apps/oracle/oracle.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"

@@ -9,13 +9,13 @@
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 #include "core/database/database.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/picture/pixel_task.h"
-#include "nodes/watch/watching.h"
+#include "nodes/observers/watching.h"
 
 namespace dmpc::apps {
 
-/// Everything is planned and, for dataflow, balanced and dealt.
+/// Everything is planned and, for dataflow, balanced and assigned.
 struct ReadyRun {
   std::vector<std::string> notes;  ///< what the user should know before: sentences
   /// Renders. Throws core::InputError if the real computer has too little memory or too few threads, and core::InternalError if a

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/run/option_words.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/run/option_words.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "svm/forest/strategy.h"

@@ -6,15 +6,15 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/run/runner_kind.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/run/runner_kind.h"
 #include "apps/scene/database_options.h"
 #include "core/base/refusal.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/regions/balance.h"
 #include "dataflow/regions/bsp.h"
 #include "nodes/computer_request.h"
-#include "nodes/ranks/nap.h"
+#include "nodes/ranks/backoff.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
@@ -39,7 +39,7 @@ enum class TracerChoice : std::uint8_t { grid, embree };
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::threads;
   std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
-  std::uint32_t patience_seconds = 600;   ///< with ranks of which nothing is heard
+  std::uint32_t timeout_seconds = 600;    ///< with ranks of which nothing is heard
   nodes::Idle idle = nodes::Idle::sleep;  ///< what ranks' communicating threads do meanwhile, as their processors have it
 };
 

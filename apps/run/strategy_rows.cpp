@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/option_values.h"
 #include "apps/run/strategy_options.h"
 #include "core/database/database.h"
 #include "dataflow/packets.h"
@@ -46,7 +46,7 @@ OptionSet::Choices<T> by_name(std::initializer_list<T> kinds) {
 
 const PageOptions& pages_of(const svm::Plan& plan) { return plan.request.pages; }
 const BalanceOptions& balance_of(const dataflow::Plan& plan) { return plan.request.rays.balance; }
-OptionValue cuts_told(const dataflow::Plan& plan) {
+OptionValue cuts_reported(const dataflow::Plan& plan) {
   const BalanceOptions& balance = balance_of(plan);
   return balance.balance == dataflow::Balance::scattered ? OptionValue() : name_of(balance.bsp.order);
 }
@@ -66,7 +66,7 @@ std::vector<PageRow> rows_of_pages() {
        .help = "Pages of other nodes that a node can keep (svm)",
        .why = "a node of the others needs no page of another node",
        .key = "cache_pages",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.frames; },
+       .reported = [](const svm::Plan& plan) -> OptionValue { return plan.frames; },
        .meaning = "of svm, as all up to count_pages; some of them of replicated and forest, too"},
       {.name = "--homes",
        .takes = word<&PageOptions::homes>(by_name({PageHomes::spread, PageHomes::host, PageHomes::tree})),
@@ -75,13 +75,13 @@ std::vector<PageRow> rows_of_pages() {
            "a tree below it, of which the first that has the page replies (svm)",
        .why = fetches_none,
        .key = "homes",
-       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
       {.name = "--resident",
        .takes = number<&PageOptions::resident_percent>(0, 100, "0"),
        .help = "Percent of those that every node keeps for good: what a small picture uses most (svm)",
        .why = "a node of the others has no frames for pages",
        .key = "resident_pages",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
       {.name = "--replacement",
        .takes = {core::field_of<&PageOptions::replacement>(),
                  [](OptionSet set, const char* name, const char* help, PageOptions& pages, const std::string&) {
@@ -90,13 +90,13 @@ std::vector<PageRow> rows_of_pages() {
        .help = "Which of them makes room for another (svm)",
        .why = "a node of the others keeps no page of another node",
        .key = "replacement",
-       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
   };
 }
 
 /// Who renders what.
 std::vector<PageRow> rows_of_pixels() {
-  using svm::PixelShares, svm::WorkGiver;
+  using svm::PixelShares, svm::WorkDonor;
   return {
       {.name = "--in-flight",
        .takes =
@@ -106,7 +106,7 @@ std::vector<PageRow> rows_of_pixels() {
        .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; },
+       .reported = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; },
        .meaning = "pixels"},
       {.name = "--bundles",
        .takes = flag<&PageOptions::bundles_on_machines>(),
@@ -115,21 +115,21 @@ std::vector<PageRow> rows_of_pixels() {
            "look-ups, events and virtual times of their own (svm)",
        .why = "rays of the others walk alone on a modelled machine",
        .key = "bundles_on_machines",
-       .told = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).bundles_on_machines; },
+       .reported = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).bundles_on_machines; },
        .meaning = "asked for"},
       {.name = "--work-item",
        .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
        .help = "Side in pixels of what a node gives to an idle one; 0: nothing is given",
        .why = works_on_region,
        .key = "work_item",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; },
+       .reported = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; },
        .meaning = "pixels a side; 0: a node keeps its pixels"},
-      {.name = "--work-giver",
-       .takes = word<&PageOptions::work_giver>(by_name({WorkGiver::ring, WorkGiver::host})),
+      {.name = "--work-donor",
+       .takes = word<&PageOptions::work_donor>(by_name({WorkDonor::ring, WorkDonor::host})),
        .help = "ring: nodes start with their parts of the picture and ask each other; host: for each item they ask the host",
        .why = works_on_region,
-       .key = "work_giver",
-       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).work_giver); }},
+       .key = "work_donor",
+       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).work_donor); }},
       {.name = "--pixels",
        .takes = word<&PageOptions::pixel_shares>(by_name({PixelShares::submaps, PixelShares::interleaved})),
        .help =
@@ -137,20 +137,20 @@ std::vector<PageRow> rows_of_pixels() {
            "nodes",
        .why = works_on_region,
        .key = "pixels",
-       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); },
+       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); },
        .meaning = "how they are shared out"},
       {.name = "--workers",
        .takes = number<&PageOptions::worker_count>(1, nodes::node_count_max, "all nodes"),
        .help = "Nodes that render; the others lend their memories, and serve pages or answer",
        .why = "every node of dataflow works on what comes to its region",
        .key = "workers",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.worker_count; }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return plan.worker_count; }},
       {.name = "--count-pages",
        .takes = flag<&PageOptions::count_pages>(),
        .help = "Count the distinct pages of each pixel for --stats (svm; takes memory and time)",
        .why = "the others look up no pages",
        .key = "count_pages",
-       .told = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).count_pages; }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).count_pages; }},
   };
 }
 
@@ -165,19 +165,19 @@ std::vector<BalanceRow> make_balance_rows() {
            "node, neighbours on different nodes; or moving: subsampled, of several units that nodes hand over while rays travel",
        .why = share_out_pixels,
        .key = "balance",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); },
+       .reported = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); },
        .meaning = "of dataflow, as all that follow"},
       {.name = "--cuts",
        .takes = word<&BalanceOptions::bsp, &dataflow::BspOptions::order>(by_name({CutOrder::longer_axis, CutOrder::alternating})),
        .help = "Which way space is cut next: across a box's longer side, or by turns as in 1994",
        .why = share_out_pixels,
        .key = "cuts",
-       .told = cuts_told},
+       .reported = cuts_reported},
       {.name = "--regions",
        .takes = number<&BalanceOptions::regions_a_node>(1, dataflow::Scattered::regions_max, "1"),
        .help = "Regions a node (--balance=scattered), or units of a node's region (--balance=moving)",
        .key = "regions_a_node",
-       .told = [](const dataflow::Plan& plan) -> OptionValue {
+       .reported = [](const dataflow::Plan& plan) -> OptionValue {
          return balance_of(plan).has_several_regions() ? balance_of(plan).regions_a_node : 1;
        }},
   };
@@ -188,12 +188,11 @@ std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
        .takes = number<&RayOptions::ray_batch>(
-           1, dataflow::ray_batch_max,
-           "what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB"),
+           1, dataflow::ray_batch_max, "what fills 4 KiB; 2 KiB if rays walk alone or with --ray-slots, modelled machines 1 KiB"),
        .help = "Rays in a packet, at most",
        .why = rays_stay,
        .key = "ray_batch",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; },
+       .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; },
        .meaning = "rays of a packet, the most"},
       {.name = "--ray-credits",
        .takes =
@@ -201,14 +200,14 @@ std::vector<RayRow> rows_of_packets() {
        .help = "Packets of rays that each node may have under way to each other; 0: all go by way of the host",
        .why = rays_stay,
        .key = "ray_credits",
-       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? OptionValue() : plan.ray_credits; },
+       .reported = [](const dataflow::Plan& plan) { return plan.shares_slots() ? OptionValue() : plan.ray_credits; },
        .meaning = "packets"},
-      {.name = "--ray-places",
-       .takes = number<&RayOptions::ray_places>(1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits"),
+      {.name = "--ray-slots",
+       .takes = number<&RayOptions::ray_slots>(1, dataflow::ray_slots_max, "64 of more than 128 nodes; else credits"),
        .help = "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits",
        .why = rays_stay,
-       .key = "ray_places",
-       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? plan.ray_places : OptionValue(); },
+       .key = "ray_slots",
+       .reported = [](const dataflow::Plan& plan) { return plan.shares_slots() ? plan.ray_slots : OptionValue(); },
        .meaning = "packets"},
   };
 }
@@ -218,32 +217,32 @@ std::vector<RayRow> rows_of_rays() {
   return {
       {.name = "--ray-queue",
        .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
-                                                   "256; 512 if rays walk alone; 128 with --ray-places"),
+                                                   "256; 512 if rays walk alone; 128 with --ray-slots"),
        .help = "Packets of rays that can wait on a node for credit before more go by way of the host",
        .why = rays_stay,
        .key = "ray_queue",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; },
+       .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; },
        .meaning = "packets"},
       {.name = "--tested-objects",
        .takes = number<&RayOptions::tested_objects>(0, dataflow::tested_objects_max, ""),
        .help = "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone",
        .why = rays_stay,
        .key = "tested_objects",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.tested_objects(); }},
+       .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.tested_objects(); }},
       {.name = "--no-backpressure",
        .takes = flag<&RayOptions::without_backpressure>(),
        .help = "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host",
        .why = rays_stay,
        .key = "backpressure",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return !plan.request.rays.without_backpressure; }},
+       .reported = [](const dataflow::Plan& plan) -> OptionValue { return !plan.request.rays.without_backpressure; }},
   };
 }
 
 /// What a plan tells of a row; a flag that its strategy has not is off.
 template <class Options, class Plan, class OtherPlan>
-OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
+OptionValue reported_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
   if constexpr (std::is_same_v<Plan, OtherPlan>) {
-    const OptionValue value = row.told(plan);
+    const OptionValue value = row.reported(plan);
     return has(strategy, row) || std::holds_alternative<bool>(value) ? value : OptionValue();
   } else {
     return {};
@@ -257,19 +256,20 @@ OptionValue topology_of(const svm::Plan&) { return {}; }
 OptionValue topology_of(const dataflow::Plan& plan) { return name_of(*plan.request.rays.topology); }
 
 /// The keys are an interface, and their order has always been this.
-template <class Told>
-std::vector<Told> in_order(std::vector<Told> told) {
-  const auto policy = std::find_if(told.begin(), told.end(), [](const Told& each) { return each.key == "replacement"; });
-  std::rotate(told.begin() + 1, policy, policy + 1);
-  return told;
+template <class Reported>
+std::vector<Reported> in_order(std::vector<Reported> reported) {
+  const auto policy =
+      std::find_if(reported.begin(), reported.end(), [](const Reported& each) { return each.key == "replacement"; });
+  std::rotate(reported.begin() + 1, policy, policy + 1);
+  return reported;
 }
 
 template <class Plan>
-std::vector<ToldOption> told_by(Strategy strategy, const Plan& plan) {
-  std::vector<ToldOption> told;
-  for_each_row([&](const auto& row) { told.push_back({row.key, told_of(row, strategy, plan)}); });
-  told.push_back({topology_key, topology_of(plan)});
-  return in_order(std::move(told));
+std::vector<ReportedOption> reported_by(Strategy strategy, const Plan& plan) {
+  std::vector<ReportedOption> reported;
+  for_each_row([&](const auto& row) { reported.push_back({row.key, reported_of(row, strategy, plan)}); });
+  reported.push_back({topology_key, topology_of(plan)});
+  return in_order(std::move(reported));
 }
 
 std::vector<OptionWord> make_strategy_words() {
@@ -307,14 +307,16 @@ const std::vector<OptionWord>& strategy_words() {
   return words;
 }
 
-std::vector<ToldKey> told_keys() {
-  std::vector<ToldKey> keys;
+std::vector<ReportedKey> reported_keys() {
+  std::vector<ReportedKey> keys;
   for_each_row([&](const auto& row) { keys.push_back({row.key, row.takes.kind, row.meaning}); });
   keys.push_back({topology_key, OptionKind::word, "onto which regions are mapped"});
   return in_order(std::move(keys));
 }
 
-std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan) { return told_by(strategy, plan); }
-std::vector<ToldOption> told_options(Strategy strategy, const dataflow::Plan& plan) { return told_by(strategy, plan); }
+std::vector<ReportedOption> reported_options(Strategy strategy, const svm::Plan& plan) { return reported_by(strategy, plan); }
+std::vector<ReportedOption> reported_options(Strategy strategy, const dataflow::Plan& plan) {
+  return reported_by(strategy, plan);
+}
 
 }  // namespace dmpc::apps

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/run/option_row.h"
-#include "apps/edge/run/option_words.h"
+#include "apps/frontend/run/option_row.h"
+#include "apps/frontend/run/option_words.h"
 #include "apps/run/strategy_options.h"
 #include "dataflow/plan.h"
 #include "svm/plan.h"
@@ -43,21 +43,21 @@ void for_each_row(const Visit& visit) {
 const std::vector<OptionWord>& strategy_words();
 
 /// A key of --stats, and what the schema says of it.
-struct ToldKey {
+struct ReportedKey {
   std::string_view key;
   OptionKind kind;
   std::string_view meaning;
 };
 /// All keys, in the order of --stats.
-std::vector<ToldKey> told_keys();
+std::vector<ReportedKey> reported_keys();
 
 /// A key of --stats, and what it tells.
-struct ToldOption {
+struct ReportedOption {
   std::string_view key;
   OptionValue value;
 };
 /// The same; null but for the options of the plan's strategy.
-std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan);
-std::vector<ToldOption> told_options(Strategy strategy, const dataflow::Plan& plan);
+std::vector<ReportedOption> reported_options(Strategy strategy, const svm::Plan& plan);
+std::vector<ReportedOption> reported_options(Strategy strategy, const dataflow::Plan& plan);
 
 }  // namespace dmpc::apps

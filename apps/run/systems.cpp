@@ -22,7 +22,8 @@ constexpr std::array<SystemDescription, 13> descriptions = {{
     {System::svm_extents, "svm-extents", "the same with one tree of boxes for the scene, a page each for its subtrees", boxes,
      "nobody described it"},
     {System::svm_resident, "svm-resident",
-     "as svm, with what helps green-paddon: the host deals all work, and half of what a node keeps is what a small picture uses "
+     "as svm, with what helps green-paddon: the host assigns all work, and half of what a node keeps is what a small picture "
+     "uses "
      "most",
      boxes, "nobody described it: what green-paddon has, beside which it stands"},
     {System::pixel_machine, "pixel-machine",
@@ -30,7 +31,8 @@ constexpr std::array<SystemDescription, 13> descriptions = {{
      "come from the host, where the article of 1994 says that virtual memory was",
      boxes, "a tree of bounding volumes"},
     {System::green_paddon, "green-paddon",
-     "after Green and Paddon (1989): the host has all pages and deals all work, nodes ask their parents in a tree for pages, and "
+     "after Green and Paddon (1989): the host has all pages and assigns all work, nodes ask their parents in a tree for pages, "
+     "and "
      "half of what a node keeps is what a small picture uses most; the top of their octree, which every node had, is paged, too",
      boxes, "an octree, to which of ours a tree of boxes is nearest"},
     {System::forest, "forest",
@@ -66,7 +68,7 @@ struct SystemSettings {
   Strategy strategy = Strategy::svm;
   core::Structure structure = core::Structure::grid;
   std::optional<std::uint32_t> work_item_side = {};
-  std::optional<svm::WorkGiver> work_giver = {};
+  std::optional<svm::WorkDonor> work_donor = {};
   std::optional<std::uint32_t> resident_percent = {};
   std::optional<svm::PixelShares> pixel_shares = {};
   std::optional<svm::PageHomes> homes = {};
@@ -91,9 +93,9 @@ constexpr SystemSettings settings_of(System system) {
               .pixel_shares = PixelShares::interleaved,
               .homes = PageHomes::host};
     case System::svm_resident:
-      return {.work_giver = svm::WorkGiver::host, .resident_percent = 50, .homes = PageHomes::spread};
+      return {.work_donor = svm::WorkDonor::host, .resident_percent = 50, .homes = PageHomes::spread};
     case System::green_paddon:
-      return {.work_giver = svm::WorkGiver::host, .resident_percent = 50, .homes = PageHomes::tree};
+      return {.work_donor = svm::WorkDonor::host, .resident_percent = 50, .homes = PageHomes::tree};
     case System::forest:
       return {.strategy = Strategy::forest, .structure = Structure::extents};
     case System::forest_static:
@@ -125,7 +127,7 @@ void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& data
   visit("--strategy", run.strategy, settings.strategy);
   visit("--structure", database.build.structure, settings.structure);
   visit_if_said("--work-item", run.pages.work_item_side, settings.work_item_side);
-  visit_if_said("--work-giver", run.pages.work_giver, settings.work_giver);
+  visit_if_said("--work-donor", run.pages.work_donor, settings.work_donor);
   visit_if_said("--resident", run.pages.resident_percent, settings.resident_percent);
   visit_if_said("--pixels", run.pages.pixel_shares, settings.pixel_shares);
   visit_if_said("--homes", run.pages.homes, settings.homes);

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/database_options.h"
 

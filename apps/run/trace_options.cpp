@@ -1,11 +1,11 @@
 #include "apps/run/trace_options.h"
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/show/trace/perfetto.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/show/trace/perfetto.h"
 #include "core/base/expect.h"
-#include "nodes/watch/trace.h"
+#include "nodes/observers/trace.h"
 
 namespace dmpc::apps {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 
 namespace dmpc::nodes {
 struct TraceChoice;

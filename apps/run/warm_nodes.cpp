@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/picture/frame_settings.h"
+#include "core/picture/camera/frame_settings.h"
 
 namespace dmpc::apps {
 

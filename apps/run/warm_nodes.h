@@ -9,10 +9,10 @@
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 #include "core/database/database.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "core/scene/scene.h"
-#include "nodes/watch/watching.h"
+#include "nodes/observers/watching.h"
 
 namespace dmpc::apps {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/system/text_input.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/system/text_input.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 

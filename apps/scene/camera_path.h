@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 #include "core/base/box.h"
 #include "core/scene/scene.h"
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/option_values.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/run/option_row.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/run/option_row.h"
 #include "core/database/database.h"
 
 namespace dmpc::apps {
@@ -21,7 +21,7 @@ const char* name_of(core::Structure structure);
 std::string text_of(const core::VoxelRule& rule);
 
 /// A mesh that stands in several places has a copy in each or is kept once. automatic: kept where that leaves less than half of
-/// the scene to store (core/scene/kept_meshes.h), once the scene is known.
+/// the scene to store (core/scene/base_meshes.h), once the scene is known.
 enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
 
 struct DatabaseOptions {
@@ -30,7 +30,7 @@ struct DatabaseOptions {
   std::string why_copied;  ///< the option that keeps `automatic` from keeping any mesh; empty: none does
 
   /// Meshes are kept, which takes one tree.
-  void keep_instances() {
+  void store_instances() {
     build.keeps_instances = true;
     build.structure = core::Structure::extents;
   }

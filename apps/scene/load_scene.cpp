@@ -8,15 +8,15 @@
 #include <set>
 #include <system_error>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/progress.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/scene/sky_file.h"
 #include "core/base/expect.h"
-#include "core/database/light_spheres.h"
+#include "core/database/shading/light_spheres.h"
 #include "core/families/scenes.h"
 #include "core/scene/placed_objects.h"
 
@@ -154,8 +154,8 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
 }
 
 /// What surprises who gives a mesh a light of their own.
-std::string shadow_note(const Staging& staging) {
-  const bool is_alone = !staging.lights.empty() && !staging.fill && !staging.ambient;
+std::string shadow_note(const SceneSetup& scene_setup) {
+  const bool is_alone = !scene_setup.lights.empty() && !scene_setup.fill && !scene_setup.ambient;
   return is_alone
              ? "what --light does not reach is black: --fill=0.3 adds a light in the eye, --ambient=0.1 light from everywhere"
              : "";
@@ -197,11 +197,11 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
 }
 
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, StillScene* still) {
-  check_mesh_options(picture.scene, picture.staging.mesh);
-  MeshOptions mesh = picture.staging.mesh;
+  check_mesh_options(picture.scene, picture.scene_setup.mesh);
+  MeshOptions mesh = picture.scene_setup.mesh;
   mesh.size = picture.resolution;
-  mesh.is_seen_otherwise = picture.staging.camera.has_value();
-  mesh.is_lit_otherwise = !picture.staging.lights.empty();
+  mesh.is_seen_otherwise = picture.scene_setup.camera.has_value();
+  mesh.is_lit_otherwise = !picture.scene_setup.lights.empty();
   mesh.is_below_sky = picture.transport.sky.has_value();
   mesh.is_below_own_sky = is_own_sky(picture);
   mesh.is_by_paths = picture.transport.is_by_paths();
@@ -211,13 +211,13 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
       load_any(picture.scene, mesh, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes,
                read, around);
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
-  const std::string note = apply(picture.staging, scene, kind);
+  const std::string note = apply(picture.scene_setup, scene, kind);
   set_sky(around.skies, scene);
   const bool has_points = !scene.lights.empty();
   std::string sky_note;
   if (picture.transport.sky && picture.transport.sky->is_picture() && !mesh.is_below_own_sky) {
     read.add(picture.transport.sky->file);
-    sky_note = read_sky(picture.transport.sky->file, picture.staging.mesh.sandbox, scene);
+    sky_note = read_sky(picture.transport.sky->file, picture.scene_setup.mesh.sandbox, scene);
   }
   if (opened != nullptr) {
     opened->add(read);
@@ -230,7 +230,7 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, sky_note, contrast_text(scene.sky), may_be_black ? shadow_note(picture.staging) : "",
+    say_once({note, sky_note, contrast_text(scene.sky), may_be_black ? shadow_note(picture.scene_setup) : "",
               picture.is_one_path_unasked ? one_path_note : "",
               picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left),
               bounces_text(scene, picture)});

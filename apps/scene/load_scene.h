@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/distinct_files.h"
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/system/distinct_files.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/scene/picture_options.h"
 #include "core/scene/scene.h"
 

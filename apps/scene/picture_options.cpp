@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/parsed_number.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/parsed_number.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
-#include "core/picture/film_scale.h"
-#include "core/picture/frame_settings.h"
+#include "core/picture/camera/frame_settings.h"
+#include "core/picture/film/film_scale.h"
 
 namespace dmpc::apps {
 
@@ -124,7 +124,7 @@ void settle_transport(const OptionSet& options, PictureOptions& picture) {
   picture.transport.are_bounces_unasked = !options.is_given("--bounces");
   picture.is_one_path_unasked = picture.samples == 1 && !options.is_given("--samples");
   if (picture.transport.sky && !is_own_sky(picture)) {
-    picture.staging.background = picture.transport.sky->horizon;
+    picture.scene_setup.background = picture.transport.sky->horizon;
   }
 }
 
@@ -161,7 +161,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
       "An NFF file, a scene of pbrt-v4, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, "
       "rings-4-t1, tetra-9");
-  add_options(options, picture.staging);
+  add_options(options, picture.scene_setup);
   add_view_options(options, picture);
   options.add_text(
       "--samples", picture.presents_meshes ? "1..32768|auto [1, of a mesh file auto]" : "1..32768|auto [1]",

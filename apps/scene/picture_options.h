@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/line/command_line.h"
 #include "apps/formats/resolution.h"
-#include "apps/scene/staging.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/scene/scene_setup.h"
 #include "apps/scene/transport_options.h"
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
@@ -46,19 +46,19 @@ DefaultError default_error(bool is_by_paths);
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
-  int samples = 1;                       ///< per pixel, 1 to 32768 (core/picture/film.h says why); if refined, in the first pass
-  bool is_refined = false;               ///< --samples=auto
-  bool presents_meshes = false;          ///< what a mesh file shows unless asked for follows below in add_options()
-  bool is_refined_unasked = false;       ///< for that reason, to the default error
-  bool is_by_paths_unasked = false;      ///< for that reason
-  bool is_one_path_unasked = false;      ///< by paths, and nobody has said how many samples
-  core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
-  int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255; by paths the transport's
+  int samples = 1;                   ///< per pixel, 1 to 32768 (core/picture/film/film.h says why); if refined, in the first pass
+  bool is_refined = false;           ///< --samples=auto
+  bool presents_meshes = false;      ///< what a mesh file shows unless asked for follows below in add_options()
+  bool is_refined_unasked = false;   ///< for that reason, to the default error
+  bool is_by_paths_unasked = false;  ///< for that reason
+  bool is_one_path_unasked = false;  ///< by paths, and nobody has said how many samples
+  core::RefinementOptions refinement;  ///< its error is 0 unless the picture is refined
+  int depth = 5;                       ///< hits of this depth cast shadow rays only; 1 to 255; by paths the transport's
   core::Convention convention = core::Convention::haines;
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already in the fields above
   core::Skips skips;               ///< what is left out on the way to it
-  Staging staging;                 ///< how the scene is seen and lit, if not as it says itself
+  SceneSetup scene_setup;          ///< how the scene is seen and lit, if not as it says itself
   TransportOptions transport;
 };
 

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <ostream>
 
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/nff_writer.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/picture/picture_reader.h"
 #include "core/base/expect.h"
 #include "core/scene/sky_texels.h"

@@ -5,13 +5,13 @@
 #include <limits>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/input_memory.h"
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/progress.h"
 #include "core/database/database.h"
 #include "core/picture/ray_crowd.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/frame.h"
-#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 
@@ -33,9 +33,9 @@ core::CopyLimits copy_limits(const PictureOptions& picture, bool chose_copies) {
   return limits;
 }
 
-DatabaseOptions settled(DatabaseOptions options, const core::KeptShare& share) {
+DatabaseOptions settled(DatabaseOptions options, const core::InstancingShare& share) {
   if (options.instances == InstancesChoice::automatic && options.why_copied.empty() && share.halves() && share.has_room()) {
-    options.keep_instances();
+    options.store_instances();
   }
   return options;
 }
@@ -51,7 +51,7 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
 Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
                               bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
-  const core::KeptShare share = core::kept_share(scene);
+  const core::InstancingShare share = core::instancing_share(scene);
   const core::BuildOptions built = settled(options, share).build;
   const bool chose_copies =
       options.instances == InstancesChoice::automatic && options.why_copied.empty() && !built.keeps_instances;
@@ -101,13 +101,13 @@ std::string kept_text(const core::RecordCounts& records) {
                                                             " triangles stands in several places as the file has it"
                                                       : copied);
   }
-  return "kept " + grouped(records.kept_meshes) + (records.kept_meshes == 1 ? " mesh" : " meshes") + " in " +
-         counted(records.instances, "place") + ": " + counted(records.kept_triangles, "triangle") + " for " +
+  return "kept " + grouped(records.base_meshes) + (records.base_meshes == 1 ? " mesh" : " meshes") + " in " +
+         counted(records.instances, "place") + ": " + counted(records.base_mesh_triangles, "triangle") + " for " +
          grouped(records.triangles_in_places) + (copied.empty() ? "" : "; " + copied);
 }
 
 std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
-                           const core::KeptShare& share) {
+                           const core::InstancingShare& share) {
   if (!keeps && options.instances == InstancesChoice::expand) {
     return "";
   }

@@ -9,9 +9,9 @@
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
 #include "core/database/database.h"
+#include "core/picture/film/rounding_loss.h"
 #include "core/picture/pixel_task.h"
-#include "core/picture/rounding_loss.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -47,7 +47,7 @@ std::string kept_text(const core::RecordCounts& records);
 /// What is said of how often meshes are there; empty where nobody asked or none stands in several places. `keeps`: whether they
 /// are kept.
 std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
-                           const core::KeptShare& share);
+                           const core::InstancingShare& share);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

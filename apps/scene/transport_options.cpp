@@ -5,11 +5,11 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/words.h"
-#include "apps/scene/staging.h"
-#include "core/picture/microfacet_lobes.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
+#include "apps/scene/scene_setup.h"
+#include "core/picture/surfaces/microfacet_lobes.h"
 
 namespace dmpc::apps {
 namespace {

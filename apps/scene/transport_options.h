@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "core/picture/transport.h"
+#include "apps/frontend/line/command_line.h"
+#include "core/picture/surfaces/transport.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
 

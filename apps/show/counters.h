@@ -1,9 +1,9 @@
-// What renders count beside what any program does (apps/edge/show/counters.h), by name.
+// What renders count beside what any program does (apps/frontend/show/counters.h), by name.
 #pragma once
 
 #include <array>
 
-#include "apps/edge/show/counters.h"
+#include "apps/frontend/show/counters.h"
 #include "core/trace/operations.h"
 #include "dataflow/program.h"
 #include "dataflow/rays/gather.h"
@@ -25,7 +25,7 @@ template <>
 inline constexpr auto counters_of<svm::QuestionCounters> = std::array{
     counter<&svm::QuestionCounters::rays_asked>({"rays_asked", "what does a ray meet below a child", "rays asked about"}),
     counter<&svm::QuestionCounters::records_asked>(
-        {"records_asked", "what is in a record, for shading or above kept meshes", "records asked for"}),
+        {"records_asked", "what is in a record, for shading or above base meshes", "records asked for"}),
     counter<&svm::QuestionCounters::rays_answered>({"rays_answered", "", "rays answered"}),
     counter<&svm::QuestionCounters::records_answered>({"records_answered", "", "records answered"}),
     counter<&svm::QuestionCounters::answers>({"answers", "packets received", "answers"}),
@@ -94,13 +94,13 @@ template <>
 inline constexpr auto counters_of<core::Operations> = std::array{
     counter<&core::Operations::cell_steps>({"cell_steps"}),
     counter<&core::Operations::empty_cells>({"empty_cells", "that rays left together with others in one step"}),
-    counter<&core::Operations::brick_reads>({"brick_reads"}),
+    counter<&core::Operations::bvh_node_reads>({"bvh_node_reads"}),
     counter<&core::Operations::primitive_tests, 0>({"triangle_tests"}),
     counter<&core::Operations::primitive_tests, 1>({"sphere_tests"}),
     counter<&core::Operations::primitive_tests, 2>({"cone_tests"}),
-    counter<&core::Operations::instance_entries>({"instance_entries", "rays that went into a kept mesh"}),
+    counter<&core::Operations::instance_entries>({"instance_entries", "rays that went into a base mesh"}),
     counter<&core::Operations::placed_triangles>(
-        {"placed_triangles", "of kept meshes, by walks (once for a bundle) and to be shaded"}),
+        {"placed_triangles", "of base meshes, by walks (once for a bundle) and to be shaded"}),
     counter<&core::Operations::shadings>({"shadings", "", "shadings"}),
     counter<&core::Operations::normal_reads>({"normal_reads", "vertex normals of smooth triangles"}),
     counter<&core::Operations::texture_lookups>({"texture_lookups", "hits on textured triangles"}),

@@ -4,11 +4,11 @@
 #include <ostream>
 #include <variant>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/run/computer_room.h"
-#include "apps/edge/run/time_parts.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/run/computer_capacity.h"
+#include "apps/frontend/run/time_parts.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/ray_hops.h"
 #include "nodes/size_text.h"
@@ -162,8 +162,8 @@ std::string regions_text(const RenderOptions& options, const dataflow::Report& r
 }
 
 std::string places_text(const dataflow::Plan& plan) {
-  return plan.shares_places() ? counted(plan.ray_places, "place") + " a node to be asked for"
-                              : counted(plan.ray_credits, "credit") + " a pair";
+  return plan.shares_slots() ? counted(plan.ray_slots, "place") + " a node to be asked for"
+                             : counted(plan.ray_credits, "credit") + " a pair";
 }
 
 StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& report) {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/stopwatch.h"
-#include "apps/edge/web/page_server.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/system/stopwatch.h"
+#include "apps/frontend/web/page_server.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/live_events.h"
 #include "apps/run/instance_options.h"
@@ -28,7 +28,7 @@
 #include "apps/view/wishes.h"
 #include "core/base/expect.h"
 #include "core/database/conversion.h"
-#include "core/picture/rounding_loss.h"
+#include "core/picture/film/rounding_loss.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -60,7 +60,7 @@ void add_runner_options(OptionSet& options, ViewOptions& view) {
 /// The scene is built once, for every camera.
 void check_camera_moves(const ViewOptions& view) {
   const std::string why = ", which the camera would take along: dmpc render shows it from one place";
-  if (view.picture.staging.fill.value_or(0) > 0) {
+  if (view.picture.scene_setup.fill.value_or(0) > 0) {
     throw UsageError("--fill does not go with view: it is a light in the eye" + why);
   }
   if (view.picture.transport.light_radius) {
@@ -74,7 +74,7 @@ void check_camera_moves(const ViewOptions& view) {
 constexpr std::uint32_t pixels_max = std::uint32_t{1} << 22U;
 constexpr int moving_samples_by_paths = 4;
 /// How often it is told how far a picture is.
-constexpr std::chrono::milliseconds tell_interval{100};
+constexpr std::chrono::milliseconds report_interval{100};
 /// Pictures of a moving camera come as fast as they are made.
 constexpr std::chrono::milliseconds look_interval{15};
 /// Places of events, all of which a viewer gets at once.
@@ -85,8 +85,8 @@ enum : std::size_t { head_place, state_place, picture_place, places };
 core::Scene load(PictureOptions& picture, bool is_quiet) {
   core::Scene scene = load_scene(picture, is_quiet ? LoadNotes::silent : LoadNotes::said);
   picture.resolution = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
-  const bool is_seen_by_own = !picture.staging.camera;
-  picture.staging.camera = camera_of(scene.view);
+  const bool is_seen_by_own = !picture.scene_setup.camera;
+  picture.scene_setup.camera = camera_of(scene.view);
   return is_seen_by_own && is_mesh(picture.scene) ? load_scene(picture, LoadNotes::silent) : std::move(scene);
 }
 
@@ -144,7 +144,7 @@ class Viewing {
  private:
   /// Once; a signal ends the process here and now.
   void build() {
-    tell({.said = "The scene is read and built."});
+    notify({.said = "The scene is read and built."});
     const Interrupt::EndAtOnce end_at_once(interrupt_);
     core::Scene scene = load(options_.picture, options_.quiet);
     home_ = scene.view;
@@ -200,7 +200,7 @@ class Viewing {
     const Report report = nodes.render(teller(wish), stop.get_token());
     interrupt_.check();
     if (const Account account = account_of(report); account.end == nodes::RunEnd::finished) {
-      tell(wish, account.film, stopwatch.lap());
+      notify(wish, account.film, stopwatch.lap());
     }
   }
 
@@ -209,16 +209,16 @@ class Viewing {
       return [](std::uint32_t, std::uint32_t) {};
     }
     return [this, last = std::chrono::steady_clock::now()](std::uint32_t done, std::uint32_t total) mutable {
-      if (const auto now = std::chrono::steady_clock::now(); now - last >= tell_interval) {
+      if (const auto now = std::chrono::steady_clock::now(); now - last >= report_interval) {
         last = now;
-        tell({.said = "The picture comes.", .done = done, .total = total});
+        notify({.said = "The picture comes.", .done = done, .total = total});
       }
     };
   }
 
-  void tell(const LiveState& state) { server_->feed().put(state_place, "state", json_of(state)); }
+  void notify(const LiveState& state) { server_->feed().put(state_place, "state", json_of(state)); }
 
-  void tell(const Wish& wish, const core::Film& film, double seconds) {
+  void notify(const Wish& wish, const core::Film& film, double seconds) {
     LiveShot shot{.whole = {.width = static_cast<std::uint32_t>(film.width()),
                             .height = static_cast<std::uint32_t>(film.height()),
                             .rgb = image_of(film).rgb},
@@ -231,7 +231,7 @@ class Viewing {
     }
     server_->feed().put(picture_place, "picture", json_of(shot));
     const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
-    tell({.said = wish.is_moving ? "The camera moves." : "The picture is done.", .done = pixels, .total = pixels});
+    notify({.said = wish.is_moving ? "The camera moves." : "The picture is done.", .done = pixels, .total = pixels});
   }
 
   void say(const std::vector<std::string>& notes) const {
@@ -270,7 +270,7 @@ void add_options(OptionSet options, ViewOptions& view) {
       settle_system(options, *view.system, view, view.database);
     }
     settle_database(options, view.strategy, view.database);
-    settle_instances(options, {view.system, view.tracer, view.rays.tested_objects}, view.database, view.picture.staging.mesh);
+    settle_instances(options, {view.system, view.tracer, view.rays.tested_objects}, view.database, view.picture.scene_setup.mesh);
     view.has_several_frames = true;
     check_together(options, view);
     check_runner(options, view.runner.kind);

@@ -5,8 +5,8 @@
 #include <iosfwd>
 #include <optional>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "apps/scene/database_options.h"

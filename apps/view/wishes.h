@@ -7,8 +7,8 @@
 #include <stop_token>
 #include <string>
 
-#include "apps/edge/web/web_server.h"
-#include "apps/scene/staging.h"
+#include "apps/frontend/web/web_server.h"
+#include "apps/scene/scene_setup.h"
 
 namespace dmpc::apps {
 

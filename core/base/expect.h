@@ -18,7 +18,7 @@ struct InputError : std::runtime_error {
 };
 
 /// Input that would do if there were more room: on this computer, in the nodes' memory, or in a database. Exit status 4.
-struct RoomError : InputError {
+struct CapacityError : InputError {
   using InputError::InputError;
 };
 

@@ -17,9 +17,9 @@ namespace dmpc::core {
 /// A member of a struct. Two are equal if they are the same member of the same struct.
 class Field {
  public:
-  /// `path` lasts as long as the program: "dmpc::svm::PageOptions::work_giver".
+  /// `path` lasts as long as the program: "dmpc::svm::PageOptions::work_donor".
   constexpr explicit Field(std::string_view path) : path_(path) {}
-  /// "work_giver".
+  /// "work_donor".
   constexpr std::string_view name() const { return path_.substr(path_.rfind(':') + 1); }
   constexpr bool operator==(const Field&) const = default;
 
@@ -27,7 +27,7 @@ class Field {
   std::string_view path_;
 };
 
-/// field_of<&svm::PageOptions::work_giver>(): the compiler says what the member is called.
+/// field_of<&svm::PageOptions::work_donor>(): the compiler says what the member is called.
 template <auto Member>
 consteval Field field_of() {
   const std::string_view function = std::source_location::current().function_name();  // "... [with auto Member = &...; ...]"
@@ -60,7 +60,7 @@ class Sentence {
   std::vector<std::variant<Field, std::string>> parts_;
 };
 
-/// A UsageError or RoomError that tells fields from words.
+/// A UsageError or CapacityError that tells fields from words.
 template <class Error>
 struct Refusal : Error {
   explicit Refusal(const Sentence& why) : Error(why.text()), sentence(why) {}

@@ -9,12 +9,12 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/base/vec.h"
-#include "core/database/copies_bounds.h"
-#include "core/database/overlap.h"
+#include "core/database/meshes/copies_bounds.h"
+#include "core/database/tree/overlap.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/frame.h"
-#include "core/scene/kept_meshes.h"
 #include "core/scene/placing.h"
 #include "core/scene/triangulate.h"
 
@@ -50,7 +50,7 @@ void put_axis(PrimitiveValues& primitive, const Vec3d& axis, double apex_radius)
   put_values(primitive, 4, {axis.x, axis.y, axis.z, on_lattice(apex_radius)});
 }
 
-BlockLane lane_of(const PrimitiveValues& primitive) { return {primitive.value.data(), 1, 0}; }
+LeafLane lane_of(const PrimitiveValues& primitive) { return {primitive.value.data(), 1, 0}; }
 
 /// The rests of four values from `first` on whose floats pass by local zero; the radius, which keeps its sign, may be another
 /// one.
@@ -301,8 +301,8 @@ class Steps {
  public:
   Steps(const Scene& scene, std::span<const MeshFaces> meshes) : meshes_(meshes) {
     if (scene.kept != nullptr) {
-      expect(meshes.size() == scene.kept->meshes.size(), "each kept mesh has been judged");
-      for (const KeptPlace& place : scene.kept->places) {
+      expect(meshes.size() == scene.kept->meshes.size(), "each base mesh has been judged");
+      for (const BaseMeshInstance& place : scene.kept->places) {
         add_objects(place.at);
         runs_.push_back({count_, next_, &place, {}});
         count_ += place.has_copy ? meshes[place.mesh].triangles.size() : 1;
@@ -348,7 +348,7 @@ class Steps {
   struct Run {
     std::size_t begin;
     std::uint32_t first;
-    const KeptPlace* place;
+    const BaseMeshInstance* place;
     std::vector<std::uint32_t> planes;  ///< by the mesh's: PrimitiveValues::plane()
   };
 
@@ -360,7 +360,7 @@ class Steps {
       next_ = end;
     }
   }
-  static std::uint32_t number_of(const MeshPlane& plane, const Placing& placing, std::vector<KeptPlane>& planes) {
+  static std::uint32_t number_of(const MeshPlane& plane, const Placing& placing, std::vector<PrimitivePlane>& planes) {
     if (placing.stays_level(plane)) {
       return PrimitiveValues::level_plane;
     }
@@ -368,11 +368,11 @@ class Steps {
     if (!placed) {
       return 0;
     }
-    planes.push_back({*placed, plane.kept_as});
+    planes.push_back({*placed, plane.stored_as});
     return static_cast<std::uint32_t>(planes.size());
   }
   static void add_layer(const MeshPlane& plane, const Placing& placing, std::int32_t& layers) {
-    const std::int32_t layer = plane.kept_as - std::int32_t{BlockHeader::exact_plane};
+    const std::int32_t layer = plane.stored_as - std::int32_t{LeafHeader::exact_plane};
     if (layer > layers && !placing.stays_level(plane) && placing.plane(plane)) {
       layers = layer;
     }

@@ -10,7 +10,7 @@
 #include "core/base/box.h"
 #include "core/base/vec.h"
 #include "core/database/database.h"
-#include "core/database/mesh_faces.h"
+#include "core/database/meshes/mesh_faces.h"
 #include "core/database/parallel.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -61,8 +61,8 @@ struct Conversion {
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // What places of meshes bring along, and settle_coplanar() and drop_twins() add:
-  std::vector<KeptPlane> planes;  ///< by PrimitiveValues::plane() - 1
-  std::int32_t place_layers = 0;  ///< the highest layer of a plane of places whose copies are left out
+  std::vector<PrimitivePlane> planes;  ///< by PrimitiveValues::plane() - 1
+  std::int32_t place_layers = 0;       ///< the highest layer of a plane of places whose copies are left out
   struct Lamp {
     std::uint32_t primitive;
   };
@@ -80,7 +80,7 @@ struct ConversionWishes {
   bool keeps_corners = false;              ///< of a scene that keeps no meshes
 };
 
-/// Triangulates and brings all into the grid's coordinates. A place of a kept mesh has that one's triangles, in its order, but
+/// Triangulates and brings all into the grid's coordinates. A place of a base mesh has that one's triangles, in its order, but
 /// for those of which rounding leaves nothing here, and its planes. Where copies are left out an empty box stands for each place,
 /// with source_is_place. The same whatever the number of threads.
 Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel, const ConversionWishes& wishes = {});

@@ -7,58 +7,58 @@
 #include <vector>
 
 #include "core/database/database_builder.h"
-#include "core/database/mesh_faces.h"
-#include "core/database/obstacle.h"
+#include "core/database/meshes/mesh_faces.h"
+#include "core/database/meshes/obstacle.h"
 #include "core/database/parallel.h"
 #include "core/record/directory.h"
 #include "core/record/instance.h"
 #include "core/record/records.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
 
-/// visit(address, block) for each block below a brick.
+/// visit(address, leaf) for each leaf below a BVH node.
 template <class Visit>
-void for_each_block_below(const LocalRecords& records, Address from, const Visit& visit) {
-  const auto brick = read<Brick>(records.find(from));
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
-    const Address address = brick.child[child].address();
-    brick.child[child].is_block() ? visit(address, records.find(address)) : for_each_block_below(records, address, visit);
+void for_each_leaf_below(const LocalRecords& records, Address from, const Visit& visit) {
+  const auto bvh_node = read<BvhNode>(records.find(from));
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+    const Address address = bvh_node.child[child].address();
+    bvh_node.child[child].is_leaf() ? visit(address, records.find(address)) : for_each_leaf_below(records, address, visit);
   }
 }
 
-/// `first` is the id of what the block calls 0; `lane_of` makes the lane of a hit of the block's.
+/// `first` is the id of what the leaf calls 0; `lane_of` makes the lane of a hit of the leaf's.
 template <class LaneOf>
-void add_places(Address address, const std::byte* block, std::uint32_t first, const LaneOf& lane_of,
-                std::vector<Database::Place>& places) {
-  const auto header = read<BlockHeader>(block);
-  const std::byte* const ids = ids_of(header, block);
+void add_slots(Address address, const std::byte* leaf, std::uint32_t first, const LaneOf& lane_of,
+               std::vector<Database::Place>& places) {
+  const auto header = read<LeafHeader>(leaf);
+  const std::byte* const ids = ids_of(header, leaf);
   for (std::uint32_t lane = 0; lane < header.count; ++lane) {
     places[first + read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane_of(lane)};
   }
 }
 
-/// What each instance of a block of them puts in its place.
-void find_places_of_instances(const LocalRecords& records, const std::byte* block, std::vector<Database::Place>& places) {
-  for (std::size_t i = 0; i < read<BlockHeader>(block).count; ++i) {
-    const Address address = instance_in(block, i);
+/// What each instance of a leaf of them puts in its place.
+void find_places_of_instances(const LocalRecords& records, const std::byte* leaf, std::vector<Database::Place>& places) {
+  for (std::size_t i = 0; i < read<LeafHeader>(leaf).count; ++i) {
+    const Address address = instance_in(leaf, i);
     const auto instance = read<InstanceRecord>(records.find(address));
-    for_each_block_below(records, instance.root, [&](Address at, const std::byte* of_mesh) {
-      add_places(
+    for_each_leaf_below(records, instance.root, [&](Address at, const std::byte* of_mesh) {
+      add_slots(
           at, of_mesh, instance.first, [&](std::uint32_t lane) { return lane_in_instance(lane, address); }, places);
     });
   }
 }
 
 void find_places_in(const LocalRecords& records, Address address, std::vector<Database::Place>& places) {
-  const std::byte* const block = records.find(address);
-  if (read<BlockHeader>(block).kind == PrimitiveKind::instance) {
-    return find_places_of_instances(records, block, places);
+  const std::byte* const leaf = records.find(address);
+  if (read<LeafHeader>(leaf).kind == PrimitiveKind::instance) {
+    return find_places_of_instances(records, leaf, places);
   }
-  add_places(
-      address, block, 0, [](std::uint32_t lane) { return lane; }, places);
+  add_slots(
+      address, leaf, 0, [](std::uint32_t lane) { return lane; }, places);
 }
 
 /// Of the copies that a scene leaves out.
@@ -76,13 +76,13 @@ std::uint64_t bytes_with_copies(const Scene& scene, const std::vector<bool>& pla
 void put_copies_in(Scene& scene, const std::vector<bool>& places, const CopyLimits& limits, const std::string& why,
                    const char* advice) {
   if (const std::uint64_t bytes = bytes_with_copies(scene, places); bytes > limits.bytes_max) {
-    throw RoomError("with a copy in each place" + why + ", the scene takes " + std::to_string(bytes >> 20U) +
-                    " MiB of memory, and there are " + std::to_string(limits.bytes_max >> 20U) + " for it: " + advice);
+    throw CapacityError("with a copy in each place" + why + ", the scene takes " + std::to_string(bytes >> 20U) +
+                        " MiB of memory, and there are " + std::to_string(limits.bytes_max >> 20U) + " for it: " + advice);
   }
   put_copies(scene, places);
 }
 
-constexpr const char* fewer_places = "give the scene fewer places, or coarser meshes";
+constexpr const char* fewer_slots = "give the scene fewer places, or coarser meshes";
 
 /// Counts them in `copied`.
 void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const CopyLimits& limits, ObstacleCounts& copied) {
@@ -92,7 +92,7 @@ void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const C
     for (const Obstacle obstacle : obstacles) {
       places.push_back(obstacle != Obstacle::none);
     }
-    put_copies_in(scene, places, limits, " of what cannot be kept once (" + text_of(scene, obstacles) + ")", fewer_places);
+    put_copies_in(scene, places, limits, " of what cannot be kept once (" + text_of(scene, obstacles) + ")", fewer_slots);
   }
 }
 
@@ -100,7 +100,7 @@ void put_all_in(Scene& scene, const CopyLimits& limits) {
   if (leaves_copies_out(scene)) {
     const bool is_asked_for = *limits.reason != 0;
     put_copies_in(scene, std::vector<bool>(scene.kept->places.size(), true), limits,
-                  is_asked_for ? std::string(", ") + limits.reason : "", is_asked_for ? limits.advice : fewer_places);
+                  is_asked_for ? std::string(", ") + limits.reason : "", is_asked_for ? limits.advice : fewer_slots);
   }
 }
 
@@ -115,10 +115,10 @@ std::vector<Database::Place> Database::find_places() const {
       continue;
     }
     if (header_.has_voxels()) {
-      for_each_listed(records, header_, entry, [&](Address block) { find_places_in(records, block, places); });
+      for_each_listed(records, header_, entry, [&](Address leaf) { find_places_in(records, leaf, places); });
     } else {
-      for_each_block_below(records, entry.brick(),
-                           [&](Address address, const std::byte*) { find_places_in(records, address, places); });
+      for_each_leaf_below(records, entry.bvh_node(),
+                          [&](Address address, const std::byte*) { find_places_in(records, address, places); });
     }
   }
   return places;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/forget.h"
-#include "core/database/obstacle.h"
+#include "core/database/meshes/obstacle.h"
 #include "core/database/structure.h"
 #include "core/record/curved_values.h"
 #include "core/record/record.h"
@@ -21,11 +21,12 @@ namespace dmpc::core {
 
 struct BuildOptions {
   std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
-  double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
+  double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of macro cells and of the finest lattice
   RecordOrder record_order = RecordOrder::spatial;
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
-  /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
+  /// Of what shines by itself at most so many are aimed at by paths (core/database/shading/emitters.h). 0: none, as Whitted's has
+  /// it.
   std::uint32_t emitters_max = 0;
   bool for_paths = false;  ///< surfaces are as pictures by paths show them: Material::microfacets
   /// Meshes of Scene::kept are records but once, and their copies InstanceRecords, with the film's bits that copies have. Takes
@@ -59,12 +60,12 @@ struct CloseFaces {
   std::uint32_t layers = 0;   ///< between them
 };
 
-/// A plane that blocks tell, and what their headers say of it.
-struct KeptPlane : FacePlane {
-  std::uint8_t kept_as = BlockHeader::shared_plane;  ///< BlockHeader::plane
+/// A plane that leaves tell, and what their headers say of it.
+struct PrimitivePlane : FacePlane {
+  std::uint8_t stored_as = LeafHeader::shared_plane;  ///< LeafHeader::plane
 };
 
-/// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
+/// One primitive as its records hold it, for the oracle and the referee. Rows as in LeafHeader.
 struct PrimitiveValues {
   PrimitiveKind kind{};
   std::array<float, value_count_max> value{};
@@ -90,8 +91,8 @@ static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
 
 /// Records of the grid and of shading, by kind.
 struct RecordCounts {
-  std::uint64_t bricks = 0;
-  std::array<std::uint64_t, primitive_kind_count> blocks{};
+  std::uint64_t bvh_nodes = 0;
+  std::array<std::uint64_t, primitive_kind_count> leaves{};
   std::uint64_t normals = 0;        ///< PatchNormals
   std::uint64_t textured = 0;       ///< TexturedNormals, in all
   std::uint64_t faceted = 0;        ///< of those, what FacetedNormals begin with
@@ -101,10 +102,10 @@ struct RecordCounts {
   std::uint64_t materials = 0;         ///< without the finishes that stand behind them
   std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters
   std::uint64_t emitters_covered = 0;  ///< likewise, of which others in their plane may leave nothing to be met
-  std::uint64_t instance_blocks = 0, instances = 0;
-  std::uint64_t kept_meshes = 0;                              ///< that instances are of
-  std::uint64_t kept_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
-  ObstacleCounts copied;                                      ///< places that have copies though meshes were to be kept
+  std::uint64_t instance_leaves = 0, instances = 0;
+  std::uint64_t base_meshes = 0;                                   ///< that instances are of
+  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
+  ObstacleCounts copied;                                           ///< places that have copies though meshes were to be kept
 };
 
 class Database {
@@ -117,15 +118,15 @@ class Database {
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
   /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which
-  /// share a plane those come first that shine, and last that let light through (core/database/coplanar.h).
+  /// share a plane those come first that shine, and last that let light through (core/database/faces/coplanar.h).
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
   /// By PrimitiveValues::plane() - 1.
-  std::span<const KeptPlane> planes() const { return planes_; }
-  /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be. Of a kept mesh's triangle the
+  std::span<const PrimitivePlane> planes() const { return planes_; }
+  /// Where some copy of primitive `id` lies: what Hit::leaf and Hit::lane of a hit on it may be. Of a base mesh's triangle the
   /// lane tells the instance, too.
   struct Place {
-    Address block = no_address;
+    Address leaf = no_address;
     std::uint32_t lane = 0;
   };
   /// Places by id; found by looking through all records, so ask once.
@@ -153,11 +154,11 @@ class Database {
   std::uint32_t duplicates() const { return duplicates_; }
   /// Planes in which several triangles cover each other.
   std::uint32_t shared_planes() const { return shared_planes_; }
-  /// Copies of primitives in blocks, at least one each.
+  /// Copies of primitives in leaves, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
-  /// How many pages of one tree in spatial order lie before the first subtree: tables and the bricks above, those of kept meshes,
-  /// too. What a page behind them and the open ones holds of a tree holds all that is below it. 0 for any other database.
+  /// How many pages of one tree in spatial order lie before the first subtree: tables and the BVH nodes above, those of base
+  /// meshes, too. What a page behind them and the open ones holds of a tree holds all that is below it. 0 for any other database.
   std::size_t forest_page_count() const { return forest_page_count_; }
   /// How many pages behind those are open, where meshes are kept once: what they have of the tree, and its InstanceRecords, leads
   /// into meshes, which lie elsewhere. 0 for any other database.
@@ -174,14 +175,14 @@ class Database {
   std::vector<PrimitiveSource> sources_;
   std::vector<CollapsedPrimitive> collapsed_;
   std::vector<CloseFaces> close_faces_;
-  std::vector<KeptPlane> planes_;
+  std::vector<PrimitivePlane> planes_;
   std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;
   double pad_ = 0;
 };
 
-/// Copies that the scene leaves out are put into it. Throws RoomError if the database would exceed 16 GiB.
+/// Copies that the scene leaves out are put into it. Throws CapacityError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
 /// Builds as the other, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights,
 /// materials and background stay, and of textures all but their texels.
@@ -190,7 +191,7 @@ Database build_database(Scene&& scene, const BuildOptions& options);
 /// For a scene that leaves copies out and whose instances are to be kept (BuildOptions::keeps_instances).
 struct CopyLimits {
   /// No more corners of copies than this are put in on the way: then all is said of them that is said of others. Of more,
-  /// places alone are there (core/database/left_out_places.h), and nobody looks at what rounding does to copies.
+  /// places alone are there (core/database/meshes/uncopied_instances.h), and nobody looks at what rounding does to copies.
   std::uint64_t corners_max = std::uint64_t{3} << 21U;
   /// With all copies that are put in the scene may be so large while it becomes primitives.
   std::uint64_t bytes_max = std::numeric_limits<std::uint64_t>::max();
@@ -199,8 +200,8 @@ struct CopyLimits {
 };
 
 /// build_database() within other limits. Of more copies than these allow those are put in that have to be there, since something
-/// keeps their mesh or place from being kept (core/database/obstacle.h). Throws RoomError, too, if copies that are put in have no
-/// room.
+/// keeps their mesh or place from being kept (core/database/meshes/obstacle.h). Throws CapacityError, too, if copies that are put
+/// in have no room.
 Database build_database(Scene&& scene, const BuildOptions& options, const CopyLimits& limits);
 
 }  // namespace dmpc::core

@@ -6,11 +6,11 @@
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
-#include "core/database/coplanar.h"
-#include "core/database/material_records.h"
+#include "core/database/faces/coplanar.h"
+#include "core/database/faces/twins.h"
+#include "core/database/shading/material_records.h"
+#include "core/database/shading/texture_records.h"
 #include "core/database/structure.h"
-#include "core/database/texture_records.h"
-#include "core/database/twins.h"
 #include "core/record/directory.h"
 #include "core/record/texture_layout.h"
 #include "core/scene/detail.h"
@@ -54,10 +54,10 @@ std::optional<Database> DatabaseBuilder::build() {
   fit();
   conversion_ = convert(scene_, frame(), parallel_, {.meshes = meshes_});
   set_pad();  // places of meshes may have brought layers
-  TopCells cells = sort_into_top_cells();
+  MacroCells cells = sort_into_macro_cells();
   if (settle_coplanar(conversion_, cells, scene_, frame(), parallel_)) {
-    set_pad();                      // there are layers now
-    cells = sort_into_top_cells();  // which may look for twins among the scene's objects
+    set_pad();                        // there are layers now
+    cells = sort_into_macro_cells();  // which may look for twins among the scene's objects
   }
   if (!keep()) {
     return std::nullopt;
@@ -116,17 +116,17 @@ void DatabaseBuilder::set_pad() { result_.pad_ = options_.pad_share * insertion_
 /// The highest layer of a plane.
 std::int32_t DatabaseBuilder::layers_above() const {
   std::int32_t layers = conversion_.place_layers;
-  for (const KeptPlane& plane : conversion_.planes) {
-    layers = std::max(layers, plane.kept_as - std::int32_t{BlockHeader::exact_plane});
+  for (const PrimitivePlane& plane : conversion_.planes) {
+    layers = std::max(layers, plane.stored_as - std::int32_t{LeafHeader::exact_plane});
   }
   return layers;
 }
 
 /// Where primitives are so large, so long, so far from the view or so much in one place that the lists would be long, those go
 /// that are there many times over; then cells of twice the size are tried, at last a single one.
-TopCells DatabaseBuilder::sort_into_top_cells() {
+MacroCells DatabaseBuilder::sort_into_macro_cells() {
   for (;;) {
-    if (auto cells = list_top_cells()) {
+    if (auto cells = list_macro_cells()) {
       return std::move(*cells);
     }
     const bool is_first_try = !std::exchange(has_looked_for_twins_, true);
@@ -136,13 +136,13 @@ TopCells DatabaseBuilder::sort_into_top_cells() {
   }
 }
 
-std::optional<TopCells> DatabaseBuilder::list_with(std::int64_t excess) const {
-  return TopCells::list(conversion_.primitives, frame(), pad(), parallel_, excess);
+std::optional<MacroCells> DatabaseBuilder::list_with(std::int64_t excess) const {
+  return MacroCells::list(conversion_.primitives, frame(), pad(), parallel_, excess);
 }
 
 void DatabaseBuilder::join_cells() {
   header().frame.eye_extent = grid_high(frame()) - frame().low;
-  while (top_cells(frame()) != std::array<std::int32_t, 3>{1, 1, 1}) {
+  while (macro_cells(frame()) != std::array<std::int32_t, 3>{1, 1, 1}) {
     coarsen();
   }
 }
@@ -159,7 +159,7 @@ std::size_t DatabaseBuilder::begin_page() {
 
 void DatabaseBuilder::write_tables(std::optional<std::uint64_t> references) {
   header().region.high = grid_size(frame());
-  header().directory_size = top_cells(frame());
+  header().directory_size = macro_cells(frame());
   header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().directory_size));
   if (references) {
     header().references = writer_.allocate_array<VoxelReference>(round_up(*references, std::uint64_t{2}));

@@ -11,13 +11,13 @@
 #include "core/base/vec.h"
 #include "core/database/conversion.h"
 #include "core/database/database.h"
-#include "core/database/emitters.h"
-#include "core/database/mesh_faces.h"
-#include "core/database/obstacle.h"
+#include "core/database/grid/macro_cells.h"
+#include "core/database/meshes/mesh_faces.h"
+#include "core/database/meshes/obstacle.h"
 #include "core/database/parallel.h"
 #include "core/database/record_writer.h"
-#include "core/database/sky_records.h"
-#include "core/database/top_cells.h"
+#include "core/database/shading/emitters.h"
+#include "core/database/shading/sky_records.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
 
@@ -53,18 +53,18 @@ class DatabaseBuilder {
   std::vector<Address> scattered() const;
 
  protected:
-  /// Lists the primitives of every top cell; none if the lists would be long.
-  virtual std::optional<TopCells> list_top_cells() const { return list_with(0); }
+  /// Lists the primitives of every macro cell; none if the lists would be long.
+  virtual std::optional<MacroCells> list_macro_cells() const { return list_with(0); }
   /// Takes what is kept once out of what is converted. Whether that goes.
   virtual bool keep() { return true; }
-  /// Makes other cells of the top cells. Whatever depends on cells but the boxes of bricks has been settled, and rays start where
-  /// they would without, so that the picture keeps its bits.
-  virtual TopCells cells_of(TopCells cells) { return cells; }
+  /// Makes other cells of the macro cells. Whatever depends on cells but the boxes of BVH nodes has been settled, and rays start
+  /// where they would without, so that the picture keeps its bits.
+  virtual MacroCells cells_of(MacroCells cells) { return cells; }
   virtual std::uint64_t primitive_count() const { return conversion_.primitives.size(); }
   /// The id of the primitive at an index of the conversion's lists.
   virtual std::uint32_t id_of(std::uint32_t primitive) const { return primitive; }
-  /// Returns how many copies of primitives are in blocks.
-  virtual std::uint64_t write_records(const TopCells& cells) = 0;
+  /// Returns how many copies of primitives are in leaves.
+  virtual std::uint64_t write_records(const MacroCells& cells) = 0;
 
   const BuildOptions& options() const { return options_; }
   const Parallel& parallel() const { return parallel_; }
@@ -79,9 +79,9 @@ class DatabaseBuilder {
   /// What the scene takes of the grid, grid-local: as much behind it as before it; 0 if it is empty.
   const Vec3d& used() const { return used_; }
 
-  std::optional<TopCells> list_with(std::int64_t excess) const;
-  TopCells sort_into_top_cells();
-  /// One top cell in place of all.
+  std::optional<MacroCells> list_with(std::int64_t excess) const;
+  MacroCells sort_into_macro_cells();
+  /// One macro cell in place of all.
   void join_cells();
   void coarsen();
   void set_pad();

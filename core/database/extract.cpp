@@ -12,11 +12,11 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/address_map.h"
-#include "core/database/block_values.h"
-#include "core/database/mesh_needs.h"
+#include "core/database/meshes/mesh_needs.h"
 #include "core/database/record_writer.h"
 #include "core/database/region_records.h"
-#include "core/database/texture_records.h"
+#include "core/database/shading/texture_records.h"
+#include "core/database/tree/leaf_values.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
 #include "core/record/sky.h"
@@ -52,8 +52,8 @@ class Extractor {
     header.region = regions_.front();
     const Region around = box_around_regions();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      header.directory_low[axis] = around.low[axis] / finest_per_top * finest_per_top;
-      header.directory_size[axis] = ceil_divide(around.high[axis] - header.directory_low[axis], finest_per_top);
+      header.directory_low[axis] = around.low[axis] / finest_per_macro * finest_per_macro;
+      header.directory_size[axis] = ceil_divide(around.high[axis] - header.directory_low[axis], finest_per_macro);
     }
     header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
     if (whole_.has_voxels()) {
@@ -76,7 +76,7 @@ class Extractor {
     if (whole_.has_voxels()) {
       copy_voxels();
     } else {
-      for_each_top_cell(header.directory_low, around.high, false, [&](const Corner& cell) { copy_top_cell(cell); });
+      for_each_macro_cell(header.directory_low, around.high, false, [&](const Corner& cell) { copy_macro_cell(cell); });
     }
     copy_textures();
     part_.record_bytes = writer_.page_bytes();
@@ -115,11 +115,11 @@ class Extractor {
     return to;
   }
 
-  /// Lists what each voxel has for the regions, as entries of the part's directory and references to the whole's blocks.
+  /// Lists what each voxel has for the regions, as entries of the part's directory and references to the whole's leaves.
   void choose_listed(const Region& around) {
     const DatabaseHeader& header = part_.header;
     entries_.resize(directory_entry_count(header.directory_size));
-    for_each_top_cell(header.directory_low, around.high, true, [&](const Corner& cell) {
+    for_each_macro_cell(header.directory_low, around.high, true, [&](const Corner& cell) {
       const DirectoryEntry entry = entry_at(cell);
       entries_[directory_index(header, cell)] = entry.empty() ? entry : choose_from_list(entry, cell);
     });
@@ -130,9 +130,9 @@ class Extractor {
     const Those those = regions_over(cell);
     LocalRecords records({bytes_, 0});
     if (those.count > 0) {
-      for_each_listed(records, whole_, entry, [&](Address block) {
-        if (is_wanted(block, those)) {
-          listed_.push_back(VoxelReference::to(block));
+      for_each_listed(records, whole_, entry, [&](Address leaf) {
+        if (is_wanted(leaf, those)) {
+          listed_.push_back(VoxelReference::to(leaf));
         }
       });
     }
@@ -144,9 +144,9 @@ class Extractor {
     return {static_cast<std::uint32_t>(begin)};
   }
 
-  /// Whether a hit on a block may lie in one of those regions.
-  bool is_wanted(Address block, const Those& those) {
-    const Box box = bounds_of_block(at(block)).padded(pad_);
+  /// Whether a hit on a leaf may lie in one of those regions.
+  bool is_wanted(Address leaf, const Those& those) {
+    const Box box = bounds_of_leaf(at(leaf)).padded(pad_);
     bool is_wanted = false;
     for (std::size_t i = 0; i < those.count; ++i) {
       const std::uint32_t region = among_[those.first + i];
@@ -158,10 +158,10 @@ class Extractor {
   }
 
   void copy_voxels() {
-    AddressMap blocks;
+    AddressMap leaves;
     for (VoxelReference& reference : listed_) {
-      const auto [copy, is_new] = blocks.find_or_add(reference.block());
-      copy = is_new ? copy_block(reference.block(), {}, lies_in_several_voxels(reference.block())) : copy;
+      const auto [copy, is_new] = leaves.find_or_add(reference.leaf());
+      copy = is_new ? copy_leaf(reference.leaf(), {}, lies_in_several_voxels(reference.leaf())) : copy;
       reference.bits = (reference.bits & VoxelReference::last_flag) | static_cast<std::uint32_t>(copy);
     }
     writer_.write(part_.header.references, 0, std::as_bytes(std::span(listed_)));
@@ -169,9 +169,9 @@ class Extractor {
   }
 
   /// Then a ray may meet it again, in the same region as in others, and it has a shared_name.
-  bool lies_in_several_voxels(Address block) const {
-    const Box box = bounds_of_block(at(block)).padded(pad_);
-    const double edge = double{whole_.frame.finest_cell} * finest_per_top;
+  bool lies_in_several_voxels(Address leaf) const {
+    const Box box = bounds_of_leaf(at(leaf)).padded(pad_);
+    const double edge = double{whole_.frame.finest_cell} * finest_per_macro;
     bool is_in_one = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double low = whole_.frame.low[axis];
@@ -180,11 +180,11 @@ class Extractor {
     return !is_in_one;
   }
 
-  void copy_top_cell(const Corner& cell) {
+  void copy_macro_cell(const Corner& cell) {
     DirectoryEntry entry = entry_at(cell);
     if (!entry.empty()) {
       const Those those = regions_over(cell);
-      const Address copy = those.count > 0 ? copy_brick(brick_at(entry.brick()), those) : no_address;
+      const Address copy = those.count > 0 ? copy_bvh_node(bvh_node_at(entry.bvh_node()), those) : no_address;
       among_.clear();
       entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
     }
@@ -194,7 +194,7 @@ class Extractor {
 
   Those regions_over(const Corner& cell) {
     for (std::uint32_t i = 0; i < regions_.size(); ++i) {
-      if (regions_[i].overlaps(cell, finest_per_top)) {
+      if (regions_[i].overlaps(cell, finest_per_macro)) {
         among_.push_back(i);
       }
     }
@@ -202,9 +202,9 @@ class Extractor {
   }
 
   /// Those that a child's box touches; let_go() of them before those from which they were chosen.
-  Those touched(const Brick& brick, std::size_t child, const Those& those) {
+  Those touched(const BvhNode& bvh_node, std::size_t child, const Those& those) {
     const std::size_t first = among_.size();
-    const Box box = box_of(brick, child);
+    const Box box = box_of(bvh_node, child);
     for (std::size_t i = 0; i < those.count; ++i) {
       const std::uint32_t region = among_[those.first + i];
       if (touches_region(whole_.frame, box, regions_[region])) {
@@ -215,82 +215,82 @@ class Extractor {
   }
   void let_go(const Those& those) { among_.resize(those.first); }
 
-  /// Whether one of the regions needs a brick's child: a block whose box touches it, or a brick that has such below.
-  bool needs(const Brick& brick, std::size_t child, const Those& those) {
-    const BrickChild& link = brick.child[child];
-    const Those left = touched(brick, child, those);
+  /// Whether one of the regions needs a BVH node's child: a leaf whose box touches it, or a BVH node that has such below.
+  bool needs(const BvhNode& bvh_node, std::size_t child, const Those& those) {
+    const BvhChild& link = bvh_node.child[child];
+    const Those left = touched(bvh_node, child, those);
     const bool is_needed =
-        left.count > 0 && (link.is_block() ? needs_block(link.address()) : needs_any_child(brick_at(link.address()), left));
+        left.count > 0 && (link.is_leaf() ? needs_leaf(link.address()) : needs_any_child(bvh_node_at(link.address()), left));
     let_go(left);
     return is_needed;
   }
-  /// Of boxes of places, whether one of them brings something; any other block whose box touches a region is needed.
-  bool needs_block(Address block) const { return !needs_ || !has_places(block) || needed_places(block) != 0; }
-  bool has_places(Address block) const { return read<BlockHeader>(at(block)).kind == PrimitiveKind::instance; }
+  /// Of boxes of places, whether one of them brings something; any other leaf whose box touches a region is needed.
+  bool needs_leaf(Address leaf) const { return !needs_ || !has_places(leaf) || needed_slots(leaf) != 0; }
+  bool has_places(Address leaf) const { return read<LeafHeader>(at(leaf)).kind == PrimitiveKind::instance; }
   /// A bit for each lane.
-  std::uint32_t needed_places(Address block) const {
+  std::uint32_t needed_slots(Address leaf) const {
     std::uint32_t needed = 0;
-    for (std::size_t lane = 0; lane < read<BlockHeader>(at(block)).count; ++lane) {
-      needed |= (needs_->has_place(instance_in(at(block), lane)) ? 1U : 0U) << lane;
+    for (std::size_t lane = 0; lane < read<LeafHeader>(at(leaf)).count; ++lane) {
+      needed |= (needs_->has_place(instance_in(at(leaf), lane)) ? 1U : 0U) << lane;
     }
     return needed;
   }
-  bool needs_any_child(const Brick& brick, const Those& those) {
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (needs(brick, child, those)) {
+  bool needs_any_child(const BvhNode& bvh_node, const Those& those) {
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      if (needs(bvh_node, child, those)) {
         return true;
       }
     }
     return false;
   }
   /// A bit for each.
-  std::uint32_t needed_children(const Brick& brick, const Those& those) {
+  std::uint32_t needed_children(const BvhNode& bvh_node, const Those& those) {
     std::uint32_t needed = 0;
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      needed |= (needs(brick, child, those) ? 1U : 0U) << child;
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      needed |= (needs(bvh_node, child, those) ? 1U : 0U) << child;
     }
     return needed;
   }
 
-  const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
+  const BvhNode& bvh_node_at(Address address) const { return *reinterpret_cast<const BvhNode*>(at(address)); }
 
-  /// Copies what a brick has for the regions; no_address if that is nothing.
-  Address copy_brick(const Brick& from, const Those& those) {
+  /// Copies what a BVH node has for the regions; no_address if that is nothing.
+  Address copy_bvh_node(const BvhNode& from, const Those& those) {
     const std::uint32_t needed = needed_children(from, those);
     return needed == 0 ? no_address
-                       : write_brick(from, needed, [&](std::size_t child) { return copy_child(from, child, those); });
+                       : write_bvh_node(from, needed, [&](std::size_t child) { return copy_child(from, child, those); });
   }
 
-  /// The brick's copy, and those of its children that are needed, by copy(child).
+  /// The BVH node's copy, and those of its children that are needed, by copy(child).
   template <class Copy>
-  Address write_brick(const Brick& from, std::uint32_t needed, const Copy& copy) {
-    const Address to = writer_.allocate(sizeof(Brick));
-    Brick brick{.origin = from.origin, .unit = from.unit};
+  Address write_bvh_node(const BvhNode& from, std::uint32_t needed, const Copy& copy) {
+    const Address to = writer_.allocate(sizeof(BvhNode));
+    BvhNode bvh_node{.origin = from.origin, .unit = from.unit};
     for (; needed != 0; needed &= needed - 1) {
       const auto child = static_cast<std::size_t>(std::countr_zero(needed));
-      const std::size_t place = brick.child_count++;
-      brick.child[place] = copy(child);
+      const std::size_t place = bvh_node.child_count++;
+      bvh_node.child[place] = copy(child);
       for (std::size_t row = 0; row < 6; ++row) {
-        brick.bounds[row][place] = from.bounds[row][child];
+        bvh_node.bounds[row][place] = from.bounds[row][child];
       }
     }
-    writer_.write(to, 0, brick);
+    writer_.write(to, 0, bvh_node);
     return to;
   }
 
-  BrickChild copy_child(const Brick& from, std::size_t child, const Those& those) {
+  BvhChild copy_child(const BvhNode& from, std::size_t child, const Those& those) {
     const Address old = from.child[child].address();
     const Those left = touched(from, child, those);
-    const BrickChild copy = !from.child[child].is_block() ? BrickChild::brick(copy_brick(brick_at(old), left))
-                            : needs_ && has_places(old)   ? BrickChild::block(copy_places(old))
-                                                        : BrickChild::block(copy_block(old, left, is_shared(from, child, left)));
+    const BvhChild copy = !from.child[child].is_leaf() ? BvhChild::bvh_node(copy_bvh_node(bvh_node_at(old), left))
+                          : needs_ && has_places(old)  ? BvhChild::leaf(copy_places(old))
+                                                       : BvhChild::leaf(copy_leaf(old, left, is_shared(from, child, left)));
     let_go(left);
     return copy;
   }
 
   /// Whether a child's box lies in none of those regions: a ray may meet it in others, too.
-  bool is_shared(const Brick& brick, std::size_t child, const Those& those) const {
-    const Box box = box_of(brick, child);
+  bool is_shared(const BvhNode& bvh_node, std::size_t child, const Those& those) const {
+    const Box box = box_of(bvh_node, child);
     const auto holds = [&](std::uint32_t region) {
       bool is_within = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -303,13 +303,13 @@ class Extractor {
     return std::none_of(first, first + static_cast<std::ptrdiff_t>(those.count), holds);
   }
 
-  /// Copies of a block of instances the lanes that are needed, with their meshes.
+  /// Copies of a leaf of instances the lanes that are needed, with their meshes.
   Address copy_places(Address from) {
-    const std::uint32_t needed = needed_places(from);
-    auto header = read<BlockHeader>(at(from));
+    const std::uint32_t needed = needed_slots(from);
+    auto header = read<LeafHeader>(at(from));
     const std::size_t lanes = header.count, rows = value_count(header.kind) + 1;  // of boxes, and ids
     header.count = static_cast<std::uint8_t>(std::popcount(needed));
-    const Address to = writer_.allocate(block_bytes(header));
+    const Address to = writer_.allocate(leaf_bytes(header));
     writer_.write(to, 0, header);
     std::size_t place = 0;
     for (std::uint32_t left = needed; left != 0; left &= left - 1, ++place) {
@@ -338,34 +338,34 @@ class Extractor {
     if (const auto [copy, is_new] = meshes_.find_or_add(root); !is_new) {
       return copy;
     }
-    const Address to = copy_mesh_brick(root);
+    const Address to = copy_mesh_bvh_node(root);
     meshes_.find_or_add(root).first = to;
     return to;
   }
 
-  Address copy_mesh_brick(Address address) {
-    const Brick& from = brick_at(address);
-    return write_brick(from, needs_->children_of(address), [&](std::size_t child) {
-      const BrickChild link = from.child[child];
-      return link.is_block() ? BrickChild::block(copy_lanes(link.address(), false))
-                             : BrickChild::brick(copy_mesh_brick(link.address()));
+  Address copy_mesh_bvh_node(Address address) {
+    const BvhNode& from = bvh_node_at(address);
+    return write_bvh_node(from, needs_->children_of(address), [&](std::size_t child) {
+      const BvhChild link = from.child[child];
+      return link.is_leaf() ? BvhChild::leaf(copy_lanes(link.address(), false))
+                            : BvhChild::bvh_node(copy_mesh_bvh_node(link.address()));
     });
   }
 
-  Address copy_block(Address from, const Those& those, bool is_shared) {
+  Address copy_leaf(Address from, const Those& those, bool is_shared) {
     for (std::size_t i = 0; i < those.count; ++i) {
       part_.holds[among_[those.first + i]] = true;
     }
-    part_.primitive_copies += read<BlockHeader>(at(from)).count;
+    part_.primitive_copies += read<LeafHeader>(at(from)).count;
     return copy_lanes(from, is_shared);
   }
 
   /// With normals and textures.
   Address copy_lanes(Address from, bool is_shared) {
-    auto header = read<BlockHeader>(at(from));
-    const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
+    auto header = read<LeafHeader>(at(from));
+    const std::size_t rows = leaf_bytes(header.kind, header.count), size = leaf_bytes(header);
     const std::size_t row = sizeof(ShadingReference) * header.count;
-    std::array<ShadingReference, block_lanes> lanes;
+    std::array<ShadingReference, leaf_lanes> lanes;
     const std::span shading(lanes.data(), header.count);
     std::memcpy(lanes.data(), at(from) + rows - row, row);
     for (ShadingReference& reference : shading) {
@@ -381,7 +381,7 @@ class Extractor {
     return to;
   }
 
-  /// A triangle that lies in several bricks keeps one record of normals.
+  /// A triangle that lies in several BVH nodes keeps one record of normals.
   Address copy_normals(Address from) {
     const auto [copy, is_new] = normals_.find_or_add(from);
     if (is_new) {
@@ -451,7 +451,7 @@ class Extractor {
   std::vector<VoxelReference> listed_;   ///< by them
   std::optional<MeshNeeds> needs_;       ///< where meshes are kept once
   Address next_instance_ = no_address;   ///< of the copies
-  AddressMap meshes_;                    ///< by their first bricks
+  AddressMap meshes_;                    ///< by their first BVH nodes
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };

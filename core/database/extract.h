@@ -18,17 +18,17 @@ struct DatabasePart {
   DatabaseHeader header;         ///< header.region is the region, the first of several
   std::vector<std::byte> bytes;  ///< overread_bytes more than the records take
   std::size_t record_bytes = 0;  ///< the size of the records alone, also when `bytes` are forgotten
-  /// Lanes of its blocks but for those of kept meshes, whose places count: summed over all parts and divided by the whole's, the
+  /// Lanes of its leaves but for those of base meshes, whose places count: summed over all parts and divided by the whole's, the
   /// duplication.
   std::uint64_t primitive_copies = 0;
-  std::vector<bool> holds;  ///< by region, in the order asked for: whether a block's box touches it
+  std::vector<bool> holds;  ///< by region, in the order asked for: whether a leaf's box touches it
 };
 
-/// Copies the directory's entries, bricks, blocks and normals that cells in `regions`, one or more, need, each once; all
+/// Copies the directory's entries, BVH nodes, leaves and normals that cells in `regions`, one or more, need, each once; all
 /// materials, lights and emitters, and of textures the tiles that the triangles there may show; addresses are made anew, values
-/// keep their bits. Of meshes that are kept once it copies what any of their places brings to the regions, each record once. A
-/// block whose box reaches beyond each of the regions gets a name, the same in every part. Children whose boxes do not touch any
-/// of the regions are left out of their bricks.
+/// keep their bits. Of base meshes it copies what any of their places brings to the regions, each record once. A
+/// leaf whose box reaches beyond each of the regions gets a name, the same in every part. Children whose boxes do not touch any
+/// of the regions are left out of their BVH nodes.
 DatabasePart extract(const Database& database, std::span<const Region> regions);
 inline DatabasePart extract(const Database& database, const Region& region) { return extract(database, std::span(&region, 1)); }
 

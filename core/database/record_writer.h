@@ -32,7 +32,7 @@ class RecordWriter {
 
   /// `places`: where the records go, in the order of their allocation (structure.h), arrays before them apart.
   explicit RecordWriter(std::size_t page_size, std::vector<Address> places = {})
-      : page_size_(page_size), places_(std::move(places)) {}
+      : page_size_(page_size), instances_(std::move(places)) {}
   RecordWriter(std::size_t page_size, Keeps keeps) : page_size_(page_size), keeps_(keeps) {}
 
   /// Room for a record of `bytes` in one page.
@@ -42,14 +42,15 @@ class RecordWriter {
       front_bytes_ = end_;
     }
     sizes_.push_back(static_cast<std::uint16_t>(bytes));
-    return take(places_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)), bytes);
+    return take(instances_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(instances_.at(sizes_.size() - 1)),
+                bytes);
   }
   /// The same, for one run of records that take `share` bytes each on the average, or what they need if that is more: none
   /// crosses a page's border, so some lie a little closer together than others. 0: what they need.
   Address allocate(std::size_t bytes, std::size_t share) {
     const std::size_t taken = std::max(bytes, share);
     const bool is_in_run = share > 0 || shared_end_ > 0;
-    if (!is_in_run || !places_.empty()) {
+    if (!is_in_run || !instances_.empty()) {
       return allocate(taken);
     }
     shared_end_ = shared_end_ == 0 ? end_ : shared_end_;
@@ -129,7 +130,7 @@ class RecordWriter {
   }
   Address take(std::size_t offset, std::size_t bytes) {
     if (offset + bytes > bytes_max) {
-      throw RoomError("the scene's database would exceed 16 GiB: render a smaller scene");
+      throw CapacityError("the scene's database would exceed 16 GiB: render a smaller scene");
     }
     end_ = std::max(end_, offset + bytes);
     return Address{static_cast<std::uint32_t>(offset / record_alignment)};
@@ -137,7 +138,7 @@ class RecordWriter {
 
   std::size_t page_size_;
   Keeps keeps_ = Keeps::records;
-  std::vector<Address> places_;
+  std::vector<Address> instances_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;
   std::size_t end_ = 0;         ///< of the room that has been taken

@@ -8,8 +8,8 @@
 
 #include "core/base/box.h"
 #include "core/base/region.h"
-#include "core/database/placed_boxes.h"
-#include "core/database/texture_records.h"
+#include "core/database/meshes/placed_boxes.h"
+#include "core/database/shading/texture_records.h"
 #include "core/record/directory.h"
 #include "core/record/record.h"
 #include "core/record/records.h"
@@ -38,7 +38,7 @@ inline bool lies_in_region(const GridFrame& frame, const Box& box, const Region&
 }
 
 /// Calls visit(address) for the records of a whole database that rays in `region`, and shading the hits there, may ask for, but
-/// for materials and lights; some more than once, though of few meshes that are kept once all anew for each place. Takes no
+/// for materials and lights; some more than once, though of few base meshes all anew for each place. Takes no
 /// memory but a stack as deep as the trees. Requires that all of them are there: `records` never answers nullptr.
 template <Records R, class Visit>
 class RegionRecords {
@@ -51,9 +51,9 @@ class RegionRecords {
   void visit_all() {
     Corner first;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      first[axis] = region_->low[axis] / finest_per_top * finest_per_top;
+      first[axis] = region_->low[axis] / finest_per_macro * finest_per_macro;
     }
-    for_each_top_cell(first, region_->high, false, [this](const Corner& cell) { visit_top_cell(cell); });
+    for_each_macro_cell(first, region_->high, false, [this](const Corner& cell) { visit_macro_cell(cell); });
   }
 
  private:
@@ -63,10 +63,10 @@ class RegionRecords {
     return records_->find(address);
   }
 
-  void visit_top_cell(const Corner& cell) {
+  void visit_macro_cell(const Corner& cell) {
     const DirectoryEntry entry = entry_of(*header_, cell, [this](Address address) { return at(address); });
     if (!entry.empty()) {
-      header_->has_voxels() ? visit_list(entry) : visit_brick(entry.brick());
+      header_->has_voxels() ? visit_list(entry) : visit_bvh_node(entry.bvh_node());
     }
   }
 
@@ -74,33 +74,34 @@ class RegionRecords {
   void visit_list(const DirectoryEntry& entry) {
     for (std::uint64_t index = entry.bits;; ++index) {
       const auto reference = read<VoxelReference>(at(reference_address(*header_, index)) + reference_offset(index));
-      visit_block(reference.block());
+      visit_leaf(reference.leaf());
       if (reference.is_last()) {
         return;
       }
     }
   }
 
-  void visit_brick(Address address) {
-    const auto brick = read<Brick>(at(address));
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (touches_region(header_->frame, box_of(brick, child), *region_)) {
-        brick.child[child].is_block() ? visit_block(brick.child[child].address()) : visit_brick(brick.child[child].address());
+  void visit_bvh_node(Address address) {
+    const auto bvh_node = read<BvhNode>(at(address));
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      if (touches_region(header_->frame, box_of(bvh_node, child), *region_)) {
+        bvh_node.child[child].is_leaf() ? visit_leaf(bvh_node.child[child].address())
+                                        : visit_bvh_node(bvh_node.child[child].address());
       }
     }
   }
 
-  void visit_block(Address address) {
-    const std::byte* const block = at(address);
-    const auto header = read<BlockHeader>(block);
+  void visit_leaf(Address address) {
+    const std::byte* const leaf = at(address);
+    const auto header = read<LeafHeader>(leaf);
     if (header.kind == PrimitiveKind::instance) {
       std::array<std::byte, record_bytes_max> places;
-      std::memcpy(places.data(), block, block_bytes(header));
+      std::memcpy(places.data(), leaf, leaf_bytes(header));
       return visit_places(places.data(), header.count);
     }
-    std::array<ShadingReference, block_lanes> lanes;
+    std::array<ShadingReference, leaf_lanes> lanes;
     const std::size_t row = sizeof(ShadingReference) * header.count;
-    std::memcpy(lanes.data(), block + block_bytes(header.kind, header.count) - row, row);
+    std::memcpy(lanes.data(), leaf + leaf_bytes(header.kind, header.count) - row, row);
     for (std::size_t lane = 0; lane < header.count; ++lane) {
       if (lanes[lane].is_smooth()) {
         visit_normals(lanes[lane].normals());
@@ -108,11 +109,11 @@ class RegionRecords {
     }
   }
 
-  void visit_places(const std::byte* block, std::size_t count) {
+  void visit_places(const std::byte* leaf, std::size_t count) {
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const Box box = instance_box(block, lane);
+      const Box box = instance_box(leaf, lane);
       if (touches_region(header_->frame, box, *region_)) {
-        const auto instance = read<InstanceRecord>(at(instance_in(block, lane)));
+        const auto instance = read<InstanceRecord>(at(instance_in(leaf, lane)));
         if (!lies_in_region(header_->frame, box, *region_)) {
           const PlacedBoxes boxes(instance, header_->frame);
           visit_mesh(instance.root, &boxes);
@@ -124,13 +125,13 @@ class RegionRecords {
     }
   }
 
-  /// Of a kept mesh what touches the region in a place; without boxes all of it.
+  /// Of a base mesh what touches the region in a place; without boxes all of it.
   void visit_mesh(Address address, const PlacedBoxes* boxes) {
-    const auto brick = read<Brick>(at(address));
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (boxes == nullptr || touches_region(header_->frame, boxes->box_of(brick, child), *region_)) {
-        brick.child[child].is_block() ? visit_block(brick.child[child].address())
-                                      : visit_mesh(brick.child[child].address(), boxes);
+    const auto bvh_node = read<BvhNode>(at(address));
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      if (boxes == nullptr || touches_region(header_->frame, boxes->box_of(bvh_node, child), *region_)) {
+        bvh_node.child[child].is_leaf() ? visit_leaf(bvh_node.child[child].address())
+                                        : visit_mesh(bvh_node.child[child].address(), boxes);
       }
     }
   }
@@ -163,7 +164,7 @@ class RegionRecords {
   const DatabaseHeader* header_;
   const Region* region_;
   const Visit* visit_;
-  std::array<Address, 64> seen_;  ///< the first bricks of meshes of which all has been visited
+  std::array<Address, 64> seen_;  ///< the first BVH nodes of meshes of which all has been visited
 };
 
 template <Records R, class Visit>

@@ -12,13 +12,13 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "core/database/brick_builder.h"
 #include "core/database/database_builder.h"
-#include "core/database/empty_space.h"
-#include "core/database/kept_instances.h"
-#include "core/database/left_out_places.h"
-#include "core/database/mesh_records.h"
-#include "core/database/voxel_lists.h"
+#include "core/database/grid/empty_space.h"
+#include "core/database/grid/voxel_lists.h"
+#include "core/database/meshes/mesh_records.h"
+#include "core/database/meshes/stored_instances.h"
+#include "core/database/meshes/uncopied_instances.h"
+#include "core/database/tree/bvh_builder.h"
 #include "core/record/coordinate.h"
 #include "core/record/directory.h"
 #include "core/record/instance.h"
@@ -27,13 +27,13 @@
 namespace dmpc::core {
 namespace {
 
-/// A tree in each top cell.
+/// A tree in each macro cell.
 class GridBuilder : public DatabaseBuilder {
  public:
   using DatabaseBuilder::DatabaseBuilder;
 
  protected:
-  std::uint64_t write_records(const TopCells& cells) override {
+  std::uint64_t write_records(const MacroCells& cells) override {
     write_tables();
     write_textures();
     write_normals(conversion_);
@@ -42,9 +42,9 @@ class GridBuilder : public DatabaseBuilder {
   }
 
   /// Cells are built at the same time.
-  std::vector<BrickTree> draft_trees(const TopCells& cells) {
-    const BrickBuilder builder(conversion_.primitives, pad(), frame(), parallel());
-    std::vector<BrickTree> trees(cells.size());
+  std::vector<BvhTree> draft_trees(const MacroCells& cells) {
+    const BvhBuilder builder(conversion_.primitives, pad(), frame(), parallel());
+    std::vector<BvhTree> trees(cells.size());
     std::uint64_t sorted = 0;
     parallel().for_each(
         trees.size(), [&](std::size_t i) { trees[i] = builder.build(cells.corner(i), cells.ids(i)); },
@@ -58,7 +58,7 @@ class GridBuilder : public DatabaseBuilder {
   }
 
   /// Trees take their room in order, and are written at the same time.
-  void write_trees(const TopCells& cells, std::vector<BrickTree> trees) {
+  void write_trees(const MacroCells& cells, std::vector<BvhTree> trees) {
     std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const std::uint64_t entry = directory_index(header().directory_size, cells.corner(i));
@@ -75,21 +75,21 @@ class GridBuilder : public DatabaseBuilder {
   }
 };
 
-/// One tree. The bricks that no page holds together with all that is below them have pages of their own, with the tables.
+/// One tree. The BVH nodes that no page holds together with all that is below them have pages of their own, with the tables.
 class TreeBuilder : public GridBuilder {
  public:
   using GridBuilder::GridBuilder;
 
  protected:
-  TopCells cells_of(TopCells) override {
+  MacroCells cells_of(MacroCells) override {
     join_cells();
-    return sort_into_top_cells();
+    return sort_into_macro_cells();
   }
 
-  std::uint64_t write_records(const TopCells& cells) override {
+  std::uint64_t write_records(const MacroCells& cells) override {
     write_tables();
-    std::vector<BrickTree> trees = draft_trees(cells);
-    for (BrickTree& tree : trees) {
+    std::vector<BvhTree> trees = draft_trees(cells);
+    for (BvhTree& tree : trees) {
       tree.take_forest_room(writer_, options().page_size_bytes);
     }
     const std::size_t pages = begin_page();
@@ -102,9 +102,9 @@ class TreeBuilder : public GridBuilder {
 };
 
 /// One tree in which places of meshes are boxes, behind which come those of meshes.
-class KeptBuilder : public TreeBuilder {
+class InstancedBuilder : public TreeBuilder {
  public:
-  explicit KeptBuilder(Input input) : TreeBuilder(std::move(input)) {
+  explicit InstancedBuilder(Input input) : TreeBuilder(std::move(input)) {
     if (leaves_copies_out(scene_)) {
       left_out_.emplace(scene_, meshes_, parallel());
     }
@@ -114,21 +114,21 @@ class KeptBuilder : public TreeBuilder {
 
  protected:
   /// Together with copies that are left out, too. These are looked at one by one only if that may let cells be smaller.
-  std::optional<TopCells> list_top_cells() const override {
+  std::optional<MacroCells> list_macro_cells() const override {
     if (!left_out_) {
       return list_with(0);
     }
     const std::size_t listed = conversion_.primitives.size();
     const std::int64_t excess = left_out_->excess(frame(), pad(), listed, false, parallel());
     auto cells = list_with(excess);
-    return cells || excess == LeftOutPlaces::excess_without_list
+    return cells || excess == UncopiedInstances::excess_without_list
                ? std::move(cells)
                : list_with(left_out_->excess(frame(), pad(), listed, true, parallel()));
   }
 
   bool keep() override {
     if (!left_out_) {
-      kept_ = keep_instances(scene_, meshes_, frame(), pad(), conversion_, parallel());
+      kept_ = store_instances(scene_, meshes_, frame(), pad(), conversion_, parallel());
       set_copied(kept_.copied);
       return true;
     }
@@ -140,7 +140,7 @@ class KeptBuilder : public TreeBuilder {
     return true;
   }
 
-  TopCells cells_of(TopCells cells) override {
+  MacroCells cells_of(MacroCells cells) override {
     if (kept_.empty()) {
       return TreeBuilder::cells_of(std::move(cells));
     }
@@ -149,16 +149,16 @@ class KeptBuilder : public TreeBuilder {
   }
 
   std::uint64_t primitive_count() const override { return conversion_.primitives.size() + kept_.unlisted; }
-  std::uint32_t id_of(std::uint32_t primitive) const override { return kept_.empty() ? primitive : kept_.told[primitive]; }
+  std::uint32_t id_of(std::uint32_t primitive) const override { return kept_.empty() ? primitive : kept_.reported[primitive]; }
 
-  std::uint64_t write_records(const TopCells& cells) override {
+  std::uint64_t write_records(const MacroCells& cells) override {
     if (kept_.empty()) {
       return TreeBuilder::write_records(cells);
     }
     write_tables();
     header().has_instances = 1;
     const std::vector<std::uint32_t> ids = add_boxes();
-    BrickTree top = build_top(ids);
+    BvhTree top = build_top(ids);
     top.take_forest_room(writer_, options().page_size_bytes);
     for (MeshRecords& mesh : kept_.meshes) {
       mesh.tree.take_forest_room(writer_, options().page_size_bytes);
@@ -179,7 +179,7 @@ class KeptBuilder : public TreeBuilder {
     write_sky_tiles();
     writer_.make_room();
     top.count(counts());
-    top.write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.told);
+    top.write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.reported);
     for (const MeshRecords& mesh : kept_.meshes) {
       mesh.tree.count(counts());
       mesh.tree.write(mesh.conversion.primitives, mesh.conversion.shading, mesh.conversion.planes, writer_);
@@ -191,11 +191,11 @@ class KeptBuilder : public TreeBuilder {
   }
 
  private:
-  BrickTree build_top(std::span<const std::uint32_t> ids) const {
+  BvhTree build_top(std::span<const std::uint32_t> ids) const {
     try {
-      return BrickBuilder(conversion_.primitives, pad(), frame(), parallel(), levels_above_instances).build({0, 0, 0}, ids);
-    } catch (const RoomError& error) {
-      throw RoomError(std::string(error.what()) + "; eight times as many may where meshes are expanded");
+      return BvhBuilder(conversion_.primitives, pad(), frame(), parallel(), levels_above_instances).build({0, 0, 0}, ids);
+    } catch (const CapacityError& error) {
+      throw CapacityError(std::string(error.what()) + "; eight times as many may where meshes are expanded");
     }
   }
 
@@ -210,13 +210,13 @@ class KeptBuilder : public TreeBuilder {
         box.value[3 + axis] = rounded_up(double{bounds.high[axis]} + pad());
       }
       ids.push_back(static_cast<std::uint32_t>(conversion_.primitives.size()));
-      kept_.told.push_back(header().primitive_count + static_cast<std::uint32_t>(i));
+      kept_.reported.push_back(header().primitive_count + static_cast<std::uint32_t>(i));
       conversion_.primitives.push_back(box);
     }
     return ids;
   }
 
-  /// Blocks of boxes tell where each record lies.
+  /// Leaves of boxes tell where each record lies.
   Address take_instance_room() {
     const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
@@ -229,7 +229,7 @@ class KeptBuilder : public TreeBuilder {
     counts().instances = kept_.places.size();
     std::vector<bool> is_used(kept_.meshes.size());
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
-      const KeptInstance& place = kept_.places[i];
+      const StoredInstance& place = kept_.places[i];
       const MeshRecords& mesh = kept_.meshes[place.mesh];
       InstanceRecord record = kept_.record_of(place, frame(), pad());
       record.root = mesh.tree.address;
@@ -238,15 +238,15 @@ class KeptBuilder : public TreeBuilder {
       counts().triangles_in_places += triangles;
       if (!is_used[place.mesh]) {
         is_used[place.mesh] = true;
-        ++counts().kept_meshes;
-        counts().kept_triangles += triangles;
+        ++counts().base_meshes;
+        counts().base_mesh_triangles += triangles;
       }
     }
   }
 
-  std::optional<LeftOutPlaces> left_out_;
+  std::optional<UncopiedInstances> left_out_;
   std::vector<Obstacle> obstacles_;
-  KeptInstances kept_;
+  StoredInstances kept_;
 };
 
 /// A list in each cell. The frame of its plain grid begins where the usual one does, and keeps local zero and where far eyes'
@@ -256,21 +256,21 @@ class VoxelBuilder : public DatabaseBuilder {
   using DatabaseBuilder::DatabaseBuilder;
 
  protected:
-  TopCells cells_of(TopCells) override {
+  MacroCells cells_of(MacroCells) override {
     cut_into_voxels();
     set_pad();
     const VoxelRule& rule = options().voxels;
-    auto voxels = TopCells::list_voxels(conversion_.primitives, frame(), pad(), rule, parallel());
+    auto voxels = MacroCells::list_voxels(conversion_.primitives, frame(), pad(), rule, parallel());
     if (!voxels) {
-      const auto count = top_cells(frame());
-      throw RoomError("the lists of " + std::to_string(count[0]) + "x" + std::to_string(count[1]) + "x" +
-                      std::to_string(count[2]) + " voxels would name more than " + std::to_string(rule.references_max) +
-                      " primitives: make fewer voxels, or render a smaller scene");
+      const auto count = macro_cells(frame());
+      throw CapacityError("the lists of " + std::to_string(count[0]) + "x" + std::to_string(count[1]) + "x" +
+                          std::to_string(count[2]) + " voxels would name more than " + std::to_string(rule.references_max) +
+                          " primitives: make fewer voxels, or render a smaller scene");
     }
     return std::move(*voxels);
   }
 
-  std::uint64_t write_records(const TopCells& cells) override {
+  std::uint64_t write_records(const MacroCells& cells) override {
     VoxelLists lists(cells, conversion_, options().voxels);
     write_tables(lists.references());
     write_textures();
@@ -324,10 +324,10 @@ class VoxelBuilder : public DatabaseBuilder {
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       edge = std::max(edge, extent[axis] / count[axis]);
-      header().frame.resolution[axis] = count[axis] * cells_per_top;
+      header().frame.resolution[axis] = count[axis] * cells_per_macro;
     }
     header().frame.eye_extent = all;
-    header().frame.finest_cell = rounded_up(edge / finest_per_top);
+    header().frame.finest_cell = rounded_up(edge / finest_per_macro);
   }
 };
 
@@ -342,7 +342,7 @@ std::unique_ptr<DatabaseBuilder> DatabaseBuilder::of(Input input) {
     case Structure::voxels:
       return std::make_unique<VoxelBuilder>(std::move(input));
   }
-  return input.options.keeps_instances ? std::unique_ptr<DatabaseBuilder>(std::make_unique<KeptBuilder>(std::move(input)))
+  return input.options.keeps_instances ? std::unique_ptr<DatabaseBuilder>(std::make_unique<InstancedBuilder>(std::move(input)))
                                        : std::make_unique<TreeBuilder>(std::move(input));
 }
 

@@ -1,4 +1,4 @@
-// Gears: a block of meshing gears with concave faces, a fifth of them transparent.
+// Gears: a leaf of meshing gears with concave faces, a fifth of them transparent.
 #include <algorithm>
 #include <vector>
 
@@ -30,8 +30,8 @@ Material gear_material(int x, int y, int z) {
   return {.color = bright, .diffuse = 1, .specular = 0, .shine = no_highlight, .transmittance = 0, .refraction_index = 0};
 }
 
-/// The outline of a face, four points a tooth; `sense` is +1 counter-clockwise from above, -1 clockwise.
-std::vector<Vec3d> outline(const Gear& gear, double sense, double lowered) {
+/// The proxy of a face, four points a tooth; `sense` is +1 counter-clockwise from above, -1 clockwise.
+std::vector<Vec3d> proxy(const Gear& gear, double sense, double lowered) {
   std::vector<Vec3d> points;
   const auto add = [&](double share, double degrees) {
     const double radius = share * gear.radius;
@@ -49,14 +49,14 @@ std::vector<Vec3d> outline(const Gear& gear, double sense, double lowered) {
 }
 
 void add_gear(const Gear& gear, SceneSink& sink) {
-  const std::vector<Vec3d> top = outline(gear, 1, 0);
+  const std::vector<Vec3d> top = proxy(gear, 1, 0);
   sink.polygon(top);
   const Vec3d down = {0, 0, -gear.thickness};
   for (std::size_t i = 0; i < top.size(); ++i) {
     const Vec3d& next = top[(i + 1) % top.size()];
     sink.polygon({top[i], top[i] + down, next + down, next});
   }
-  sink.polygon(outline(gear, -1, gear.thickness));
+  sink.polygon(proxy(gear, -1, gear.thickness));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/picture/bundle_hit.h"
+#include "core/picture/hits/bundle_hit.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/bundle.h"
 #include "core/trace/instance_bundle.h"

@@ -7,15 +7,15 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
-#include "core/picture/background.h"
-#include "core/picture/camera.h"
-#include "core/picture/film.h"
-#include "core/picture/refinement.h"
+#include "core/picture/camera/background.h"
+#include "core/picture/camera/camera.h"
+#include "core/picture/film/film.h"
+#include "core/picture/sampling/refinement.h"
 #include "core/picture/shade.h"
 #include "core/trace/below.h"
 #include "core/trace/below_in_mesh.h"
-#include "core/trace/bundle_walk.h"
-#include "core/trace/instance_walk.h"
+#include "core/trace/bundle_traversal.h"
+#include "core/trace/instance_traversal.h"
 #include "core/trace/operations.h"
 #include "core/trace/task_state.h"
 #include "core/trace/traversal.h"
@@ -41,10 +41,10 @@ class GridTracer {
   Traced trace(const Ray& ray, InstanceCursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
-  /// Traces with a test of blocks of one's own: test(record, address, best).
+  /// Traces with a test of leaves of one's own: test(record, address, best).
   template <class Test>
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
-    return RayWalk(ray, cursor, *records_, operations).trace(header_, skips_, meet_children, test);
+    return RayTraversal(ray, cursor, *records_, operations).trace(header_, skips_, meet_children, test);
   }
   /// Traces rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
@@ -169,25 +169,25 @@ class PixelTaskWith {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
-  /// Whether what needs an absent record is the walk of the task's ray, so that somebody else may walk on below it, or the
+  /// Whether what needs an absent record is the traversal of the task's ray, so that somebody else may walk on below it, or the
   /// shading of a hit.
   bool is_tracing() const { return tracing_; }
   core::Below below(const Skips& skips) const { return core::below(ray_, cursor_, skips); }
-  /// Where the mesh stands that the walk is in; nothing if it is in none.
-  std::optional<ToldPlace> place_of_walk() const {
+  /// Where the mesh stands that the traversal is in; nothing if it is in none.
+  std::optional<ReportedInstance> instance_of_traversal() const {
     if constexpr (std::is_same_v<RayCursor, InstanceCursor>) {
-      return cursor_.is_inside ? std::optional(told_place(cursor_)) : std::nullopt;
+      return cursor_.is_inside ? std::optional(reported_instance(cursor_)) : std::nullopt;
     }
     return std::nullopt;
   }
   /// What lies below has been looked through; run() goes on behind it.
   void take_below(const Hit& found, const Skips& skips, Operations& operations) {
-    expect(tracing_, "a walk is what waits for what lies below");
+    expect(tracing_, "a traversal is what waits for what lies below");
     core::take_below(found, ray_, skips, cursor_, operations);
   }
-  /// Which record the shading needs, or the walk outside of meshes.
+  /// Which record the shading needs, or the traversal outside of meshes.
   RecordKind absent_kind() const {
-    return !tracing_ ? record_kind_of(stack_[stack_size_ - 1]) : cursor_.next.is_block() ? RecordKind::block : RecordKind::brick;
+    return !tracing_ ? record_kind_of(stack_[stack_size_ - 1]) : cursor_.next.is_leaf() ? RecordKind::leaf : RecordKind::bvh_node;
   }
   /// Rays that a run() which returned `more` has ended.
   std::uint32_t rays_ended() const { return 1; }

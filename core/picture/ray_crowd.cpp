@@ -15,7 +15,7 @@ constexpr std::uint64_t stride = 2'654'435'761;
 
 /// Of one with a finish the record does not say whether it has alpha, so that light may come through it.
 bool can_send_two(const MaterialRecord& material) {
-  return material.has_finish() || (material.specular > 0.0F && material.transmittance > 0.0F);
+  return material.has_extension() || (material.specular > 0.0F && material.transmittance > 0.0F);
 }
 
 bool can_send_two(const Database& database) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "core/picture/pixel_task.h"
 
 namespace dmpc::core {

@@ -12,13 +12,13 @@
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
-#include "core/picture/hit_geometry.h"
-#include "core/picture/microfacet_lobes.h"
-#include "core/picture/ray_start.h"
-#include "core/picture/surface_response.h"
+#include "core/picture/hits/hit_geometry.h"
+#include "core/picture/hits/ray_start.h"
+#include "core/picture/surfaces/microfacet_lobes.h"
+#include "core/picture/surfaces/surface_response.h"
 #include "core/record/emitter.h"
 #include "core/record/instance.h"
-#include "core/trace/placed_block.h"
+#include "core/trace/placed_leaf.h"
 
 namespace dmpc::core {
 namespace {
@@ -81,7 +81,7 @@ float share_left(std::uint16_t cutoff, float alpha) {
   if (cutoff == 0) {
     return share;
   }
-  return share * float{FinishRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
+  return share * float{MaterialExtensionRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
 }
 
 /// The same of a hit. Returns it.
@@ -105,10 +105,10 @@ void multiply(const HitState::FacetShares& shares, MicrofacetRecord& facets, Mat
 }
 
 /// Highlight and mirror, the surface's own colour being that of the material.
-HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
+HitState::Gloss gloss_of(MaterialRecord& material, const MaterialExtensionRecord& finish) {
   const Color color = finish.specular + material.color * material.specular;
   material.specular = std::max({color.x, color.y, color.z});
-  HitState::Gloss gloss{.mirror = static_cast<float>(finish.mirror) / float{FinishRecord::share_max}};
+  HitState::Gloss gloss{.mirror = static_cast<float>(finish.mirror) / float{MaterialExtensionRecord::share_max}};
   if (material.specular > 0.0F) {
     gloss.tint = {color.x / material.specular, color.y / material.specular, color.z / material.specular};
   }
@@ -126,12 +126,12 @@ double texture_max(const Scene& scene, const Material& material) {
 }
 
 /// Whether the last hit of a path sends a ray of its own to look for light that is found where that ends.
-bool is_met_by_chance(const DatabaseHeader& header) { return header.has_emission != 0 || has_sky_picture(header); }
+bool is_bsdf_sampled(const DatabaseHeader& header) { return header.has_emission != 0 || has_sky_picture(header); }
 
 }  // namespace
 
 int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
-  const bool looks_for_light = options.transport.is_by_paths() && is_met_by_chance(header);
+  const bool looks_for_light = options.transport.is_by_paths() && is_bsdf_sampled(header);
   return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
 }
 
@@ -202,9 +202,9 @@ double Shader::width_at_hit(const HitState& state) const {
 }
 
 void Shader::read_geometry(HitState& state, const std::byte* record) const {
-  PlacedBlock placed;
+  PlacedLeaf placed;
   if (is_in_instance(state.hit)) {
-    const MeshPlace place(state.place(), header_.frame);
+    const PlacedMesh place(state.place(), header_.frame);
     operations_.placed_triangles += placed.place(record, place);
     record = placed.record();
     state.is_in_mirror = place.is_mirrored();
@@ -298,7 +298,7 @@ void Shader::blend_normals(HitState& state, const std::array<Vec3f, 3>& normals)
   }
 }
 
-/// Those of a kept mesh, until its place is read once more.
+/// Those of a base mesh, until its place is read once more.
 void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
   if (!normals.is_textured()) {
     state.shading = ShadingReference::flat(normals.material());
@@ -313,7 +313,7 @@ void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
 void Shader::place_normals(HitState& state, const std::byte* instance) const {
   const auto two = std::bit_cast<std::array<Vec3f, 2>>(state.normal);
   const CutEllipse ellipse = state.of_mesh.ellipse;
-  const MeshPlace place(read<InstanceRecord>(instance), header_.frame);
+  const PlacedMesh place(read<InstanceRecord>(instance), header_.frame);
   ++operations_.placed_triangles;
   const std::array<Vec3f, 3> normals = place.normals({two[0], two[1], state.of_mesh.third});
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
@@ -369,7 +369,7 @@ Stage Shader::after_reflection(const HitState& state) const {
 /// What shines by itself is looked for by a ray of the path's own, as long as a ray can be as deep.
 bool Shader::is_at_last_depth(const HitState& state) const {
   return state.ray.depth >= ray_depth_max(options_, header_) ||
-         (state.ray.depth >= options_.depth_max && !is_met_by_chance(header_));
+         (state.ray.depth >= options_.depth_max && !is_bsdf_sampled(header_));
 }
 
 Stage Shader::after_lights_of_path(const HitState& state) const {
@@ -421,7 +421,7 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
   std::construct_at(&state.surface, HitState::Surface{.material = material, .next_light = 0});
   ++operations_.shadings;
   state.set_gloss({});
-  if (material.has_finish()) {
+  if (material.has_extension()) {
     state.stage = Stage::finish;
   } else {
     come_to_lights(state, {});
@@ -429,14 +429,14 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
 }
 
 /// The surface shines by itself as far as it is there.
-void Shader::read_finish(HitState& state, const std::byte* record) const {
+void Shader::read_extension(HitState& state, const std::byte* record) const {
   if (state.has_microfacets()) {
     return read_microfacets(state, record);
   }
-  const auto finish = read<FinishRecord>(record);
+  const auto finish = read<MaterialExtensionRecord>(record);
   state.set_gloss(gloss_of(state.surface.material, finish));
   const float share = cover_by_alpha(state, finish.alpha_cutoff, finish.refraction_index);
-  come_to_lights(state, finish.emission * (share * share_met(state, finish.emission)));
+  come_to_lights(state, finish.emission * (share * mis_weight(state, finish.emission)));
 }
 
 /// No highlight and no mirror is left of the material.
@@ -450,7 +450,7 @@ void Shader::read_microfacets(HitState& state, const std::byte* record) const {
                          .alpha = facets.alpha,
                          .reflectance = facets.reflectance,
                          .there = std::exchange(state.surface.material.specular, 0.0F)});
-  come_to_lights(state, facets.emission * (share * share_met(state, facets.emission)));
+  come_to_lights(state, facets.emission * (share * mis_weight(state, facets.emission)));
 }
 
 void Shader::come_to_lights(HitState& state, const Color& emission) const {
@@ -643,7 +643,7 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
       read_material(state, record);
       return false;
     case Stage::finish:
-      read_finish(state, record);
+      read_extension(state, record);
       return false;
     case Stage::sky:
       read_sky(state, record);

@@ -6,12 +6,12 @@
 #include <cstdint>
 
 #include "core/base/vec.h"
-#include "core/picture/camera.h"
-#include "core/picture/film.h"
-#include "core/picture/hit_state.h"
-#include "core/picture/light_fall.h"
-#include "core/picture/path_step.h"
-#include "core/picture/transport.h"
+#include "core/picture/camera/camera.h"
+#include "core/picture/film/film.h"
+#include "core/picture/hits/hit_state.h"
+#include "core/picture/lights/light_fall.h"
+#include "core/picture/surfaces/path_step.h"
+#include "core/picture/surfaces/transport.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/record/sky.h"
@@ -118,12 +118,12 @@ class Shader {
   void step_texture(HitState& state, const std::byte* record) const;
   void read_corners(HitState& state, const TexturedNormals& corners) const;
   void read_material(HitState& state, const std::byte* record) const;
-  void read_finish(HitState& state, const std::byte* record) const;
+  void read_extension(HitState& state, const std::byte* record) const;
   void read_microfacets(HitState& state, const std::byte* record) const;
   void come_to_lights(HitState& state, const Color& emission) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
-  // In shade_emitters.cpp:
+  // In core/picture/lights/shade_emitters.cpp:
   bool aims_at_emitter(const HitState& state) const;
   void begin_choice(HitState& state, std::uint32_t count) const;
   static void draw(HitState& state, const std::byte* choice);
@@ -131,8 +131,8 @@ class Shader {
   void read_choice(HitState& state, const std::byte* record) const;
   bool read_emitter(HitState& state, const std::byte* record, Ray& child) const;
   /// Of what a surface shines with that the state's ray has met: the rest comes to the hit before by aiming at it.
-  float share_met(const HitState& state, const Color& radiance) const;
-  // In shade_sky.cpp:
+  float mis_weight(const HitState& state, const Color& radiance) const;
+  // In core/picture/lights/shade_sky.cpp:
   void read_sky(HitState& state, const std::byte* record) const;
   bool aims_at_sky(const HitState& state) const;
   void read_sky_choice(HitState& state, const std::byte* record) const;

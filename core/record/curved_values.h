@@ -24,9 +24,9 @@ inline bool is_flat_cone(float base_radius, float apex_radius) { return std::sig
 /// Either way the base's radius has a negative sign if the cone shows its inside only.
 inline bool shows_inside_only(float base_radius) { return std::signbit(base_radius); }
 
-/// A cone by its rows of a block: base, radius, apex, radius (core/record/record.h).
+/// A cone by its rows of a leaf: base, radius, apex, radius (core/record/record.h).
 struct ConeFloats {
-  explicit ConeFloats(const BlockLane& cone)
+  explicit ConeFloats(const LeafLane& cone)
       : base(cone.vector(0)),
         is_flat(is_flat_cone(cone.rows[3 * cone.stride + cone.lane], cone.rows[7 * cone.stride + cone.lane])),
         axis(is_flat ? cone.vector(4) : cone.vector(4) - base),
@@ -55,7 +55,7 @@ inline bool passes_by(double distance_squared, double radius) {
   return std::fabs(distance_squared - square) <= 2 * passing_share * square;
 }
 
-inline bool sphere_passes_by(const BlockLane& sphere) {
+inline bool sphere_passes_by(const LeafLane& sphere) {
   const Vec3d center = sphere.vector(0);
   return passes_by(dot(center, center), sphere.value(3));
 }
@@ -82,7 +82,7 @@ inline bool cone_passes_by(const ConeFloats& cone) {
 /// Whether a sphere or cone passes by local zero, by its floats alone. The place of such a surface there hangs on few bits of
 /// numbers that are as large as its radius. So its radius makes good what rounding moved its centre, or its ends, by, and has
 /// more of the rests than they (core/record/curved_values.h). In a scene whose grid begins at local zero there is none.
-inline bool passes_by_zero(PrimitiveKind kind, const BlockLane& curved) {
+inline bool passes_by_zero(PrimitiveKind kind, const LeafLane& curved) {
   const float* const values = curved.rows + curved.lane;
   if (kind == PrimitiveKind::sphere) {
     return is_large(values[3 * curved.stride], 0.0F) && sphere_passes_by(curved);
@@ -143,7 +143,7 @@ struct PlaceAndRadius {
   double radius;
 };
 
-/// One lane of a block of spheres or cones, each value with its rest: rows as BlockHeader says, `stride` floats each.
+/// One lane of a leaf of spheres or cones, each value with its rest: rows as LeafHeader says, `stride` floats each.
 class CurvedValues {
  public:
   CurvedValues(PrimitiveKind kind, const float* rows, std::size_t stride, std::size_t lane)

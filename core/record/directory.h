@@ -1,4 +1,4 @@
-// Where the directory keeps a top cell's entry: row by row, x fastest, but of voxels z fastest; and the lists of voxels.
+// Where the directory keeps a macro cell's entry: row by row, x fastest, but of voxels z fastest; and the lists of voxels.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 
 namespace dmpc::core {
 
-/// The number of entries of a directory of `size` top cells along x, y, z; two share a record.
+/// The number of entries of a directory of `size` macro cells along x, y, z; two share a record.
 constexpr std::uint64_t directory_entry_count(const std::array<std::int32_t, 3>& size) {
   return round_up(static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]),
                   std::uint64_t{2});
 }
 
-/// The number of the entry of the top cell that holds the finest cell `cell`, counted from the directory's corner; not negative.
+/// The number of the entry of the macro cell that holds the finest cell `cell`, counted from the directory's corner; not
+/// negative.
 constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size, const Corner& cell) {
-  const auto top = [&](std::size_t axis) { return static_cast<std::uint32_t>(cell[axis]) / finest_per_top; };
+  const auto top = [&](std::size_t axis) { return static_cast<std::uint32_t>(cell[axis]) / finest_per_macro; };
   const auto length = [&](std::size_t axis) { return static_cast<std::uint32_t>(size[axis]); };
   return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
@@ -57,14 +58,14 @@ DirectoryEntry entry_of(const DatabaseHeader& header, const Corner& cell, const 
   return read<DirectoryEntry>(find(directory_address(header, index)) + directory_offset(index));
 }
 
-/// Calls visit(cell) for the lower corners of the top cells from one, `low`, to before `high`: x fastest, or z.
+/// Calls visit(cell) for the lower corners of the macro cells from one, `low`, to before `high`: x fastest, or z.
 template <class Visit>
-void for_each_top_cell(const Corner& low, const Corner& high, bool z_fastest, const Visit& visit) {
+void for_each_macro_cell(const Corner& low, const Corner& high, bool z_fastest, const Visit& visit) {
   const std::size_t slow = z_fastest ? 0 : 2, fast = 2 - slow;
   Corner cell;
-  for (cell[slow] = low[slow]; cell[slow] < high[slow]; cell[slow] += finest_per_top) {
-    for (cell[1] = low[1]; cell[1] < high[1]; cell[1] += finest_per_top) {
-      for (cell[fast] = low[fast]; cell[fast] < high[fast]; cell[fast] += finest_per_top) {
+  for (cell[slow] = low[slow]; cell[slow] < high[slow]; cell[slow] += finest_per_macro) {
+    for (cell[1] = low[1]; cell[1] < high[1]; cell[1] += finest_per_macro) {
+      for (cell[fast] = low[fast]; cell[fast] < high[fast]; cell[fast] += finest_per_macro) {
         visit(std::as_const(cell));
       }
     }
@@ -77,13 +78,13 @@ constexpr Address reference_address(const DatabaseHeader& header, std::uint64_t 
 }
 constexpr std::size_t reference_offset(std::uint64_t index) { return index % 2 * sizeof(VoxelReference); }
 
-/// Calls visit(block's address) for all that the list of an occupied voxel names, whose records are here. Requires
+/// Calls visit(leaf's address) for all that the list of an occupied voxel names, whose records are here. Requires
 /// header.has_voxels().
 template <Records R, class Visit>
 void for_each_listed(R& records, const DatabaseHeader& header, const DirectoryEntry& voxel, const Visit& visit) {
   for (std::uint64_t index = voxel.bits;; ++index) {
     const auto reference = read<VoxelReference>(records.find(reference_address(header, index)) + reference_offset(index));
-    visit(reference.block());
+    visit(reference.leaf());
     if (reference.is_last()) {
       return;
     }

@@ -12,7 +12,7 @@ namespace dmpc::core {
 
 /// A triangle, seen from both sides, or a sphere, seen from outside. One of a database's DatabaseHeader::emitter_count.
 struct EmitterRecord {
-  /// Grid-local: the corners of a triangle, the very floats of its block; of a sphere the centre, then its radius as x.
+  /// Grid-local: the corners of a triangle, the very floats of its leaf; of a sphere the centre, then its radius as x.
   std::array<Vec3f, 3> corner;
   Color radiance;
   float chance = 0;  ///< of being drawn, by any hit

@@ -9,12 +9,12 @@
 
 namespace dmpc::core {
 
-/// A candidate or final hit. `block` and `lane` say where the primitive's record was read; a primitive that lies in several
-/// bricks has equal copies there, so they do not influence the picture.
+/// A candidate or final hit. `leaf` and `lane` say where the primitive's record was read; a primitive that lies in several
+/// BVH nodes has equal copies there, so they do not influence the picture.
 struct Hit {
   float t = std::numeric_limits<float>::infinity();
   std::uint32_t primitive = no_primitive;
-  Address block = no_address;
+  Address leaf = no_address;
   std::uint32_t lane = 0;
 
   constexpr bool found() const { return primitive != no_primitive; }
@@ -28,7 +28,7 @@ constexpr bool nearer(float t, std::uint32_t primitive, const Hit& than) {
 /// Whether a candidate whose record is here takes the place of `than`: it is nearer, or it is the same and nobody here knows
 /// where the record of `than` is.
 constexpr bool replaces(float t, std::uint32_t primitive, const Hit& than) {
-  return nearer(t, primitive, than) || (than.block == no_address && t == than.t && primitive == than.primitive);
+  return nearer(t, primitive, than) || (than.leaf == no_address && t == than.t && primitive == than.primitive);
 }
 
 }  // namespace dmpc::core

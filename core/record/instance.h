@@ -1,4 +1,4 @@
-// Records of instances: a mesh that is kept once, in one of its places.
+// Records of instances: a base mesh, in one of its places.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace dmpc::core {
 /// A mesh in a place. Its corners are those of the mesh's records times `unit`, exactly, which are then placed in double as those
 /// of a copy are (core/scene/placing.h), and rounded as theirs.
 struct InstanceRecord {
-  BlockHeader header{.kind = PrimitiveKind::instance};  ///< of no lane: so a walk tells it from a block of boxes
+  LeafHeader header{.kind = PrimitiveKind::instance};  ///< of no lane: so a traversal tells it from a leaf of boxes
   std::array<double, 12> world{};  ///< from the mesh's coordinates to the world's: the rows of the linear part, then the shift
-  Address root = no_address;       ///< the mesh's first brick
+  Address root = no_address;       ///< the mesh's first BVH node
   std::uint32_t first = 0;         ///< the id of the mesh's triangle 0 here; the others follow
   float unit = 1;                  ///< of the mesh's records, in its coordinates: a power of two
   float pad = 0;  ///< how far along an axis of the mesh the grid's insertion pad reaches, in units of its records
@@ -24,29 +24,30 @@ struct InstanceRecord {
 };
 static_assert(sizeof(InstanceRecord) == 128);
 
-/// Whether what begins so is an InstanceRecord, and no block.
-constexpr bool is_instance(const BlockHeader& header) { return header.kind == PrimitiveKind::instance && header.count == 0; }
+/// Whether what begins so is an InstanceRecord, and no leaf.
+constexpr bool is_instance(const LeafHeader& header) { return header.kind == PrimitiveKind::instance && header.count == 0; }
 
-/// The box of a lane of a block of instances: that of the copy in this place, and the grid's pad around it.
-inline Box instance_box(const std::byte* block, std::size_t lane) {
-  const auto header = read<BlockHeader>(block);
+/// The box of a lane of a leaf of instances: that of the copy in this place, and the grid's pad around it.
+inline Box instance_box(const std::byte* leaf, std::size_t lane) {
+  const auto header = read<LeafHeader>(leaf);
   const auto at = [&](std::size_t row) {
-    return double{read<float>(block + sizeof(header) + sizeof(float) * (row * header.count + lane))};
+    return double{read<float>(leaf + sizeof(header) + sizeof(float) * (row * header.count + lane))};
   };
   return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
 }
 /// The record of that instance.
-inline Address instance_in(const std::byte* block, std::size_t lane) {
-  const auto header = read<BlockHeader>(block);
-  return read<Address>(ids_of(header, block) + sizeof(Address) * (header.count + lane));
+inline Address instance_in(const std::byte* leaf, std::size_t lane) {
+  const auto header = read<LeafHeader>(leaf);
+  return read<Address>(ids_of(header, leaf) + sizeof(Address) * (header.count + lane));
 }
 
-/// Levels of bricks above blocks of instances, at most: such a block leaves up to 8 children where it was one, as a brick does.
-inline constexpr int levels_above_instances = brick_levels_max - 1;
+/// Levels of BVH nodes above leaves of instances, at most: such a leaf leaves up to 8 children where it was one, as a BVH node
+/// does.
+inline constexpr int levels_above_instances = bvh_levels_max - 1;
 
-// A hit on a kept mesh tells in Hit::lane, above the lane of the block, which instance it is of.
+// A hit on a base mesh tells in Hit::lane, above the lane of the leaf, which instance it is of.
 inline constexpr std::uint32_t instance_shift = 3, lane_mask = (1U << instance_shift) - 1;
-static_assert(block_lanes == 1U << instance_shift);
+static_assert(leaf_lanes == 1U << instance_shift);
 
 /// What a Hit::lane says of a lane and an instance, whose record lies at a multiple of its size.
 constexpr std::uint32_t lane_in_instance(std::uint32_t lane, Address instance) {

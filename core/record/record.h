@@ -3,12 +3,12 @@
 // The database is an array of bytes cut into pages. A record lies wholly in one page, is at most record_bytes_max long and
 // starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
 //
-//   directory   one DirectoryEntry a top cell of the grid
-//   references  of a plain grid, whose top cells are voxels: VoxelReference, the list of each voxel in one piece
-//   instances   InstanceRecord (core/record/instance.h), where meshes are kept once, behind the topmost bricks of all trees
-//   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
+//   directory   one DirectoryEntry a macro cell of the grid
+//   references  of a plain grid, whose macro cells are voxels: VoxelReference, the list of each voxel in one piece
+//   instances   InstanceRecord (core/record/instance.h), where meshes are kept once, behind the topmost BVH nodes of all trees
+//   BVH nodes      BVH node, the primitive leaves that it names, and its BVH nodes in turn (macro cells in Morton order)
 //   normals     PatchNormals, TexturedNormals, FacetedNormals } shading data, read for final hits only
-//   materials   MaterialRecord, then FinishRecord     }
+//   materials   MaterialRecord, then MaterialExtensionRecord     }
 //   lights      LightRecord                           }
 //   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) where paths aim at what shines
 //   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
@@ -55,77 +55,77 @@ T read(const std::byte* from) {
 /// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
 /// the cells of the directory, which a ray walks, are coarser.
 inline constexpr int finest_per_cell = 64;
-inline constexpr int cells_per_top = 8;
-/// Cells of the finest lattice along the edge of a top cell.
-inline constexpr int finest_per_top = cells_per_top * finest_per_cell;
+inline constexpr int cells_per_macro = 8;
+/// Cells of the finest lattice along the edge of a macro cell.
+inline constexpr int finest_per_macro = cells_per_macro * finest_per_cell;
 
-/// One top cell: a brick's address, or empty with the Chebyshev radius r of top cells around it that are empty too: all cells
-/// nearer than r are empty (Cohen & Sheffer 1994). r = 0: what lies in the cell is no business of this region's.
+/// One macro cell: a BVH node's address, or empty with the Chebyshev radius r of macro cells around it that are empty too: all
+/// cells nearer than r are empty (Cohen & Sheffer 1994). r = 0: what lies in the cell is no business of this region's.
 struct DirectoryEntry {
   static constexpr std::uint32_t empty_flag = 0x80000000U;
   std::uint32_t bits = empty_flag | 1U;
 
   constexpr bool empty() const { return (bits & empty_flag) != 0; }
   constexpr int radius() const { return static_cast<int>(bits & ~empty_flag); }
-  constexpr Address brick() const { return Address{bits}; }
+  constexpr Address bvh_node() const { return Address{bits}; }
 };
 static_assert(sizeof(DirectoryEntry) == 4);
 inline constexpr int radius_max = 64;
 
-/// One place in the list of a voxel: the block that is to be tested. In a database that has these, an entry of the directory
-/// tells the number of the list's first reference in place of a brick's address.
+/// One place in the list of a voxel: the leaf that is to be tested. In a database that has these, an entry of the directory
+/// tells the number of the list's first reference in place of a BVH node's address.
 struct VoxelReference {
   static constexpr std::uint32_t last_flag = 0x80000000U;
   std::uint32_t bits = 0;
 
-  static constexpr VoxelReference to(Address block) { return {static_cast<std::uint32_t>(block)}; }
+  static constexpr VoxelReference to(Address leaf) { return {static_cast<std::uint32_t>(leaf)}; }
   /// The list ends here.
   constexpr bool is_last() const { return (bits & last_flag) != 0; }
-  constexpr Address block() const { return Address{bits & ~last_flag}; }
+  constexpr Address leaf() const { return Address{bits & ~last_flag}; }
 };
 static_assert(sizeof(VoxelReference) == 4);
 /// References that an entry of the directory can tell apart.
 inline constexpr std::uint64_t references_max = DirectoryEntry::empty_flag;
 
-/// A child of a brick: a block of primitives, or a brick of its own.
-struct BrickChild {
-  static constexpr std::uint32_t block_flag = 0x80000000U;
+/// A child of a BVH node: a leaf of primitives, or a BVH node of its own.
+struct BvhChild {
+  static constexpr std::uint32_t leaf_flag = 0x80000000U;
   std::uint32_t bits = 0;
 
-  static constexpr BrickChild none() { return {0xffffffffU}; }
-  static constexpr BrickChild block(Address address) { return {block_flag | static_cast<std::uint32_t>(address)}; }
-  static constexpr BrickChild brick(Address address) { return {static_cast<std::uint32_t>(address)}; }
+  static constexpr BvhChild none() { return {0xffffffffU}; }
+  static constexpr BvhChild leaf(Address address) { return {leaf_flag | static_cast<std::uint32_t>(address)}; }
+  static constexpr BvhChild bvh_node(Address address) { return {static_cast<std::uint32_t>(address)}; }
   constexpr bool found() const { return bits != none().bits; }
-  constexpr bool is_block() const { return (bits & block_flag) != 0; }
-  constexpr Address address() const { return Address{bits & ~block_flag}; }
+  constexpr bool is_leaf() const { return (bits & leaf_flag) != 0; }
+  constexpr Address address() const { return Address{bits & ~leaf_flag}; }
 };
 
-inline constexpr std::size_t brick_children_max = 8;
-/// Bricks between a top cell and a block, at most: 8^9 primitives fit below a top cell.
-inline constexpr int brick_levels_max = 8;
+inline constexpr std::size_t bvh_children_max = 8;
+/// BVH nodes between a macro cell and a leaf, at most: 8^9 primitives fit below a macro cell.
+inline constexpr int bvh_levels_max = 8;
 
-/// What a part of a top cell holds: up to 8 children, each with the box within which a ray may meet it: child i between
+/// What a part of a macro cell holds: up to 8 children, each with the box within which a ray may meet it: child i between
 /// bounds[axis][i] and bounds[axis + 3][i] units from the origin. A box holds its child's primitives as far as they lie in the
-/// top cell, and the insertion pad around them.
-struct Brick {
+/// macro cell, and the insertion pad around them.
+struct BvhNode {
   Vec3f origin;
   float unit = 1;  ///< a power of two
-  std::array<BrickChild, brick_children_max> child{};
-  std::array<std::array<std::uint8_t, brick_children_max>, 6> bounds{};
+  std::array<BvhChild, bvh_children_max> child{};
+  std::array<std::array<std::uint8_t, bvh_children_max>, 6> bounds{};
   std::uint32_t child_count = 0;
   std::uint32_t padding = 0;
 };
-/// Where the bound in row `row` of a brick's child lies, grid-local.
-constexpr double place_of(const Brick& brick, std::size_t row, std::size_t child) {
-  return double{brick.origin[row % 3]} + brick.bounds[row][child] * double{brick.unit};
+/// Where the bound in row `row` of a BVH node's child lies, grid-local.
+constexpr double place_of(const BvhNode& bvh_node, std::size_t row, std::size_t child) {
+  return double{bvh_node.origin[row % 3]} + bvh_node.bounds[row][child] * double{bvh_node.unit};
 }
-static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
+static_assert(sizeof(BvhNode) == 104 && std::is_trivially_copyable_v<BvhNode> && sizeof(BvhNode) <= record_bytes_max);
 
-/// `instance` is none: blocks of that kind hold the boxes of kept meshes (core/record/instance.h).
+/// `instance` is none: leaves of that kind hold the boxes of base meshes (core/record/instance.h).
 enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone, instance };
 inline constexpr std::size_t primitive_kind_count = 3;
 
-inline constexpr std::size_t block_lanes = 8;
+inline constexpr std::size_t leaf_lanes = 8;
 
 /// Up to 8 primitives of one kind, as a structure of arrays with `count` lanes: `value_count(kind)` rows of values, then a row of
 /// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates, floats.
@@ -134,28 +134,28 @@ inline constexpr std::size_t block_lanes = 8;
 ///   cone rows:     base.x .y .z radius, apex (or axis: curved_values.h) .x .y .z radius, rests of the first four, of the last
 ///   four instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
 /// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate
-/// and 20 of the radius (core/record/curved_values.h). Behind the rows of a block that has_plane(): the FacePlane of all its
+/// and 20 of the radius (core/record/curved_values.h). Behind the rows of a leaf that has_plane(): the FacePlane of all its
 /// triangles.
-struct BlockHeader {
+struct LeafHeader {
   PrimitiveKind kind{};
   std::uint8_t count = 0;
   /// 0: none. 1: all share a plane that no axis stands on. From exact_plane on: they lie in a plane of their own, which the
   /// file's doubles say and floats cannot tell from others next to it; what is more is its layer among those.
   std::uint8_t plane = 0;
-  std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/database/coplanar.h)
-  /// In a part of a database (core/database/extract.h) what names the block in all parts, if a ray may meet it again: its box
+  std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/database/faces/coplanar.h)
+  /// In a part of a database (core/database/extract.h) what names the leaf in all parts, if a ray may meet it again: its box
   /// reaches beyond each of the part's regions or, of voxels, beyond one of those; else 0.
   std::uint32_t shared_name = 0;
 
   static constexpr std::uint8_t shared_plane = 1, exact_plane = 2;
-  /// In a kept mesh's blocks alone: all share a plane on which an axis of the mesh stands.
+  /// In a base mesh's leaves alone: all share a plane on which an axis of the mesh stands.
   static constexpr std::uint8_t level_plane = 254;
   constexpr bool has_plane() const { return plane != 0; }
   constexpr bool has_exact_plane() const { return plane >= exact_plane; }
   /// Of an exact plane.
   constexpr std::int32_t layer() const { return plane - exact_plane; }
 };
-static_assert(sizeof(BlockHeader) == 8);
+static_assert(sizeof(LeafHeader) == 8);
 
 /// Layers of planes that lie so near to each other that a float t may be the same for several.
 inline constexpr std::int32_t plane_layers_max = 8;
@@ -175,22 +175,22 @@ constexpr std::size_t value_count(PrimitiveKind kind) {
 inline constexpr std::size_t value_count_max = 10;
 /// The first row of rests of a sphere or cone.
 constexpr std::size_t rest_row(PrimitiveKind kind) { return kind == PrimitiveKind::sphere ? 4 : 8; }
-constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
-  return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
+constexpr std::size_t leaf_bytes(PrimitiveKind kind, std::size_t count) {
+  return sizeof(LeafHeader) + count * 4 * (value_count(kind) + 2);
 }
-constexpr std::size_t block_bytes(const BlockHeader& header) {
-  return block_bytes(header.kind, header.count) + (header.has_plane() ? sizeof(FacePlane) : 0);
+constexpr std::size_t leaf_bytes(const LeafHeader& header) {
+  return leaf_bytes(header.kind, header.count) + (header.has_plane() ? sizeof(FacePlane) : 0);
 }
-static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) + sizeof(FacePlane) <= record_bytes_max);
+static_assert(leaf_bytes(PrimitiveKind::triangle, leaf_lanes) + sizeof(FacePlane) <= record_bytes_max);
 
-/// The row of primitive ids of a block.
-inline const std::byte* ids_of(const BlockHeader& header, const std::byte* block) {
-  return block + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
+/// The row of primitive ids of a leaf.
+inline const std::byte* ids_of(const LeafHeader& header, const std::byte* leaf) {
+  return leaf + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
 }
 
-/// The plane of a block that has one.
-inline FacePlane plane_of(const BlockHeader& header, const std::byte* block) {
-  return read<FacePlane>(block + block_bytes(header.kind, header.count));
+/// The plane of a leaf that has one.
+inline FacePlane plane_of(const LeafHeader& header, const std::byte* leaf) {
+  return read<FacePlane>(leaf + leaf_bytes(header.kind, header.count));
 }
 
 /// Where a primitive's shading data is: the index of its material, or the address of its PatchNormals.
@@ -275,7 +275,7 @@ struct FacetedNormals {
 static_assert(sizeof(FacetedNormals) == 96 && sizeof(FacetedNormals) <= record_bytes_max);
 
 /// A surface as NFF knows it. Of one that has more, `specular` is the weight of what of its highlight and mirror has its own
-/// colour, and the place of the index, as a number that is none, names its FinishRecord.
+/// colour, and the place of the index, as a number that is none, names its MaterialExtensionRecord.
 struct MaterialRecord {
   Color color;
   float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
@@ -283,19 +283,19 @@ struct MaterialRecord {
   /// In the place of `shine`: of a surface of microfacets, whose finish is a MicrofacetRecord. Its `diffuse` and `transmittance`
   /// are so, but for what the tiny mirrors reflect of either, and `specular` is the share of it that is there.
   static constexpr float microfacet_mark = -1;
-  static constexpr std::uint32_t finish_mark = 0xffc00000U, finish_max = ~finish_mark;
+  static constexpr std::uint32_t extension_mark = 0xffc00000U, extension_max = ~extension_mark;
 
   bool has_microfacets() const { return shine < 0; }
-  bool has_finish() const { return std::bit_cast<std::uint32_t>(refraction_index) > finish_mark; }
+  bool has_extension() const { return std::bit_cast<std::uint32_t>(refraction_index) > extension_mark; }
   /// Which record from the first material on is the finish.
-  std::uint32_t finish() const { return std::bit_cast<std::uint32_t>(refraction_index) & finish_max; }
-  /// `record`: from 1 to finish_max.
-  void set_finish(std::uint32_t record) { refraction_index = std::bit_cast<float>(finish_mark | record); }
+  std::uint32_t finish() const { return std::bit_cast<std::uint32_t>(refraction_index) & extension_max; }
+  /// `record`: from 1 to extension_max.
+  void set_extension(std::uint32_t record) { refraction_index = std::bit_cast<float>(extension_mark | record); }
 };
 static_assert(sizeof(MaterialRecord) == 32);
 
 /// What a surface has that NFF cannot say. These records stand behind all materials, of which few have one.
-struct FinishRecord {
+struct MaterialExtensionRecord {
   static constexpr std::uint16_t share_max = 65535;
 
   Color specular;              ///< of highlight and mirror, but for what has the surface's own colour
@@ -305,16 +305,16 @@ struct FinishRecord {
   std::uint16_t alpha_cutoff = 0;
   std::uint16_t mirror = share_max;  ///< in 65535ths, the share of highlight and mirror that mirrors
 };
-static_assert(sizeof(FinishRecord) == sizeof(MaterialRecord));
+static_assert(sizeof(MaterialExtensionRecord) == sizeof(MaterialRecord));
 
-/// What takes the place of a FinishRecord for a surface of microfacets, in databases of pictures by paths.
+/// What takes the place of a MaterialExtensionRecord for a surface of microfacets, in databases of pictures by paths.
 struct MicrofacetRecord {
   float metallic = 0;
   float alpha = 1;  ///< its roughness squared
   float reflectance = 0;
   Color emission;
   float refraction_index = 1;
-  std::uint16_t alpha_cutoff = 0;  ///< as a FinishRecord has it
+  std::uint16_t alpha_cutoff = 0;  ///< as a MaterialExtensionRecord has it
   /// 1: its triangles have FacetedNormals, whose texture's blue `metallic` is multiplied by, and its green the roughness. Then
   /// the MaterialRecord is that of the surface without any metal.
   std::uint16_t has_texture = 0;
@@ -338,7 +338,7 @@ struct GridFrame {
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
   Vec3d low;                                        ///< where the grid begins, grid-local: 0 or less
-  Vec3d eye_extent;  ///< what far eyes take for the grid's extent (core/picture/camera.h), if cells were joined; else 0
+  Vec3d eye_extent;  ///< what far eyes take for the grid's extent (core/picture/camera/camera.h), if cells were joined; else 0
 };
 
 /// The coordinate, grid-local, of a plane of the finest lattice.
@@ -357,10 +357,10 @@ constexpr Vec3d grid_high(const GridFrame& frame) {
   return {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])};
 }
 
-/// Top cells along x, y, z: the last of an axis may reach beyond the grid.
-constexpr std::array<std::int32_t, 3> top_cells(const GridFrame& frame) {
-  return {ceil_divide(frame.resolution[0], cells_per_top), ceil_divide(frame.resolution[1], cells_per_top),
-          ceil_divide(frame.resolution[2], cells_per_top)};
+/// Macro cells along x, y, z: the last of an axis may reach beyond the grid.
+constexpr std::array<std::int32_t, 3> macro_cells(const GridFrame& frame) {
+  return {ceil_divide(frame.resolution[0], cells_per_macro), ceil_divide(frame.resolution[1], cells_per_macro),
+          ceil_divide(frame.resolution[2], cells_per_macro)};
 }
 
 /// A sky's picture as its users know it (core/record/sky.h).
@@ -378,15 +378,15 @@ struct DatabaseHeader {
   GridFrame frame;
   Region region;  ///< whose records are here: the whole grid, or a node's part of it
   Address directory = no_address;
-  Address references = no_address;               ///< of voxels; no_address: top cells have trees of bricks
-  std::int32_t directory_doublings = 0;          ///< of an outline of voxels: an entry is of 2^this of them along each axis
-  Corner directory_low{};                        ///< finest cells, a multiple of top cells: where the directory begins
-  std::array<std::int32_t, 3> directory_size{};  ///< top cells along x, y, z
+  Address references = no_address;               ///< of voxels; no_address: macro cells have trees of BVH nodes
+  std::int32_t directory_doublings = 0;          ///< of a proxy of voxels: an entry is of 2^this of them along each axis
+  Corner directory_low{};                        ///< finest cells, a multiple of macro cells: where the directory begins
+  std::array<std::int32_t, 3> directory_size{};  ///< macro cells along x, y, z
   Address materials = no_address;
   Address lights = no_address;
   std::uint32_t primitive_count = 0;
-  std::uint32_t material_count : 30 = 0;  ///< with the FinishRecords, which stand behind
-  std::uint32_t has_instances : 1 = 0;    ///< there are blocks of instances: cursors are an InstanceCursor
+  std::uint32_t material_count : 30 = 0;  ///< with the MaterialExtensionRecords, which stand behind
+  std::uint32_t has_instances : 1 = 0;    ///< there are leaves of instances: cursors are an InstanceCursor
   std::uint32_t has_emission : 1 = 0;     ///< some material shines by itself
   std::uint32_t light_count = 0;
   Color background;
@@ -397,13 +397,13 @@ struct DatabaseHeader {
   float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
   SkyReference sky;           ///< of paths under a picture
 
-  /// Whether top cells are voxels with lists.
+  /// Whether macro cells are voxels with lists.
   constexpr bool has_voxels() const { return references != no_address; }
 };
 static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
 
-/// `rows` points at the block's first value, `stride` is its lane count.
-struct BlockLane {
+/// `rows` points at the leaf's first value, `stride` is its lane count.
+struct LeafLane {
   const float* rows;
   std::size_t stride, lane;
 

@@ -10,16 +10,16 @@
 
 namespace dmpc::core {
 
-/// block: of the primitive that was hit, of the boxes of instances, or an InstanceRecord, which begins as a block does. normals:
+/// leaf: of the primitive that was hit, of the boxes of instances, or an InstanceRecord, which begins as a leaf does. normals:
 /// a PatchNormals, TexturedNormals or FacetedNormals. tile: a TextureTile.
-enum class RecordKind : std::uint8_t { block, normals, tile, brick };
+enum class RecordKind : std::uint8_t { leaf, normals, tile, bvh_node };
 
 /// The most that one takes.
 constexpr std::size_t bytes_max(RecordKind kind) {
-  return kind == RecordKind::block     ? record_bytes_max
+  return kind == RecordKind::leaf      ? record_bytes_max
          : kind == RecordKind::normals ? sizeof(FacetedNormals)
          : kind == RecordKind::tile    ? sizeof(TextureTile)
-                                       : sizeof(Brick);
+                                       : sizeof(BvhNode);
 }
 
 /// What a PatchNormals takes with all that it begins.
@@ -32,16 +32,16 @@ inline std::size_t bytes_of_normals(const std::byte* record) {
 /// What this one takes.
 inline std::size_t bytes_of(RecordKind kind, const std::byte* record) {
   switch (kind) {
-    case RecordKind::block: {
-      const auto header = read<BlockHeader>(record);
-      return is_instance(header) ? sizeof(InstanceRecord) : block_bytes(header);
+    case RecordKind::leaf: {
+      const auto header = read<LeafHeader>(record);
+      return is_instance(header) ? sizeof(InstanceRecord) : leaf_bytes(header);
     }
     case RecordKind::normals:
       return bytes_of_normals(record);
     case RecordKind::tile:
       return sizeof(TextureTile);
-    case RecordKind::brick:
-      return sizeof(Brick);
+    case RecordKind::bvh_node:
+      return sizeof(BvhNode);
   }
   expect(false, "a record that is asked for is of a known kind");
   return 0;

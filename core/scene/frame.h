@@ -30,8 +30,9 @@ inline constexpr double far_eye_diagonals = 4;
 
 /// Within which distance of a cell a primitive must be listed there, grid-local: more than the rounding of a ray and of its hit's
 /// t can move the hit, for rays that start up to `distance` scene extents away (2^-21 of the extent times 1 + distance: eight
-/// units in the last place of a float there), and never below 1e-3 of a finest cell. The walk's planes, in double, add nothing to
-/// it. Where planes lie in layers, in_layer() (core/trace/primitive.h) moves a t by up to `layers` units in its last place more.
+/// units in the last place of a float there), and never below 1e-3 of a finest cell. The traversal's planes, in double, add
+/// nothing to it. Where planes lie in layers, in_layer() (core/trace/primitive.h) moves a t by up to `layers` units in its last
+/// place more.
 double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers = 0);
 
 /// The screen's axes: right, up, and from the scene towards the eye.

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "core/scene/base_meshes.h"
 #include "core/scene/face_normals.h"
-#include "core/scene/kept_meshes.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
@@ -35,10 +35,10 @@ std::uint64_t triangle_count(std::span<const Object> objects) {
 }
 
 /// Which meshes are kept: those that are large and stand in several places that can keep them.
-std::vector<bool> kept_meshes(const Scene& scene, const Instances& instances) {
+std::vector<bool> base_meshes(const Scene& scene, const Instances& instances) {
   std::vector<std::uint64_t> uses(instances.meshes.size());
   for (const Instance& place : instances.places) {
-    uses[place.mesh] += can_be_kept(place.world) ? 1 : 0;
+    uses[place.mesh] += can_be_instanced(place.world) ? 1 : 0;
   }
   std::vector<bool> kept;
   const std::span<const Object> objects(scene.objects);
@@ -124,13 +124,13 @@ class MeshTaker {
   Scene& scene_;
 };
 
-/// One pool after the other, so that but one is there twice at a time. Copies of kept meshes are left out.
+/// One pool after the other, so that but one is there twice at a time. Copies of base meshes are left out.
 class Expansion {
  public:
   Expansion(Scene& scene, const Instances& instances) : scene_(scene), instances_(instances) {}
 
   /// Returns what is kept.
-  KeptMeshes run() {
+  BaseMeshes run() {
     const ExpandedSize size = settled_size(scene_, instances_, Copies::left_out);
     size.check();
     ExpandedSize{.objects = expanded_size(scene_, instances_).objects}.check();
@@ -146,13 +146,13 @@ class Expansion {
  private:
   /// While they still have all that they need.
   void keep_meshes() {
-    const std::vector<bool> are_kept = kept_meshes(scene_, instances_);
-    kept_as_.assign(are_kept.size(), nowhere);
-    MeshTaker taker(scene_);
-    for (std::size_t i = 0; i < are_kept.size(); ++i) {
-      if (are_kept[i]) {
-        kept_as_[i] = static_cast<std::uint32_t>(kept_.meshes.size());
-        kept_.meshes.push_back(taker.take(instances_.meshes[i]));
+    const std::vector<bool> are_instanced = base_meshes(scene_, instances_);
+    stored_as_.assign(are_instanced.size(), nowhere);
+    MeshTaker recipient(scene_);
+    for (std::size_t i = 0; i < are_instanced.size(); ++i) {
+      if (are_instanced[i]) {
+        stored_as_[i] = static_cast<std::uint32_t>(kept_.meshes.size());
+        kept_.meshes.push_back(recipient.take(instances_.meshes[i]));
       }
     }
   }
@@ -165,8 +165,8 @@ class Expansion {
     auto mesh = instances_.meshes.begin();
     for (std::size_t i = 0; i <= old_.size();) {
       for (; place != instances_.places.end() && place->before <= i; ++place) {
-        if (kept_as_[place->mesh] != nowhere && can_be_kept(place->world)) {
-          left(*place, kept_as_[place->mesh]);
+        if (stored_as_[place->mesh] != nowhere && can_be_instanced(place->world)) {
+          left(*place, stored_as_[place->mesh]);
           continue;
         }
         const SharedMesh& shared = instances_.meshes[place->mesh];
@@ -289,8 +289,8 @@ class Expansion {
   Scene& scene_;
   const Instances& instances_;
   std::vector<Object> old_;
-  std::vector<std::uint32_t> kept_as_;  ///< by mesh
-  KeptMeshes kept_;
+  std::vector<std::uint32_t> stored_as_;  ///< by mesh
+  BaseMeshes kept_;
   std::vector<Vec3d> placed_;  ///< the normals of one object
 };
 
@@ -304,14 +304,15 @@ ExpandedSize settled_size(const Scene& scene, const Instances& instances, Copies
   if (copies == Copies::put) {
     return expanded_size(scene, instances);
   }
-  const std::vector<bool> are_kept = kept_meshes(scene, instances);
-  return size_with(scene, instances, [&](const Instance& place) { return !are_kept[place.mesh] || !can_be_kept(place.world); });
+  const std::vector<bool> are_instanced = base_meshes(scene, instances);
+  return size_with(scene, instances,
+                   [&](const Instance& place) { return !are_instanced[place.mesh] || !can_be_instanced(place.world); });
 }
 
 void leave(Scene& scene, const Instances& instances) {
-  KeptMeshes kept = Expansion(scene, instances).run();
+  BaseMeshes kept = Expansion(scene, instances).run();
   if (!kept.places.empty()) {
-    scene.kept = std::make_shared<const KeptMeshes>(std::move(kept));
+    scene.kept = std::make_shared<const BaseMeshes>(std::move(kept));
   }
 }
 

@@ -38,14 +38,14 @@ ExpandedSize expanded_size(const Scene& scene, const Instances& instances);
 /// are placed in double; normals by the inverse transpose; a mirror's faces are turned back; what is pressed flat has the normals
 /// of its plane, and so has a face whose normals say no more than that (core/scene/face_normals.h). All pools are in the order
 /// of the objects. Of meshes that are large and stand in several places it leaves what is decided of them by themselves in
-/// Scene::kept. Throws RoomError if pools outgrow 32 bits.
+/// Scene::kept. Throws CapacityError if pools outgrow 32 bits.
 void expand(Scene& scene, const Instances& instances);
 
-/// Whether a scene has copies of its kept meshes among its objects.
+/// Whether a scene has copies of its base meshes among its objects.
 enum class Copies : std::uint8_t { put, left_out };
 
 /// As expand(), but what Scene::kept has is left out of the objects: a mesh's place takes 112 bytes, whatever the mesh holds.
-/// Throws RoomError if there would be more objects with all copies than 32 bits count.
+/// Throws CapacityError if there would be more objects with all copies than 32 bits count.
 void leave(Scene& scene, const Instances& instances);
 
 /// The one or the other.

@@ -64,10 +64,10 @@ void for_each_left_out(const Scene& scene, const std::vector<bool>& places, cons
 }
 
 /// Those in `places` have been put.
-void mark_copies(KeptMeshes& kept, const std::vector<bool>& places) {
+void mark_copies(BaseMeshes& kept, const std::vector<bool>& places) {
   std::uint32_t left_out = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    KeptPlace& place = kept.places[i];
+    BaseMeshInstance& place = kept.places[i];
     place.at = place.first - left_out;
     place.has_copy = place.has_copy || places[i];
     left_out += place.has_copy ? 0 : static_cast<std::uint32_t>(kept.meshes[place.mesh].objects.size());
@@ -78,17 +78,17 @@ void mark_copies(KeptMeshes& kept, const std::vector<bool>& places) {
 
 bool leaves_copies_out(const Scene& scene) {
   return scene.kept != nullptr && std::any_of(scene.kept->places.begin(), scene.kept->places.end(),
-                                              [](const KeptPlace& place) { return !place.has_copy; });
+                                              [](const BaseMeshInstance& place) { return !place.has_copy; });
 }
 
 PlacedObjects::PlacedObjects(const Scene& scene) : PlacedObjects(scene, all_places(scene)) {}
 
 PlacedObjects::PlacedObjects(const Scene& scene, const std::vector<bool>& places) : scene_(scene) {
-  for_each_left_out(scene, places, [this](const KeptPlace& place) { add_place(place); });
+  for_each_left_out(scene, places, [this](const BaseMeshInstance& place) { add_place(place); });
   add_own(scene.objects.size());
 }
 
-void PlacedObjects::add_place(const KeptPlace& place) {
+void PlacedObjects::add_place(const BaseMeshInstance& place) {
   add_own(place.at);
   const std::uint64_t end = count_ + scene_.kept->meshes[place.mesh].objects.size();
   runs_.push_back({count_, end, 0, &place});
@@ -110,7 +110,8 @@ ExpandedSize size_with_copies(const Scene& scene) { return size_with_copies(scen
 
 ExpandedSize size_with_copies(const Scene& scene, const std::vector<bool>& places) {
   ExpandedSize size = size_of_pools(scene);
-  for_each_left_out(scene, places, [&](const KeptPlace& place) { size = size + size_of_pools(scene.kept->meshes[place.mesh]); });
+  for_each_left_out(scene, places,
+                    [&](const BaseMeshInstance& place) { size = size + size_of_pools(scene.kept->meshes[place.mesh]); });
   return size;
 }
 
@@ -137,9 +138,9 @@ void put_copies(Scene& scene, const std::vector<bool>& places) {
   scene.normals.reserve(size.normals);
   scene.corners.reserve(size.corners);
   all.for_each([&](const PlacedObject& object) { writer.add_shading(object); });
-  KeptMeshes kept = *left.kept;
+  BaseMeshes kept = *left.kept;
   mark_copies(kept, places);
-  scene.kept = std::make_shared<const KeptMeshes>(std::move(kept));
+  scene.kept = std::make_shared<const BaseMeshes>(std::move(kept));
 }
 
 Scene without_copies(const Scene& scene) {
@@ -156,7 +157,7 @@ Scene without_copies(const Scene& scene) {
     }
   };
   if (scene.kept != nullptr) {
-    for (const KeptPlace& place : scene.kept->places) {
+    for (const BaseMeshInstance& place : scene.kept->places) {
       add_until(place.at);
       next += place.has_copy ? static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size()) : 0;
     }

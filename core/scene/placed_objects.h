@@ -1,11 +1,11 @@
-// All objects of a scene with each copy of its kept meshes, whether it has these copies or leaves some or all of them out.
+// All objects of a scene with each copy of its base meshes, whether it has these copies or leaves some or all of them out.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "core/base/vec.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 #include "core/scene/scene.h"
 #include "core/scene/transform.h"
 
@@ -76,7 +76,7 @@ class PlacedObject {
   const CopyPlacing* placing_;
 };
 
-/// Whether there are copies of kept meshes that the scene's objects are without.
+/// Whether there are copies of base meshes that the scene's objects are without.
 bool leaves_copies_out(const Scene& scene);
 
 /// All of a scene's objects by the indices that they have with all copies. Whatever asks for them gets the same bits of one that
@@ -117,10 +117,10 @@ class PlacedObjects {
   struct Run {
     std::uint64_t first, end;
     std::size_t own;
-    const KeptPlace* place;
+    const BaseMeshInstance* place;
   };
   void add_own(std::size_t until);
-  void add_place(const KeptPlace& place);
+  void add_place(const BaseMeshInstance& place);
 
   const Scene& scene_;
   std::vector<Run> runs_;
@@ -136,13 +136,13 @@ ExpandedSize size_with_copies(const Scene& scene);
 /// With those in these places, one entry for each of Scene::kept, beside those that it has.
 ExpandedSize size_with_copies(const Scene& scene, const std::vector<bool>& places);
 
-/// Puts copies of kept meshes where they are left out: then the scene is what expand() makes of it. Others stay as they are.
-/// Throws RoomError if pools outgrow 32 bits.
+/// Puts copies of base meshes where they are left out: then the scene is what expand() makes of it. Others stay as they are.
+/// Throws CapacityError if pools outgrow 32 bits.
 void put_copies(Scene& scene);
 /// In these places alone, one entry for each of Scene::kept.
 void put_copies(Scene& scene, const std::vector<bool>& places);
 
-/// The objects, and their pools alone, that are no copies of kept meshes, as a scene that leaves copies out has them.
+/// The objects, and their pools alone, that are no copies of base meshes, as a scene that leaves copies out has them.
 Scene without_copies(const Scene& scene);
 
 }  // namespace dmpc::core

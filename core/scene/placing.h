@@ -39,7 +39,7 @@ inline Transform transform_of(const InstanceRecord& instance) {
           .shift = {world[9], world[10], world[11]}};
 }
 
-/// By columns, of a linear part that can_be_kept().
+/// By columns, of a linear part that can_be_instanced().
 inline std::array<Vec3d, 3> inverse_of(const std::array<Vec3d, 3>& rows) {
   const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
   return {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
@@ -73,7 +73,7 @@ inline Vec3f unit_normal(const Vec3d& normal) {
 
 /// A plane of a mesh, in the mesh's coordinates.
 struct MeshPlane : FacePlane {
-  std::uint8_t kept_as = BlockHeader::shared_plane;  ///< BlockHeader::plane
+  std::uint8_t stored_as = LeafHeader::shared_plane;  ///< LeafHeader::plane
   bool is_level = false;  ///< `normal` is an axis, and all corners of its faces have `offset` there, to the bit
 };
 

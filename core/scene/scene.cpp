@@ -18,7 +18,7 @@ constexpr std::size_t pool_max = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t pool_index(std::size_t index) {
   if (index >= pool_max) {
-    throw RoomError("the scene is too large: more than 4294967294 vertices, normals or objects; divide it");
+    throw CapacityError("the scene is too large: more than 4294967294 vertices, normals or objects; divide it");
   }
   return static_cast<std::uint32_t>(index);
 }
@@ -61,7 +61,7 @@ void replay_object(const PlacedObject& placed, SceneSink& sink) {
 
 }  // namespace
 
-bool Material::has_finish() const {
+bool Material::has_extension() const {
   return alpha != AlphaUse::none || !(specular_color == Vec3d{1, 1, 1}) || tinted_specular != 0 || mirror != 1 ||
          !(emission == Vec3d{});
 }
@@ -220,7 +220,7 @@ void replay(const Scene& scene, SceneSink& sink) {
 void ExpandedSize::check() const {
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
   if (std::max({objects, vertices, normals, corners}) > most) {
-    throw RoomError("with every instance the scene has more than 4294967294 vertices, normals or objects; divide it");
+    throw CapacityError("with every instance the scene has more than 4294967294 vertices, normals or objects; divide it");
   }
 }
 

@@ -26,8 +26,8 @@ enum class AlphaUse : std::uint8_t { none, blend, cut };
 /// What a texture of metal and roughness does: it lies where that of the colour does, or its mean is meant.
 enum class FacetTexture : std::uint8_t { placed, mean };
 
-/// A surface of tiny mirrors, as glTF's metallic-roughness has it (core/picture/microfacet_lobes.h). What it scatters or reflects
-/// as a metal has the material's colour; light, index and alpha are the material's, too.
+/// A surface of tiny mirrors, as glTF's metallic-roughness has it (core/picture/surfaces/microfacet_lobes.h). What it scatters or
+/// reflects as a metal has the material's colour; light, index and alpha are the material's, too.
 struct Microfacets {
   double roughness = -1;      ///< 0 to 1; below 0 there are none
   double metallic = 0;        ///< 0 to 1
@@ -68,8 +68,8 @@ struct Material {
   static constexpr std::uint32_t no_texture = Microfacets::no_texture;
   bool operator==(const Material&) const = default;
 
-  /// Whether NFF cannot say all of it: then the database has a FinishRecord for it.
-  bool has_finish() const;
+  /// Whether NFF cannot say all of it: then the database has a MaterialExtensionRecord for it.
+  bool has_extension() const;
   /// Whether it has light of its own.
   bool shines() const { return emission != Vec3d{}; }
   /// Whether light may come through it somewhere.
@@ -140,7 +140,7 @@ struct Object {
   std::uint32_t first_normal = 0;
 };
 
-struct KeptMeshes;
+struct BaseMeshes;
 
 struct Scene {
   static constexpr int bounces_max = 253;
@@ -164,9 +164,9 @@ struct Scene {
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;
-  /// Which of the objects are copies of meshes that stand in several places (core/scene/kept_meshes.h); null if none are. Copies
+  /// Which of the objects are copies of meshes that stand in several places (core/scene/base_meshes.h); null if none are. Copies
   /// of a scene have it in common.
-  std::shared_ptr<const KeptMeshes> kept;
+  std::shared_ptr<const BaseMeshes> kept;
 };
 
 /// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
@@ -243,7 +243,7 @@ struct ExpandedSize {
   std::uint64_t bytes() const {
     return sizeof(Object) * objects + sizeof(Vec3d) * (vertices + normals) + sizeof(TexturedCorner) * corners;
   }
-  /// Throws RoomError if that is more than indices of 32 bits reach.
+  /// Throws CapacityError if that is more than indices of 32 bits reach.
   void check() const;
 };
 

@@ -108,8 +108,8 @@ SkyCells::Drawn SkyCells::draw(double x, double y) const {
   const std::uint32_t columns = sky_tile_columns(sky_);
   const double turn = (tile_ % columns * sky_tile_cells + cell + across + 0.5) / sky_.width, angle = 2 * pi * (0.5 - turn);
   const double height = its.top + y * (its.bottom - its.top), out = std::sqrt(std::max(0.0, 1 - height * height));
-  const double from_top = angle_of(out, height) / pi * sky_.height + 0.5 - (tile_ / columns * sky_tile_cells + row);
-  return {{tile_, cell, row, across, std::clamp(from_top, 0.0, 1.0)},
+  const double from_macro = angle_of(out, height) / pi * sky_.height + 0.5 - (tile_ / columns * sky_tile_cells + row);
+  return {{tile_, cell, row, across, std::clamp(from_macro, 0.0, 1.0)},
           sky_.up * height + (sky_.middle * cos_radians(angle) + left_of(sky_) * sin_radians(angle)) * out};
 }
 

@@ -1,4 +1,4 @@
-// A part of a ray's walk that somebody else does: all that lies below a child whose record is absent.
+// A part of a ray's traversal that somebody else does: all that lies below a child whose record is absent.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@
 
 namespace dmpc::core {
 
-/// All that decides what a walk finds below `child`, and what it counts on the way: the ray and the bounds as the walk itself
-/// would use them, bit by bit.
+/// All that decides what a traversal finds below `child`, and what it counts on the way: the ray and the bounds as the walk
+/// itself would use them, bit by bit.
 struct Below {
   Vec3f origin, origin_rest, direction, direction_rest;  ///< as a Ray has them
   float t_max = 0;
   std::uint32_t ignored_primitive = no_primitive;
-  BrickChild child = BrickChild::none();
-  float t_low = 0, t_high = 0;                  ///< of the top cell
+  BvhChild child = BvhChild::none();
+  float t_low = 0, t_high = 0;                  ///< of the macro cell
   float best_t = 0;                             ///< of the nearest hit so far
   std::uint32_t best_primitive = no_primitive;  ///< no_primitive: there is none
   std::uint32_t any = 0;                        ///< 1: any hit will do
 };
 static_assert(sizeof(Below) == 80 && std::is_trivially_copyable_v<Below>);
 
-/// Whether any hit ends the ray's walk.
+/// Whether any hit ends the ray's traversal.
 inline bool ends_at_any_hit(const Ray& ray, const Skips& skips) { return skips.any_hit && ray.kind == RayKind::shadow; }
 
 /// What trace() has left undone that has answered Traced::absent at `child`.
-inline Below below(const Ray& ray, const Cursor& cursor, BrickChild child, const Skips& skips) {
-  expect(cursor.stage == Cursor::Stage::child && child.found(), "a walk that waits for a child is below the directory");
+inline Below below(const Ray& ray, const Cursor& cursor, BvhChild child, const Skips& skips) {
+  expect(cursor.stage == Cursor::Stage::child && child.found(), "a traversal that waits for a child is below the directory");
   return {.origin = ray.origin,
           .origin_rest = ray.origin_rest,
           .direction = ray.direction,
@@ -50,7 +50,7 @@ inline Below below(const Ray& ray, const Cursor& cursor, BrickChild child, const
 
 inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) { return below(ray, cursor, cursor.next, skips); }
 
-/// The ray as far as a walk below a child knows it.
+/// The ray as far as a traversal below a child knows it.
 inline Ray ray_of(const Below& below) {
   return {.origin = below.origin,
           .t_max = below.t_max,
@@ -60,13 +60,13 @@ inline Ray ray_of(const Below& below) {
           .direction_rest = below.direction_rest};
 }
 
-/// Where a walk is that looks through what is below.
+/// Where a traversal is that looks through what is below.
 template <class RayCursor = Cursor>
 RayCursor cursor_of(const Below& below) {
   RayCursor cursor;
   cursor.best.t = below.best_t;
   cursor.best.primitive = below.best_primitive;
-  cursor.best.block = Address{0};  // known to whoever asks
+  cursor.best.leaf = Address{0};  // known to whoever asks
   cursor.t_enter = double{below.t_low};
   cursor.exit.t = double{below.t_high};
   cursor.next = below.child;
@@ -75,7 +75,7 @@ RayCursor cursor_of(const Below& below) {
   return cursor;
 }
 
-/// What a walk that is through has found, if that is not what was known.
+/// What a traversal that is through has found, if that is not what was known.
 inline Hit found_below(const Below& below, const Cursor& cursor) {
   return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
 }
@@ -87,15 +87,15 @@ Hit trace_below(const Below& below, R& records, Operations& operations) {
   auto cursor = cursor_of(below);
   const ShearedRay sheared(ray);
   const auto test = [&](const std::byte* record, Address address, Hit& best) {
-    test_block(ray, sheared, record, address, best, operations);
+    test_leaf(ray, sheared, record, address, best, operations);
   };
-  const bool visited = RayWalk(ray, cursor, records, operations)
+  const bool visited = RayTraversal(ray, cursor, records, operations)
                            .visit_children(BoxRay(ray, reciprocal_direction(ray)), below.any != 0, meet_children, test);
   expect(visited, "whoever has a child's record has all that is below it");
   return found_below(below, cursor);
 }
 
-/// Takes what was found below a child for the nearest. Returns whether that ends the walk.
+/// Takes what was found below a child for the nearest. Returns whether that ends the traversal.
 inline bool take_found(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
   if (found.found()) {
     expect(nearer(found.t, found.primitive, cursor.best), "what is found below a child is nearer than what was known");
@@ -104,12 +104,12 @@ inline bool take_found(const Hit& found, const Ray& ray, const Skips& skips, Cur
   const bool ends = ends_at_any_hit(ray, skips) && cursor.best.found();
   if (ends) {
     operations.skipped.any_hit += count_before(cursor.waiting, cursor.best);
-    cursor.next = BrickChild::none();
+    cursor.next = BvhChild::none();
   }
   return ends;
 }
 
-/// Takes what trace_below() has found into the walk that asked: trace() then goes on behind the child.
+/// Takes what trace_below() has found into the traversal that asked: trace() then goes on behind the child.
 inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
   if (!take_found(found, ray, skips, cursor, operations)) {
     cursor.next = cursor.waiting.take_up_to(cursor.best.t);

@@ -1,4 +1,4 @@
-// A part of a ray's walk that somebody else does, where a database has instances: in a kept mesh its place has to be told.
+// A part of a ray's traversal that somebody else does, where a database has instances: in a base mesh its place has to be told.
 #pragma once
 
 #include <array>
@@ -8,43 +8,44 @@
 #include "core/base/expect.h"
 #include "core/record/instance.h"
 #include "core/trace/below.h"
-#include "core/trace/instance_walk.h"
+#include "core/trace/instance_traversal.h"
 
 namespace dmpc::core {
 
-/// What a walk in a kept mesh needs of the InstanceRecord at `record`, beside a Below.
-struct ToldPlace {
+/// What a traversal in a base mesh needs of the InstanceRecord at `record`, beside a Below.
+struct ReportedInstance {
   std::array<double, 12> world{};
   Address record = no_address;
   std::uint32_t first = 0;
   float unit = 1, pad = 0;
 };
-static_assert(sizeof(ToldPlace) == 112 && std::is_trivially_copyable_v<ToldPlace>);
+static_assert(sizeof(ReportedInstance) == 112 && std::is_trivially_copyable_v<ReportedInstance>);
 
 /// Outside of meshes it is a Cursor's.
 inline Below below(const Ray& ray, const InstanceCursor& cursor, const Skips& skips) {
   return below(ray, cursor, cursor.is_inside ? cursor.next_in_mesh : cursor.next, skips);
 }
 
-/// Where the mesh stands that the walk is in.
-inline ToldPlace told_place(const InstanceCursor& cursor) {
-  expect(cursor.is_inside, "a place is told of a walk in a mesh");
+/// Where the mesh stands that the traversal is in.
+inline ReportedInstance reported_instance(const InstanceCursor& cursor) {
+  expect(cursor.is_inside, "a place is told of a traversal in a mesh");
   const InstanceRecord& instance = cursor.instance;
   return {instance.world, cursor.next.address(), instance.first, instance.unit, instance.pad};
 }
 
 /// trace_below() in a mesh.
 template <Records R>
-Hit trace_below(const Below& below, const ToldPlace& place, R& records, const DatabaseHeader& header, Operations& operations) {
+Hit trace_below(const Below& below, const ReportedInstance& place, R& records, const DatabaseHeader& header,
+                Operations& operations) {
   const Ray ray = ray_of(below);
   auto cursor = cursor_of<InstanceCursor>(below);
   cursor.instance = {.world = place.world, .first = place.first, .unit = place.unit, .pad = place.pad};
   cursor.ray = MeshRay(ray, cursor.instance, header.frame);
-  cursor.next = BrickChild::block(place.record);
+  cursor.next = BvhChild::leaf(place.record);
   cursor.next_in_mesh = below.child;
   cursor.waiting_in_mesh.count = 0;
   cursor.is_inside = true;
-  const bool visited = InstanceWalk<R>(ray, cursor, records, header, operations).visit_mesh(below.any != 0);
+  const bool visited = InstanceTraversal<R>(ray, cursor, records, header, operations).visit_mesh(below.any != 0);
   expect(visited, "whoever has a record of a mesh has all that is below it");
   return found_below(below, cursor);
 }

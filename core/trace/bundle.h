@@ -32,40 +32,40 @@ constexpr std::uint32_t count_of(RayMask rays) {
 template <class T>
 using Row = std::array<T, bundle_rays_max>;
 
-/// Up to so many rays of a brick are tested one by one, each against all its children at once.
+/// Up to so many rays of a BVH node are tested one by one, each against all its children at once.
 inline constexpr std::size_t apart_max = 3;
 
 /// Met children that have not been visited, the nearest last, each with the rays that have met it. Not initialised.
 struct BundleChildren {
   /// As MetChildren; and where rays are tested one by one, which happens once on a way down, each adds children of its own.
-  static constexpr std::size_t count_max = MetChildren::count_max + (apart_max - 1) * brick_children_max;
+  static constexpr std::size_t count_max = MetChildren::count_max + (apart_max - 1) * bvh_children_max;
 
   alignas(64) std::array<Row<float>, count_max> t_enter;  ///< where each of the rays enters the box
   std::array<float, count_max> nearest;                   ///< of those, about: what the order goes by
-  std::array<BrickChild, count_max> record;
+  std::array<BvhChild, count_max> record;
   std::array<RayMask, count_max> rays;
   std::uint32_t count;
 };
 
 /// A ray's t, primitive, and where that was read, of up to 16 rays. A candidate whose record is not here has `elsewhere` for a
-/// block and the next higher id: so the same hit counts as nearer where it is met, see replaces(), and no other that did not.
+/// leaf and the next higher id: so the same hit counts as nearer where it is met, see replaces(), and no other that did not.
 struct BundleHits {
   static constexpr Address elsewhere{0xfffffffeU};
   alignas(64) Row<float> t;
-  Row<std::uint32_t> primitive, block, lane;
+  Row<std::uint32_t> primitive, leaf, lane;
 
-  Hit of(std::size_t ray) const { return {t[ray], primitive[ray], Address{block[ray]}, lane[ray]}; }
+  Hit of(std::size_t ray) const { return {t[ray], primitive[ray], Address{leaf[ray]}, lane[ray]}; }
   void set(std::size_t ray, const Hit& hit) {
     t[ray] = hit.t;
     primitive[ray] = hit.primitive;
-    block[ray] = static_cast<std::uint32_t>(hit.block);
+    leaf[ray] = static_cast<std::uint32_t>(hit.leaf);
     lane[ray] = hit.lane;
   }
 };
 
-/// Rays and their walk, which core/trace/bundle_walk.h takes from record to record. A step reads exactly one record, and whatever
-/// the next one needs is here by value, as in a Cursor. Each ray has its own
-/// bit in the masks, its own nearest hit and its own end. Neither initialised nor ever allocated: its owner has room for it.
+/// Rays and their walk, which core/trace/bundle_traversal.h takes from record to record. A step reads exactly one record, and
+/// whatever the next one needs is here by value, as in a Cursor. Each ray has its own bit in the masks, its own nearest hit and
+/// its own end. Neither initialised nor ever allocated: its owner has room for it.
 struct RayBundle {
   // What its owner sets.
   std::array<Ray, bundle_rays_max> rays;
@@ -80,7 +80,7 @@ struct RayBundle {
   std::array<RayMask, 3> forward, backward;  ///< rays with a step of +1, of -1
   /// By the axis along which rays are sheared, and whether they go up (0) or down (1) along it.
   std::array<std::array<RayMask, 2>, 3> sheared_along;
-  std::array<std::uint32_t, 3> near_row, far_row;  ///< of a brick's bounds, where all rays agree
+  std::array<std::uint32_t, 3> near_row, far_row;  ///< of a BVH node's bounds, where all rays agree
   bool is_one_octant;                              ///< all rays agree
   Corner grid_size;                                ///< in finest cells
   Region region;                                   ///< in which they walk
@@ -96,12 +96,12 @@ struct RayBundle {
   RayMask found;                                         ///< rays that have a hit
   RayMask left;                                          ///< rays that have left the region: see passage()
   RayMask group;                                         ///< the rays in `cell`, of those alive
-  Corner cell;                                           ///< the lower corner of the top cell that comes next, in finest cells
-  BrickChild next;                                       ///< what the next step reads, with Stage::child
+  Corner cell;                                           ///< the lower corner of the macro cell that comes next, in finest cells
+  BvhChild next;                                         ///< what the next step reads, with Stage::child
   RayMask next_rays;                                     ///< for these rays
-  Address absent;                                        ///< the record that the walk needs next
+  Address absent;                                        ///< the record that the traversal needs next
   std::array<RayMask, 3> exit_axis;                      ///< through which plane rays leave the cell
-  alignas(64) std::array<Row<std::int32_t>, 3> cells;    ///< each ray's top cell
+  alignas(64) std::array<Row<std::int32_t>, 3> cells;    ///< each ray's macro cell
   alignas(64) Row<double> t_enter, t_exit;               ///< where the ray enters its cell, and leaves it
   alignas(64) Row<float> t_low, t_high;                  ///< the same as boxes need it
   std::array<Row<std::int32_t>, 3> arrival;              ///< of a ray that has left: the finest cell that it enters
@@ -131,15 +131,15 @@ inline void RayBundle::arrive(std::size_t ray, const Passage& passage) {
   arrived |= RayMask{1} << ray;
   t_enter[ray] = passage.t_enter;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cells[axis][ray] = passage.cell[axis] & -finest_per_top;
+    cells[axis][ray] = passage.cell[axis] & -finest_per_macro;
   }
-  const bool is_elsewhere = passage.best.found() && passage.best.block == no_address;
+  const bool is_elsewhere = passage.best.found() && passage.best.leaf == no_address;
   best.set(ray, is_elsewhere ? Hit{passage.best.t, passage.best.primitive + 1, BundleHits::elsewhere} : passage.best);
 }
 
 inline Hit RayBundle::hit(std::size_t ray) const {
   const Hit hit = best.of(ray);
-  return hit.block == BundleHits::elsewhere ? Hit{hit.t, hit.primitive - 1} : hit;
+  return hit.leaf == BundleHits::elsewhere ? Hit{hit.t, hit.primitive - 1} : hit;
 }
 
 inline Passage RayBundle::passage(std::size_t ray) const {

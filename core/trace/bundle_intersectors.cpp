@@ -23,32 +23,32 @@ constexpr std::size_t step = lanes_of<Floats>();
 
 // --- Boxes ---
 
-/// A brick's bounds as floats.
-using Bounds = std::array<std::array<float, brick_children_max>, 6>;
+/// A BVH node's bounds as floats.
+using Bounds = std::array<std::array<float, bvh_children_max>, 6>;
 
-HWY_INLINE Bounds bounds_of(const Brick& brick) {
+HWY_INLINE Bounds bounds_of(const BvhNode& bvh_node) {
   Bounds bounds;
   for (std::size_t row = 0; row < 6; ++row) {
-    for (std::size_t child = 0; child < brick_children_max; ++child) {
-      bounds[row][child] = static_cast<float>(brick.bounds[row][child]);
+    for (std::size_t child = 0; child < bvh_children_max; ++child) {
+      bounds[row][child] = static_cast<float>(bvh_node.bounds[row][child]);
     }
   }
   return bounds;
 }
 
-/// A brick's planes as some rays come to them: bound * slope + offset.
+/// A BVH node's planes as some rays come to them: bound * slope + offset.
 struct BoxPlanes {
   Vector slope[3], offset[3], t_low, t_high;
 };
 
-HWY_INLINE BoxPlanes planes_of(const RayBundle& bundle, const Brick& brick, std::size_t first) {
+HWY_INLINE BoxPlanes planes_of(const RayBundle& bundle, const BvhNode& bvh_node, std::size_t first) {
   const Floats tag;
   BoxPlanes planes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto reciprocal = hn::Load(tag, bundle.reciprocal[axis].data() + first);
     const auto origin = hn::Load(tag, bundle.origin[axis].data() + first);
-    planes.slope[axis] = hn::Mul(hn::Set(tag, brick.unit), reciprocal);
-    planes.offset[axis] = hn::Mul(hn::Sub(hn::Set(tag, brick.origin[axis]), origin), reciprocal);
+    planes.slope[axis] = hn::Mul(hn::Set(tag, bvh_node.unit), reciprocal);
+    planes.offset[axis] = hn::Mul(hn::Sub(hn::Set(tag, bvh_node.origin[axis]), origin), reciprocal);
   }
   planes.t_low = hn::Load(tag, bundle.t_low.data() + first);
   planes.t_high = hn::Min(hn::Load(tag, bundle.t_high.data() + first), hn::Load(tag, bundle.best.t.data() + first));
@@ -85,7 +85,7 @@ HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
   if (place == start || waiting.nearest[place - 1] >= nearest) {
     return;
   }
-  const BrickChild record = waiting.record[place];
+  const BvhChild record = waiting.record[place];
   const RayMask rays = waiting.rays[place];
   const Row<float> t_enter = waiting.t_enter[place];
   for (; place > start && waiting.nearest[place - 1] < nearest; --place) {
@@ -102,15 +102,15 @@ HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
 
 /// The children that some rays meet, from the first on: a pass that branches nowhere, before those are put in order.
 template <bool OneOctant>
-HWY_INLINE std::array<RayMask, brick_children_max> meet_boxes(const RayBundle& bundle, const Brick& brick, RayMask rays,
-                                                              std::array<Row<float>, brick_children_max>& t_enter) {
-  const Bounds bounds = bounds_of(brick);
+HWY_INLINE std::array<RayMask, bvh_children_max> meet_boxes(const RayBundle& bundle, const BvhNode& bvh_node, RayMask rays,
+                                                            std::array<Row<float>, bvh_children_max>& t_enter) {
+  const Bounds bounds = bounds_of(bvh_node);
   BoxPlanes planes[bundle_rays_max / step];
   for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
-    planes[part] = planes_of(bundle, brick, part * step);
+    planes[part] = planes_of(bundle, bvh_node, part * step);
   }
-  std::array<RayMask, brick_children_max> met{};
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
+  std::array<RayMask, bvh_children_max> met{};
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
     for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
       const RayMask enter = meet_box<OneOctant>(bundle, bounds, planes[part], child, t_enter[child].data() + part * step);
       met[child] |= enter << (part * step);
@@ -121,13 +121,13 @@ HWY_INLINE std::array<RayMask, brick_children_max> meet_boxes(const RayBundle& b
 }
 
 template <bool OneOctant>
-HWY_INLINE void meet_together(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
+HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order) {
   BundleChildren& waiting = bundle.waiting;
-  alignas(64) std::array<Row<float>, brick_children_max> t_enter;
-  const std::array<RayMask, brick_children_max> met = meet_boxes<OneOctant>(bundle, brick, rays, t_enter);
+  alignas(64) std::array<Row<float>, bvh_children_max> t_enter;
+  const std::array<RayMask, bvh_children_max> met = meet_boxes<OneOctant>(bundle, bvh_node, rays, t_enter);
   const std::uint32_t start = waiting.count;
-  std::array<std::uint8_t, brick_children_max> child_at;  // of those that are added, in their order
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
+  std::array<std::uint8_t, bvh_children_max> child_at;  // of those that are added, in their order
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
     if (met[child] == 0) {
       continue;
     }
@@ -142,29 +142,29 @@ HWY_INLINE void meet_together(RayBundle& bundle, const Brick& brick, RayMask ray
   }
   for (std::uint32_t place = start; place < waiting.count; ++place) {
     const std::size_t child = child_at[place - start];
-    waiting.record[place] = brick.child[child];
+    waiting.record[place] = bvh_node.child[child];
     waiting.rays[place] = met[child];
     waiting.t_enter[place] = t_enter[child];
   }
 }
 
 /// One ray and all boxes.
-HWY_INLINE void meet_apart(RayBundle& bundle, const Brick& brick, std::size_t ray, bool in_order, std::uint32_t start) {
-  const hn::CappedTag<float, brick_children_max> tag;
+HWY_INLINE void meet_apart(RayBundle& bundle, const BvhNode& bvh_node, std::size_t ray, bool in_order, std::uint32_t start) {
+  const hn::CappedTag<float, bvh_children_max> tag;
   const hn::Rebind<std::int32_t, decltype(tag)> integers;
   const hn::Rebind<std::uint8_t, decltype(tag)> bytes;
   constexpr std::size_t lanes = lanes_of<decltype(tag)>();
   BundleChildren& waiting = bundle.waiting;
-  alignas(64) float t_enter[brick_children_max];
+  alignas(64) float t_enter[bvh_children_max];
   RayMask met = 0;
-  for (std::size_t first = 0; first < brick_children_max; first += lanes) {
+  for (std::size_t first = 0; first < bvh_children_max; first += lanes) {
     auto enter = hn::Set(tag, bundle.t_low[ray]), leave = hn::Set(tag, std::min(bundle.t_high[ray], bundle.best.t[ray]));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float reciprocal = bundle.reciprocal[axis][ray];
-      const auto slope = hn::Set(tag, brick.unit * reciprocal);
-      const auto offset = hn::Set(tag, (brick.origin[axis] - bundle.origin[axis][ray]) * reciprocal);
+      const auto slope = hn::Set(tag, bvh_node.unit * reciprocal);
+      const auto offset = hn::Set(tag, (bvh_node.origin[axis] - bundle.origin[axis][ray]) * reciprocal);
       const auto plane = [&](std::size_t row) {
-        return fused(hn::ConvertTo(tag, hn::PromoteTo(integers, hn::LoadU(bytes, brick.bounds[row].data() + first))), slope,
+        return fused(hn::ConvertTo(tag, hn::PromoteTo(integers, hn::LoadU(bytes, bvh_node.bounds[row].data() + first))), slope,
                      offset);
       };
       const bool is_down = reciprocal < 0.0F;
@@ -174,9 +174,9 @@ HWY_INLINE void meet_apart(RayBundle& bundle, const Brick& brick, std::size_t ra
     hn::Store(enter, tag, t_enter + first);
     met |= bits_of(tag, hn::Le(enter, leave)) << first;
   }
-  for (met &= first_bits(brick.child_count); met != 0; met &= met - 1) {
+  for (met &= first_bits(bvh_node.child_count); met != 0; met &= met - 1) {
     const auto child = static_cast<std::size_t>(std::countr_zero(met));
-    waiting.record[waiting.count] = brick.child[child];
+    waiting.record[waiting.count] = bvh_node.child[child];
     waiting.rays[waiting.count] = RayMask{1} << ray;
     waiting.nearest[waiting.count] = waiting.t_enter[waiting.count][ray] = t_enter[child];
     ++waiting.count;
@@ -186,15 +186,15 @@ HWY_INLINE void meet_apart(RayBundle& bundle, const Brick& brick, std::size_t ra
   }
 }
 
-void meet_children(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
+void meet_children(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order) {
   if (count_of(rays) <= apart_max) {
     for (const std::uint32_t start = bundle.waiting.count; rays != 0; rays &= rays - 1) {
-      meet_apart(bundle, brick, static_cast<std::size_t>(std::countr_zero(rays)), in_order, start);
+      meet_apart(bundle, bvh_node, static_cast<std::size_t>(std::countr_zero(rays)), in_order, start);
     }
   } else if (bundle.is_one_octant) {
-    meet_together<true>(bundle, brick, rays, in_order);
+    meet_together<true>(bundle, bvh_node, rays, in_order);
   } else {
-    meet_together<false>(bundle, brick, rays, in_order);
+    meet_together<false>(bundle, bvh_node, rays, in_order);
   }
 }
 
@@ -227,7 +227,7 @@ void take_child(RayBundle& bundle) {
       return;
     }
   }
-  bundle.next = BrickChild::none();
+  bundle.next = BvhChild::none();
 }
 
 std::uint64_t count_wanted(const RayBundle& bundle, RayMask rays) {
@@ -253,7 +253,7 @@ HWY_INLINE Shear shear_of(const RayBundle& bundle, std::size_t ray) {
   return {is(along[1][0] | along[1][1]) + 2 * is(along[2][0] | along[2][1]), is(along[0][1] | along[1][1] | along[2][1]) != 0};
 }
 
-/// Rays that are sheared alike, one in each lane, or one in all of them, and the triangles of a block as they take them.
+/// Rays that are sheared alike, one in each lane, or one in all of them, and the triangles of a leaf as they take them.
 template <class Tag>
 struct ShearedRays {
   const float *x, *y, *z;     ///< the rows that play which, of the first corner
@@ -332,17 +332,17 @@ HWY_INLINE void take_nearer(RayBundle& bundle, std::size_t ray, const Hit& hit) 
 }
 
 /// A hit in doubt, in the scalar twin.
-HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id,
+HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address leaf, std::size_t lane, std::uint32_t id,
                           std::size_t ray) {
   const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
   if (t > 0.0F && t < bundle.t_max[ray]) {
-    take_nearer(bundle, ray, {t, id, block, static_cast<std::uint32_t>(lane)});
+    take_nearer(bundle, ray, {t, id, leaf, static_cast<std::uint32_t>(lane)});
   }
 }
 
 /// One triangle and some of the rays from `first` on.
 HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays, std::size_t first, RayMask active,
-                             const TriangleRows& triangles, Address block, std::size_t lane) {
+                             const TriangleRows& triangles, Address leaf, std::size_t lane) {
   const Floats tag;
   const Unsigned ids;
   const auto load = [lane](const float* row) { return hn::Set(Floats(), row[lane]); };
@@ -374,17 +374,17 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays,
     const auto takes_ids = hn::RebindMask(ids, takes);
     hn::BlendedStore(t, takes, tag, bundle.best.t.data() + first);
     hn::BlendedStore(hn::Set(ids, id), takes_ids, ids, bundle.best.primitive.data() + first);
-    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(block)), takes_ids, ids, bundle.best.block.data() + first);
+    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(leaf)), takes_ids, ids, bundle.best.leaf.data() + first);
     hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(lane)), takes_ids, ids, bundle.best.lane.data() + first);
     bundle.found |= hit << first;
   }
   for (; unsettled != 0; unsettled &= unsettled - 1) {
-    hit_apart(bundle, triangles, block, lane, id, first + static_cast<std::size_t>(std::countr_zero(unsettled)));
+    hit_apart(bundle, triangles, leaf, lane, id, first + static_cast<std::size_t>(std::countr_zero(unsettled)));
   }
 }
 
 /// Rays that are sheared alike, and all triangles, one after the other.
-HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays, const Shear& shear) {
+HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays, const Shear& shear) {
   for (std::size_t first = 0; first < bundle_rays_max; first += step) {
     RayMask active = rays >> first & first_bits(step);
     if (active == 0) {
@@ -396,26 +396,26 @@ HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, A
       if ((triangles.left_out >> lane & 1U) != 0) {
         continue;
       }
-      hit_triangle(bundle, sheared, first, active, triangles, block, lane);
+      hit_triangle(bundle, sheared, first, active, triangles, leaf, lane);
       active &= ~(bundle.any ? bundle.found >> first : 0U);
     }
   }
 }
 
-using BlockFloats = hn::CappedTag<float, block_lanes>;
+using LeafFloats = hn::CappedTag<float, leaf_lanes>;
 
 /// One ray and the triangles of `active`, from `first` on: the nearest one that it hits.
-HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<BlockFloats>& rays, std::size_t ray, std::size_t first,
-                          RayMask active, const TriangleRows& triangles, Address block) {
-  const BlockFloats tag;
-  const hn::Rebind<std::uint32_t, BlockFloats> ids;
-  const auto load = [first](const float* row) { return hn::LoadU(BlockFloats(), row + first); };
+HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<LeafFloats>& rays, std::size_t ray, std::size_t first,
+                          RayMask active, const TriangleRows& triangles, Address leaf) {
+  const LeafFloats tag;
+  const hn::Rebind<std::uint32_t, LeafFloats> ids;
+  const auto load = [first](const float* row) { return hn::LoadU(LeafFloats(), row + first); };
   const auto a = shear(rays, 0, load), b = shear(rays, 1, load), c = shear(rays, 2, load);
   const auto u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const auto least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
   const RayMask in_doubt = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero))) |
-                           doubtful<BlockFloats>(bundle, active & outside, a, b, c, least, greatest);
+                           doubtful<LeafFloats>(bundle, active & outside, a, b, c, least, greatest);
   if ((active & (~outside | in_doubt)) == 0) {
     return;
   }
@@ -430,42 +430,41 @@ HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<BlockFloats>& ray
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Set(tag, bundle.t_max[ray])));
   const auto is_near = hn::Le(t, hn::Set(tag, bundle.best.t[ray]));
   RayMask hits = crossed & ~unsettled & bits_of(tag, hn::And(in_time, is_near));
-  alignas(64) float times[block_lanes];
+  alignas(64) float times[leaf_lanes];
   hn::Store(t, tag, times);
   for (; hits != 0; hits &= hits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
-    take_nearer(bundle, ray, {times[lane], id[lane], block, static_cast<std::uint32_t>(first + lane)});
+    take_nearer(bundle, ray, {times[lane], id[lane], leaf, static_cast<std::uint32_t>(first + lane)});
   }
   for (; unsettled != 0; unsettled &= unsettled - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(unsettled));
-    hit_apart(bundle, triangles, block, first + lane, id[lane], ray);
+    hit_apart(bundle, triangles, leaf, first + lane, id[lane], ray);
   }
 }
 
 /// Each of those rays and all triangles.
-HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays,
-                               const Shear& shear) {
+HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays, const Shear& shear) {
   const RayMask tested = first_bits(triangles.count) & ~triangles.left_out;
   for (; rays != 0; rays &= rays - 1) {
     const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
-    const auto values = [ray](const Row<float>& row) { return hn::Set(BlockFloats(), row[ray]); };
-    const auto sheared = sheared_rays(BlockFloats(), bundle, triangles, shear, values);
-    for (std::size_t first = 0; first < triangles.count; first += lanes_of<BlockFloats>()) {
-      const RayMask active = tested >> first & first_bits(lanes_of<BlockFloats>());
-      hit_lanes(bundle, sheared, ray, first, active, triangles, block);
+    const auto values = [ray](const Row<float>& row) { return hn::Set(LeafFloats(), row[ray]); };
+    const auto sheared = sheared_rays(LeafFloats(), bundle, triangles, shear, values);
+    for (std::size_t first = 0; first < triangles.count; first += lanes_of<LeafFloats>()) {
+      const RayMask active = tested >> first & first_bits(lanes_of<LeafFloats>());
+      hit_lanes(bundle, sheared, ray, first, active, triangles, leaf);
     }
   }
 }
 
 /// A ray and all triangles cost about what a triangle and all rays do, so the fewer of the two go one by one.
-void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays) {
   while (rays != 0) {
     const Shear shear = shear_of(bundle, static_cast<std::size_t>(std::countr_zero(rays)));
     const RayMask alike = rays & bundle.sheared_along[shear.axis][shear.is_down ? 1 : 0];
     if (count_of(alike) > triangles.count) {
-      hit_together(bundle, triangles, block, alike, shear);
+      hit_together(bundle, triangles, leaf, alike, shear);
     } else {
-      hit_one_by_one(bundle, triangles, block, alike, shear);
+      hit_one_by_one(bundle, triangles, leaf, alike, shear);
     }
     rays &= ~alike;
   }

@@ -43,13 +43,13 @@ struct BundleSteps {
 /// What bundles do with a record: each does for the rays of `rays` what kernel.h's do for one.
 struct BundleIntersectors {
   /// Adds the children that some of the rays meet, with those, to the ones that wait. `in_order`: the nearest last.
-  void (*meet_children)(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order);
+  void (*meet_children)(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order);
   /// The child that waits last and some of its rays may still want: `next` and `next_rays`; none if there is none.
   void (*take_child)(RayBundle& bundle);
   /// How often rays of `rays` would still visit children that wait.
   std::uint64_t (*count_wanted)(const RayBundle& bundle, RayMask rays);
-  /// Merges hits with the triangles of the block at `block` into `best` and `found`. With bundle.any a ray's first hit will do.
-  void (*hit_triangles)(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays);
+  /// Merges hits with the triangles of the leaf at `leaf` into `best` and `found`. With bundle.any a ray's first hit will do.
+  void (*hit_triangles)(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays);
 };
 
 /// The steps and tests for instruction set number `rank` that this processor has, the fastest first; nullptr if it has no more.

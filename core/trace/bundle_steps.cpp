@@ -1,5 +1,5 @@
-// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/walk does for one ray, number by
-// number.
+// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/cell_traversal does for one ray, number
+// by number.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -88,7 +88,7 @@ HWY_INLINE void clear_hits(RayBundle& bundle) {
   if (bundle.arrived == 0) {
     bundle.best.t.fill(std::numeric_limits<float>::infinity());
     bundle.best.primitive.fill(no_primitive);
-    bundle.best.block.fill(static_cast<std::uint32_t>(no_address));
+    bundle.best.leaf.fill(static_cast<std::uint32_t>(no_address));
     bundle.best.lane.fill(0);
     return;
   }
@@ -96,7 +96,7 @@ HWY_INLINE void clear_hits(RayBundle& bundle) {
     if ((bundle.arrived >> ray & 1U) == 0) {
       bundle.best.set(ray, {});
     }
-    bundle.found |= (Address{bundle.best.block[ray]} != no_address ? RayMask{1} : RayMask{0}) << ray;
+    bundle.found |= (Address{bundle.best.leaf[ray]} != no_address ? RayMask{1} : RayMask{0}) << ray;
   }
 }
 
@@ -164,8 +164,8 @@ HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size
   }
 }
 
-/// Which rows of a brick's bounds all rays come to first, if all go the same way along each axis. -0 and what counts as 0 go as
-/// their sign says, as a reciprocal does.
+/// Which rows of a BVH node's bounds all rays come to first, if all go the same way along each axis. -0 and what counts as 0 go
+/// as their sign says, as a reciprocal does.
 HWY_INLINE void find_octant(RayBundle& bundle) {
   const Floats tag;
   const RayMask all = bundle.all();
@@ -194,7 +194,7 @@ HWY_INLINE hn::Vec<Doubles> plane(const RayBundle& bundle, std::size_t axis, std
 /// Walk::crossed().
 bool crossed(const RayBundle& bundle, std::size_t ray, std::size_t axis, std::int32_t index, double t, std::size_t entry_axis) {
   const double at = static_cast<double>(index) * bundle.slope[axis][ray] + bundle.offset[axis][ray];
-  return at < t || (at == t && (axis < entry_axis || entry_axis == walk_starts));
+  return at < t || (at == t && (axis < entry_axis || entry_axis == traversal_starts));
 }
 
 /// Finest cells along an axis that a search is kept to.
@@ -221,19 +221,19 @@ HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std
   return hn::Mul(along, hn::Set(tag, bundle.finest_cells));
 }
 
-/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
-HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
-                           const Cells& among, std::size_t entry_axis) {
+/// Walk::locate_macro() along an axis, of those of the rays from `first` on that are wanted.
+HWY_INLINE void locate_macro(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
+                             const Cells& among, std::size_t entry_axis) {
   const Doubles tag;
   const HalfIntegers integers;
   const auto guess = hn::Min(hn::Max(place(bundle, axis, first, t), hn::Set(tag, static_cast<double>(among.low))),
                              hn::Set(tag, static_cast<double>(among.high - 1)));
   const auto cell = hn::DemoteTo(integers, guess);
-  const auto inside = hn::And(cell, hn::Set(integers, finest_per_top - 1));
+  const auto inside = hn::And(cell, hn::Set(integers, finest_per_macro - 1));
   const RayMask certain =
-      bits_of(integers, hn::And(hn::Gt(inside, hn::Zero(integers)), hn::Lt(inside, hn::Set(integers, finest_per_top - 1)))) &
+      bits_of(integers, hn::And(hn::Gt(inside, hn::Zero(integers)), hn::Lt(inside, hn::Set(integers, finest_per_macro - 1)))) &
       bits_of(tag, hn::Lt(t, hn::Set(tag, near_t_max)));
-  hn::BlendedStore(hn::And(cell, hn::Set(integers, -finest_per_top)), mask_of(integers, wanted), integers,
+  hn::BlendedStore(hn::And(cell, hn::Set(integers, -finest_per_macro)), mask_of(integers, wanted), integers,
                    bundle.cells[axis].data() + first);
   RayMask rest = wanted & ~certain;
   if (rest == 0) {
@@ -245,7 +245,7 @@ HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t firs
   hn::Store(cell, integers, guessed.data());
   for (; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-    bundle.cells[axis][first + i] = locate(bundle, first + i, axis, at[i], guessed[i], among, entry_axis) & -finest_per_top;
+    bundle.cells[axis][first + i] = locate(bundle, first + i, axis, at[i], guessed[i], among, entry_axis) & -finest_per_macro;
   }
 }
 
@@ -274,7 +274,7 @@ HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted,
     const RayMask forward = bundle.forward[axis] >> first, backward = bundle.backward[axis] >> first;
     for (RayMask off = here & ((forward & (~low | high)) | (backward & (low | ~high))); off != 0; off &= off - 1) {
       const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(off));
-      const std::size_t entry_axis = (ties >> ray & 1U) != 0 ? walk_starts : 0;
+      const std::size_t entry_axis = (ties >> ray & 1U) != 0 ? traversal_starts : 0;
       std::int32_t& found = bundle.arrival[axis][ray];
       found = locate(bundle, ray, axis, bundle.t_enter[ray], found, {0, size}, entry_axis);
     }
@@ -288,11 +288,11 @@ HWY_INLINE void set_entry(RayBundle& bundle, RayMask rays, std::size_t axis) {
   }
 }
 
-/// Those of `rays` whose top cell lies in the region, all of it.
+/// Those of `rays` whose macro cell lies in the region, all of it.
 HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
   const Integers tag;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto low = hn::Set(tag, bundle.region.low[axis]), high = hn::Set(tag, bundle.region.high[axis] - finest_per_top);
+    const auto low = hn::Set(tag, bundle.region.low[axis]), high = hn::Set(tag, bundle.region.high[axis] - finest_per_macro);
     RayMask outside = 0;
     for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
       const auto cells = hn::Load(tag, bundle.cells[axis].data() + first);
@@ -314,7 +314,7 @@ HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::
   return bits_of(tag, hn::And(is_inside, hn::Lt(t, hn::Set(tag, near_t_max))));
 }
 
-/// Those of `rays` that are certain to be in the region, though their top cells are not.
+/// Those of `rays` that are certain to be in the region, though their macro cells are not.
 RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   for (std::size_t axis = 0; axis < 3 && rays != 0; ++axis) {
     const Cells among{bundle.region.low[axis], bundle.region.high[axis]};
@@ -399,7 +399,7 @@ HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
   inside &= ~(bundle.arrived >> first);
   hn::BlendedStore(t_enter, mask_of(tag, ~(bundle.arrived >> first)), tag, bundle.t_enter.data() + first);
   for (std::size_t axis = 0; axis < 3 && inside != 0; ++axis) {
-    locate_top(bundle, axis, first, inside, t_enter, {0, bundle.grid_size[axis]}, walk_starts);
+    locate_macro(bundle, axis, first, inside, t_enter, {0, bundle.grid_size[axis]}, traversal_starts);
   }
   return inside;
 }
@@ -425,7 +425,7 @@ void enter(RayBundle& bundle, const GridFrame& frame, const Region& region) {
   }
   bundle.alive &= bundle.all();
   if (!bundle.is_whole) {
-    bundle.alive = stay(bundle, bundle.alive, walk_starts, 0);
+    bundle.alive = stay(bundle, bundle.alive, traversal_starts, 0);
   }
   bundle.alive |= bundle.arrived;
 }
@@ -553,13 +553,13 @@ HWY_INLINE void cross(RayBundle& bundle, RayMask rays, std::size_t axis, std::in
     hn::BlendedStore(exit, mask_of(tag, crossing), tag, bundle.t_enter.data() + first);
     for (std::size_t other = 0; around != nullptr && other < 3; ++other) {
       if (other != axis) {
-        locate_top(bundle, other, first, crossing, exit, {around->low[other], around->high[other]}, axis);
+        locate_macro(bundle, other, first, crossing, exit, {around->low[other], around->high[other]}, axis);
       }
     }
   }
 }
 
-/// Top cells between where rays were and are, beside one each.
+/// Macro cells between where rays were and are, beside one each.
 std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
   std::uint64_t passed = 0;
   for (; rays != 0; rays &= rays - 1) {
@@ -568,7 +568,7 @@ std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       between += std::abs(bundle.cells[axis][ray] - bundle.cell[axis]);
     }
-    passed += static_cast<std::uint64_t>(std::max(between / finest_per_top, 1) - 1);
+    passed += static_cast<std::uint64_t>(std::max(between / finest_per_macro, 1) - 1);
   }
   return passed;
 }
@@ -583,10 +583,10 @@ std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead
     const RayMask up = above < bundle.grid_size[axis] ? through & bundle.forward[axis] : 0U;
     const RayMask down = below >= 0 ? through & ~bundle.forward[axis] : 0U;
     if (up != 0) {
-      cross(bundle, up, axis, above & -finest_per_top, around);
+      cross(bundle, up, axis, above & -finest_per_macro, around);
     }
     if (down != 0) {
-      cross(bundle, down, axis, below & -finest_per_top, around);
+      cross(bundle, down, axis, below & -finest_per_macro, around);
     }
     entered |= up | down;
     kept |= bundle.is_whole ? up | down : stay(bundle, up, axis, above) | stay(bundle, down, axis, below);

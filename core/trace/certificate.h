@@ -20,10 +20,10 @@ namespace dmpc::core {
 ///     O + t D = v0 + u (v1 - v0) + v (v2 - v0),
 /// whether or not that lies on the triangle; 1 - u - v, u and v are the weights of v0, v1 and v2. There is none where the ray is
 /// parallel to the plane, and no certificate is of a triangle that is hit in a tilted plane that it shares
-/// (core/database/coplanar.h). A sphere's centre and radius are what floats and rests add up to (core/record/curved_values.h),
-/// and t is the least positive root of |O + t D - centre| = radius, or the greater root if only the inside is visible. A cone's t
-/// is the least positive one where O + t D is as far from the axis as the radius is there, between base and apex, and where the
-/// ray gets out if only the inside is visible.
+/// (core/database/faces/coplanar.h). A sphere's centre and radius are what floats and rests add up to
+/// (core/record/curved_values.h), and t is the least positive root of |O + t D - centre| = radius, or the greater root if only
+/// the inside is visible. A cone's t is the least positive one where O + t D is as far from the axis as the radius is there,
+/// between base and apex, and where the ray gets out if only the inside is visible.
 struct Certificate {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -43,7 +43,7 @@ struct Certificate {
   bool is_inside() const { return t.low > 0.0 && u.low >= 0.0 && v.low >= 0.0 && (Interval(1.0) - u - v).low >= 0.0; }
 };
 
-/// The certificate of `ray`, whatever of its hits, with lane `lane` of a block's values as core/trace/primitive.h takes them.
+/// The certificate of `ray`, whatever of its hits, with lane `lane` of a leaf's values as core/trace/primitive.h takes them.
 /// It follows from the ray and the values alone, but that doubles say near which root of a curve to look. Its bounds are derived
 /// in certificate.cpp. Costs some microseconds.
 Certificate certify(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t stride, std::size_t lane);

@@ -13,10 +13,10 @@ namespace dmpc::core {
 
 /// The classes of operations, by which machines give prices.
 enum class Charge : std::uint8_t {
-  ray_setup,      ///< a ray made and its walk begun
-  cell_step,      ///< of the walk through the grid
-  brick_read,     ///< a record of the grid read; a ray's way into a kept mesh counts as bricks_an_entry of them
-  triangle_test,  ///< one primitive of a block against a ray; a triangle of a kept mesh that is placed as tests_a_placing of them
+  ray_setup,      ///< a ray made and its traversal begun
+  cell_step,      ///< of the traversal through the grid
+  bvh_node_read,  ///< a record of the grid read; a ray's way into a base mesh counts as bvh_nodes_an_entry of them
+  triangle_test,  ///< one primitive of a leaf against a ray; a triangle of a base mesh that is placed as tests_a_placing of them
   sphere_test,
   cone_test,
   shading,        ///< of a hit: geometry, normals, material, lights
@@ -25,11 +25,11 @@ enum class Charge : std::uint8_t {
   page_install,   ///< a page that has come put into a frame
   ray_packing,    ///< a ray put into a packet or taken out of one
   tile_read,      ///< a tile of a texture found and read
-  question_setup  ///< a walk broken off for a question about a ray, or taken up where it is answered
+  question_setup  ///< a traversal broken off for a question about a ray, or taken up where it is answered
 };
 inline constexpr std::array<std::string_view, 13> charge_names = {
-    "ray_setup",   "cell_step",     "brick_read",   "triangle_test", "sphere_test", "cone_test",     "shading",
-    "home_lookup", "cached_lookup", "page_install", "ray_packing",   "tile_read",   "question_setup"};
+    "ray_setup",   "cell_step",     "bvh_node_read", "triangle_test", "sphere_test", "cone_test",     "shading",
+    "home_lookup", "cached_lookup", "page_install",  "ray_packing",   "tile_read",   "question_setup"};
 
 /// A number for each Charge.
 using ChargeCounts = std::array<std::uint64_t, charge_names.size()>;
@@ -40,7 +40,7 @@ inline ChargeCounts charges_of(const Operations& operations) {
   const auto set = [&counts](Charge charge, std::uint64_t count) { counts[static_cast<std::size_t>(charge)] = count; };
   set(Charge::ray_setup, operations.traced_ray_count());
   set(Charge::cell_step, operations.cell_steps);
-  set(Charge::brick_read, operations.brick_reads + operations.instance_entries * bricks_an_entry);
+  set(Charge::bvh_node_read, operations.bvh_node_reads + operations.instance_entries * bvh_nodes_an_entry);
   set(Charge::triangle_test, operations.primitive_tests[0] + operations.placed_triangles * tests_a_placing);
   set(Charge::sphere_test, operations.primitive_tests[1]);
   set(Charge::cone_test, operations.primitive_tests[2]);

@@ -21,16 +21,16 @@ struct Passage {
 
 /// Met children that have not been visited, the nearest last. Not initialised: that would cost as much as a step.
 struct MetChildren {
-  /// Each brick takes one child's place and leaves up to 8.
-  static constexpr std::size_t count_max = brick_levels_max * (brick_children_max - 1) + 1;
+  /// Each BVH node takes one child's place and leaves up to 8.
+  static constexpr std::size_t count_max = bvh_levels_max * (bvh_children_max - 1) + 1;
 
   std::uint32_t count;
   float t_taken;  ///< where the ray enters the box of the child that was taken last
-  std::array<BrickChild, count_max> record;
+  std::array<BvhChild, count_max> record;
   std::array<float, count_max> t_enter;
 
   /// Puts a child, whose box the ray enters at t, among those from place `first` on, which are in order and stay so.
-  void add(BrickChild child, float t, std::uint32_t first) {
+  void add(BvhChild child, float t, std::uint32_t first) {
     std::uint32_t place = count++;
     for (; place > first && t_enter[place - 1] < t; --place) {
       record[place] = record[place - 1];
@@ -40,19 +40,19 @@ struct MetChildren {
     t_enter[place] = t;
   }
   /// Takes the last; count > 0.
-  BrickChild take() {
+  BvhChild take() {
     t_taken = t_enter[--count];
     return record[count];
   }
   /// Takes the last whose box the ray enters at t_most or before; those behind it are dropped. None if there is none.
-  BrickChild take_up_to(float t_most) {
+  BvhChild take_up_to(float t_most) {
     while (count > 0) {
-      const BrickChild child = take();
+      const BvhChild child = take();
       if (t_taken <= t_most) {
         return child;
       }
     }
-    return BrickChild::none();
+    return BvhChild::none();
   }
 };
 
@@ -63,17 +63,18 @@ struct Exit {
   std::uint8_t axis = 0;
 };
 
-/// The state of a walk between two records. A step reads exactly one record, and whatever the next one needs is here by value, so
-/// a cache of one page makes progress. Reciprocals and plane constants are pure functions of the ray and are recomputed.
+/// The state of a traversal between two records. A step reads exactly one record, and whatever the next one needs is here by
+/// value, so a cache of one page makes progress. Reciprocals and plane constants are pure functions of the ray and are
+/// recomputed.
 struct Cursor {
   Hit best;
-  Address absent = no_address;           ///< the record that trace() needs next, after Traced::absent
-  double t_enter = 0;                    ///< where the ray enters the current cell
-  Exit exit;                             ///< where it leaves the cell or the region; known while children are visited
-  Corner cell{};                         ///< lower corner of the current top cell, in finest cells
-  Corner arrival{};                      ///< with Stage::left: the finest cell that is entered
-  BrickChild next = BrickChild::none();  ///< what the next step reads, with Stage::child
-  std::uint8_t entry_axis = 3;           ///< through which plane the cell was entered; 3: the walk starts here
+  Address absent = no_address;       ///< the record that trace() needs next, after Traced::absent
+  double t_enter = 0;                ///< where the ray enters the current cell
+  Exit exit;                         ///< where it leaves the cell or the region; known while children are visited
+  Corner cell{};                     ///< lower corner of the current macro cell, in finest cells
+  Corner arrival{};                  ///< with Stage::left: the finest cell that is entered
+  BvhChild next = BvhChild::none();  ///< what the next step reads, with Stage::child
+  std::uint8_t entry_axis = 3;       ///< through which plane the cell was entered; 3: the traversal starts here
   /// What the next step reads: the directory entry of `cell`, or `next`.
   enum class Stage : std::uint8_t { start, directory, child, left, finished } stage = Stage::start;
   MetChildren waiting;  ///< known while children are visited

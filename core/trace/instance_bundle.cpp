@@ -59,7 +59,7 @@ void InstanceBundle::enter(const InstanceRecord& record, Address address, const 
   }
   copy(waiting, outside);
   waiting.count = 0;
-  next = BrickChild::brick(record.root);
+  next = BvhChild::bvh_node(record.root);
 }
 
 void InstanceBundle::leave_mesh() {
@@ -75,10 +75,10 @@ void InstanceBundle::swap_rows() {
   std::swap(is_one_octant, in_mesh.is_one_octant);
 }
 
-void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
-  const auto header = read<BlockHeader>(block);
+void InstanceBundle::meet_instances(const std::byte* leaf, bool in_order) {
+  const auto header = read<LeafHeader>(leaf);
   const std::size_t lanes = header.count;
-  const auto* const rows = reinterpret_cast<const float*>(block + sizeof(header));
+  const auto* const rows = reinterpret_cast<const float*>(leaf + sizeof(header));
   static const VectorWidth width = vector_width();
   const std::uint32_t first = waiting.count;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -105,7 +105,7 @@ void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
       met |= enter[ray] <= leave[ray] ? RayMask{1} << ray : 0;
     }
     if (met != 0) {
-      waiting.record[waiting.count] = BrickChild::block(instance_in(block, lane));
+      waiting.record[waiting.count] = BvhChild::leaf(instance_in(leaf, lane));
       waiting.rays[waiting.count] = met;
       waiting.nearest[waiting.count] = enter[static_cast<std::size_t>(std::countr_zero(met))];
       ++waiting.count;
@@ -116,23 +116,23 @@ void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
   }
 }
 
-Brick padded(const Brick& brick, double pad) {
-  if (brick.child_count == 0) {
-    return brick;  // where a node has no record it has one of nothing, whose unit is 0
+BvhNode padded(const BvhNode& bvh_node, double pad) {
+  if (bvh_node.child_count == 0) {
+    return bvh_node;  // where a node has no record it has one of nothing, whose unit is 0
   }
-  const auto steps = static_cast<std::uint64_t>(std::ceil(pad / double{brick.unit}));
+  const auto steps = static_cast<std::uint64_t>(std::ceil(pad / double{bvh_node.unit}));
   const int doublings = std::max(0, static_cast<int>(std::bit_width(2 * steps + 255)) - 8);
   const std::uint64_t rounding = (std::uint64_t{1} << doublings) - 1;
   // Once more if what is rounded up needs another bit.
   const int shift = ((2 * steps + 255 + rounding) >> doublings) > 255 ? doublings + 1 : doublings;
   const std::uint64_t up = (std::uint64_t{1} << shift) - 1;
-  Brick larger = brick;
-  larger.unit = std::ldexp(brick.unit, shift);
+  BvhNode larger = bvh_node;
+  larger.unit = std::ldexp(bvh_node.unit, shift);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    larger.origin[axis] = rounded_down(double{brick.origin[axis]} - static_cast<double>(steps) * double{brick.unit});
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      larger.bounds[axis][child] = static_cast<std::uint8_t>(std::uint64_t{brick.bounds[axis][child]} >> shift);
-      larger.bounds[axis + 3][child] = static_cast<std::uint8_t>((brick.bounds[axis + 3][child] + 2 * steps + up) >> shift);
+    larger.origin[axis] = rounded_down(double{bvh_node.origin[axis]} - static_cast<double>(steps) * double{bvh_node.unit});
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      larger.bounds[axis][child] = static_cast<std::uint8_t>(std::uint64_t{bvh_node.bounds[axis][child]} >> shift);
+      larger.bounds[axis + 3][child] = static_cast<std::uint8_t>((bvh_node.bounds[axis + 3][child] + 2 * steps + up) >> shift);
     }
   }
   return larger;

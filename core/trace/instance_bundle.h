@@ -28,18 +28,18 @@ struct InstanceBundle : RayBundle {
   BoxRows in_mesh;  ///< of the rays that are inside
   BundleChildren outside;  ///< what waits outside meanwhile
 
-  /// Those of `next_rays` go into a mesh: `next` is its first brick.
+  /// Those of `next_rays` go into a mesh: `next` is its first BVH node.
   void enter(const InstanceRecord& record, Address address, const GridFrame& frame);
   /// What waits outside is what waits.
   void leave_mesh();
   /// Puts the rows of the mesh in the place of the grid's, or back.
   void swap_rows();
-  /// Those instances of a block come to wait whose boxes some of `next_rays` meet.
-  void meet_instances(const std::byte* block, bool in_order);
+  /// Those instances of a leaf come to wait whose boxes some of `next_rays` meet.
+  void meet_instances(const std::byte* leaf, bool in_order);
 };
 static_assert(std::is_trivially_copyable_v<InstanceBundle>);
 
-/// The brick with boxes as much larger on all sides as `pad`, or more.
-Brick padded(const Brick& brick, double pad);
+/// The BVH node with boxes as much larger on all sides as `pad`, or more.
+BvhNode padded(const BvhNode& bvh_node, double pad);
 
 }  // namespace dmpc::core

@@ -23,19 +23,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
 
-BrickChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
-  return meet_children_scalar(ray, brick, t_low, t_high, in_order, waiting);
+BvhChild children(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+  return meet_children_scalar(ray, bvh_node, t_low, t_high, in_order, waiting);
 }
 
-std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
-  return hit_triangles_scalar(ray, block, ignored, t_most, times);
+std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& leaf, std::uint32_t ignored, float t_most, float* times) {
+  return hit_triangles_scalar(ray, leaf, ignored, t_most, times);
 }
 
 #else
 
-using Tag = hn::CappedTag<float, block_lanes>;
+using Tag = hn::CappedTag<float, leaf_lanes>;
 using Vector = hn::Vec<Tag>;
-static_assert(hn::MaxLanes(Tag()) == block_lanes && block_lanes == brick_children_max);
+static_assert(hn::MaxLanes(Tag()) == leaf_lanes && leaf_lanes == bvh_children_max);
 
 template <class Mask>
 HWY_INLINE std::uint32_t bits_of(const Mask& mask) {
@@ -52,7 +52,8 @@ HWY_INLINE Vector floats(const std::array<std::uint8_t, 8>& row) {
 }
 
 /// One of at least two children met; the others wait.
-HWY_INLINE BrickChild take_one(std::uint32_t met, const Brick& brick, const float* t_enter, bool in_order, MetChildren& waiting) {
+HWY_INLINE BvhChild take_one(std::uint32_t met, const BvhNode& bvh_node, const float* t_enter, bool in_order,
+                             MetChildren& waiting) {
   const auto next = [&] {
     const auto place = static_cast<std::size_t>(std::countr_zero(met));
     met &= met - 1;
@@ -62,12 +63,14 @@ HWY_INLINE BrickChild take_one(std::uint32_t met, const Brick& brick, const floa
   if (met == 0) {
     const bool is_nearer = in_order && t_enter[first] < t_enter[second];
     const std::size_t taken = is_nearer ? first : second, other = is_nearer ? second : first;
-    waiting.add(brick.child[other], t_enter[other], waiting.count);
+    waiting.add(bvh_node.child[other], t_enter[other], waiting.count);
     waiting.t_taken = t_enter[taken];
-    return brick.child[taken];
+    return bvh_node.child[taken];
   }
   const std::uint32_t start = waiting.count;
-  const auto add = [&](std::size_t place) { waiting.add(brick.child[place], t_enter[place], in_order ? start : waiting.count); };
+  const auto add = [&](std::size_t place) {
+    waiting.add(bvh_node.child[place], t_enter[place], in_order ? start : waiting.count);
+  };
   add(first);
   add(second);
   while (met != 0) {
@@ -76,28 +79,28 @@ HWY_INLINE BrickChild take_one(std::uint32_t met, const Brick& brick, const floa
   return waiting.take();
 }
 
-BrickChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+BvhChild children(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order, MetChildren& waiting) {
   const Tag tag;
   Vector enter = hn::Set(tag, t_low), leave = hn::Set(tag, t_high);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto reciprocal = hn::Set(tag, ray.reciprocal[axis]);
-    const auto slope = hn::Mul(hn::Set(tag, brick.unit), reciprocal);
-    const auto offset = hn::Mul(hn::Sub(hn::Set(tag, brick.origin[axis]), hn::Set(tag, ray.origin[axis])), reciprocal);
-    enter = hn::Max(enter, hn::MulAdd(floats(brick.bounds[ray.near_row[axis]]), slope, offset));
-    leave = hn::Min(leave, hn::MulAdd(floats(brick.bounds[ray.far_row[axis]]), slope, offset));
+    const auto slope = hn::Mul(hn::Set(tag, bvh_node.unit), reciprocal);
+    const auto offset = hn::Mul(hn::Sub(hn::Set(tag, bvh_node.origin[axis]), hn::Set(tag, ray.origin[axis])), reciprocal);
+    enter = hn::Max(enter, hn::MulAdd(floats(bvh_node.bounds[ray.near_row[axis]]), slope, offset));
+    leave = hn::Min(leave, hn::MulAdd(floats(bvh_node.bounds[ray.far_row[axis]]), slope, offset));
   }
-  const std::uint32_t met = bits_of(hn::Le(enter, leave)) & ((1U << brick.child_count) - 1U);
+  const std::uint32_t met = bits_of(hn::Le(enter, leave)) & ((1U << bvh_node.child_count) - 1U);
   if (met == 0) {
-    return BrickChild::none();
+    return BvhChild::none();
   }
-  float t_enter[brick_children_max];
+  float t_enter[bvh_children_max];
   hn::StoreU(enter, tag, t_enter);
   if ((met & (met - 1)) == 0) {
     const auto only = static_cast<std::size_t>(std::countr_zero(met));
     waiting.t_taken = t_enter[only];
-    return brick.child[only];
+    return bvh_node.child[only];
   }
-  return take_one(met, brick, t_enter, in_order, waiting);
+  return take_one(met, bvh_node, t_enter, in_order, waiting);
 }
 
 struct Vertices {
@@ -139,11 +142,11 @@ HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, cons
   return HWY_LIKELY(hn::AllFalse(tag, asked)) ? asked : within_rounding(ray, a, b, c, hn::Min(hn::Neg(least), greatest), asked);
 }
 
-std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
+std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& leaf, std::uint32_t ignored, float t_most, float* times) {
   const Tag tag;
   const hn::Rebind<std::uint32_t, Tag> id_tag;
-  const std::size_t count = block.count;
-  const float* rows = block.rows;
+  const std::size_t count = leaf.count;
+  const float* rows = leaf.rows;
   const Vertices a = shear(ray, rows, count), b = shear(ray, rows + 3 * count, count), c = shear(ray, rows + 6 * count, count);
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a);
   const Vector zero = hn::Zero(tag);
@@ -160,7 +163,7 @@ std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::u
       hn::MulAdd(hn::Div(u, determinant), a.z, hn::MulAdd(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
   const Vector t = hn::Mul(weighted, hn::Set(tag, ray.scale_z));
   hn::StoreU(t, tag, times);
-  const auto ids = hn::LoadU(id_tag, reinterpret_cast<const std::uint32_t*>(block.ids()));
+  const auto ids = hn::LoadU(id_tag, reinterpret_cast<const std::uint32_t*>(leaf.ids()));
   const auto others = hn::AndNot(hn::RebindMask(tag, hn::Eq(ids, hn::Set(id_tag, ignored))), real);
   const auto crossed = hn::AndNot(hn::Or(outside, hn::Eq(determinant, zero)), others);
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Le(t, hn::Set(tag, t_most)));
@@ -196,26 +199,28 @@ BoxRay::BoxRay(const Ray& ray, const Vec3d& reciprocal_direction) : origin(ray.o
   }
 }
 
-BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
-                                MetChildren& waiting) {
+BvhChild meet_children_scalar(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order,
+                              MetChildren& waiting) {
   const std::uint32_t first = waiting.count;
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
     float enter = t_low, leave = t_high;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float reciprocal = ray.reciprocal[axis];
-      const float slope = brick.unit * reciprocal, offset = (brick.origin[axis] - ray.origin[axis]) * reciprocal;
-      const auto plane = [&](std::size_t row) { return std::fma(static_cast<float>(brick.bounds[row][child]), slope, offset); };
+      const float slope = bvh_node.unit * reciprocal, offset = (bvh_node.origin[axis] - ray.origin[axis]) * reciprocal;
+      const auto plane = [&](std::size_t row) {
+        return std::fma(static_cast<float>(bvh_node.bounds[row][child]), slope, offset);
+      };
       enter = std::max(enter, plane(ray.near_row[axis]));
       leave = std::min(leave, plane(ray.far_row[axis]));
     }
     if (enter <= leave) {
-      waiting.add(brick.child[child], enter, in_order ? first : waiting.count);
+      waiting.add(bvh_node.child[child], enter, in_order ? first : waiting.count);
     }
   }
-  return waiting.count > first ? waiting.take() : BrickChild::none();
+  return waiting.count > first ? waiting.take() : BvhChild::none();
 }
 
-const BrickKernel meet_children = DMPC_COMPILED_FOR(0, children);
+const BvhNodeKernel meet_children = DMPC_COMPILED_FOR(0, children);
 
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times) {
@@ -252,7 +257,7 @@ std::uint32_t hit_each(std::size_t count, float t_most, float* times, const Inte
 
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most,
                                float* times) {
-  const auto header = read<BlockHeader>(record);
+  const auto header = read<LeafHeader>(record);
   const TriangleRows triangles{reinterpret_cast<const float*>(record + sizeof(header)), header.count};
   std::uint32_t hits = 0;
   for (std::uint32_t rest = header.shared_lanes; rest != 0; rest &= rest - 1) {

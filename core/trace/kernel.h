@@ -22,22 +22,22 @@ struct BoxRay {
   BoxRay(const Ray& ray, const Vec3d& reciprocal_direction);
 
   Vec3f origin, reciprocal;
-  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a brick's bounds the ray comes to first and last
+  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a BVH node's bounds the ray comes to first and last
 };
 
-/// Which of a brick's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the others
-/// to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. A ray enters a box at
-/// t_low or later; waiting.t_taken is where it enters that of the child returned. Planes are off by less than 2^-22 of their
-/// distance from the origin, which the insertion pad around the boxes makes good.
-using BrickKernel = BrickChild (*)(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+/// Which of a BVH node's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the
+/// others to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. A ray enters a
+/// box at t_low or later; waiting.t_taken is where it enters that of the child returned. Planes are off by less than 2^-22 of
+/// their distance from the origin, which the insertion pad around the boxes makes good.
+using BvhNodeKernel = BvhChild (*)(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order,
                                    MetChildren& waiting);
 /// The fastest kernel for this processor.
-extern const BrickKernel meet_children;
+extern const BvhNodeKernel meet_children;
 /// The plain loop: the twin that every SIMD kernel must equal.
-BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
-                                MetChildren& waiting);
+BvhChild meet_children_scalar(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order,
+                              MetChildren& waiting);
 
-/// The triangles of a block: nine rows of `count` floats, then a row of ids, readable for overread_bytes behind.
+/// The triangles of a leaf: nine rows of `count` floats, then a row of ids, readable for overread_bytes behind.
 struct TriangleRows {
   const float* rows;
   std::size_t count;
@@ -56,23 +56,23 @@ extern const TriangleKernel hit_triangles;
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times);
 
-/// Tests those triangles of a block that share their planes, in scalar code: sets their bits and times alone.
+/// Tests those triangles of a leaf that share their planes, in scalar code: sets their bits and times alone.
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times);
 
-/// Tests the spheres or cones of a block, in scalar code.
+/// Tests the spheres or cones of a leaf, in scalar code.
 std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
 
 /// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".
 const char* simd_name();
 
-/// Merges the hits of `ray` with the block at `record` (whose address is `block`) into `best`: the least (t, primitive) with t in
+/// Merges the hits of `ray` with the leaf at `record` (whose address is `leaf`) into `best`: the least (t, primitive) with t in
 /// (0, ray.t_max), the ignored primitive left out. Order and repetition of calls do not change the result.
-inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
-                       Operations& operations) {
-  const auto header = read<BlockHeader>(record);
-  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+inline void test_leaf(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address leaf, Hit& best,
+                      Operations& operations) {
+  const auto header = read<LeafHeader>(record);
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(LeafHeader));
   const std::size_t count = header.count;
-  float times[block_lanes];
+  float times[leaf_lanes];
   operations.primitive_tests[static_cast<std::size_t>(header.kind)] += count;
   const float t_most = std::min(best.t, ray.t_max);
   std::uint32_t hits = header.kind == PrimitiveKind::triangle
@@ -87,7 +87,7 @@ inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byt
     const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
     const float t = times[lane];
     if (t < ray.t_max && replaces(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
-      best = {t, ids[lane], block, static_cast<std::uint32_t>(lane)};
+      best = {t, ids[lane], leaf, static_cast<std::uint32_t>(lane)};
     }
   }
 }

@@ -46,18 +46,18 @@ MeshRay::MeshRay(const Ray& ray, const InstanceRecord& instance, const GridFrame
   }
 }
 
-BrickChild MeshRay::meet(const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) const {
-  std::array<float, brick_children_max> enter, leave;
+BvhChild MeshRay::meet(const BvhNode& bvh_node, float t_low, float t_high, bool in_order, MetChildren& waiting) const {
+  std::array<float, bvh_children_max> enter, leave;
   enter.fill(t_low);
   leave.fill(t_high);
   static const VectorWidth width = vector_width();
   run_by(width, [&] {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float slope = brick.unit * reciprocal[axis];
-      const float near_offset = (brick.origin[axis] - near_origin[axis]) * reciprocal[axis],
-                  far_offset = (brick.origin[axis] - far_origin[axis]) * reciprocal[axis];
-      const auto &near_bounds = brick.bounds[near_row[axis]], &far_bounds = brick.bounds[far_row[axis]];
-      for (std::size_t child = 0; child < brick_children_max; ++child) {
+      const float slope = bvh_node.unit * reciprocal[axis];
+      const float near_offset = (bvh_node.origin[axis] - near_origin[axis]) * reciprocal[axis],
+                  far_offset = (bvh_node.origin[axis] - far_origin[axis]) * reciprocal[axis];
+      const auto &near_bounds = bvh_node.bounds[near_row[axis]], &far_bounds = bvh_node.bounds[far_row[axis]];
+      for (std::size_t child = 0; child < bvh_children_max; ++child) {
         const float from = static_cast<float>(near_bounds[child]) * slope + near_offset,
                     to = static_cast<float>(far_bounds[child]) * slope + far_offset;
         enter[child] = from > enter[child] ? from : enter[child];  // of no number nothing follows
@@ -66,12 +66,12 @@ BrickChild MeshRay::meet(const Brick& brick, float t_low, float t_high, bool in_
     }
   });
   const std::uint32_t first = waiting.count;
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
     if (enter[child] <= leave[child]) {
-      waiting.add(brick.child[child], enter[child], in_order ? first : waiting.count);
+      waiting.add(bvh_node.child[child], enter[child], in_order ? first : waiting.count);
     }
   }
-  return waiting.count > first ? waiting.take() : BrickChild::none();
+  return waiting.count > first ? waiting.take() : BvhChild::none();
 }
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// A ray on its way through a kept mesh: its boxes alone, since triangles come out to the ray.
+// A ray on its way through a base mesh: its boxes alone, since triangles come out to the ray.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace dmpc::core {
 
-/// What a ray is to a kept mesh, in the mesh's records' units. Its direction is not made unit length, so t is the grid's.
+/// What a ray is to a base mesh, in the mesh's records' units. Its direction is not made unit length, so t is the grid's.
 struct MeshWay {
   Vec3d origin;
   Vec3d slope;     ///< one over each component of the direction, never infinite
   double pad = 0;  ///< how far in front of a box, and behind it, the ray may be for it to count: for all that rounds
 };
 
-/// The way into a kept mesh.
+/// The way into a base mesh.
 class MeshGate {
  public:
   MeshGate(const InstanceRecord& instance, const GridFrame& frame);
@@ -38,8 +38,8 @@ struct MeshRay {
   MeshRay() = default;
   MeshRay(const Ray& ray, const InstanceRecord& instance, const GridFrame& frame);
 
-  /// As a BrickKernel: which of a brick's children it meets in [t_low, t_high].
-  BrickChild meet(const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) const;
+  /// As a BvhNodeKernel: which of a BVH node's children it meets in [t_low, t_high].
+  BvhChild meet(const BvhNode& bvh_node, float t_low, float t_high, bool in_order, MetChildren& waiting) const;
 
   Vec3f near_origin, far_origin, reciprocal;
   std::array<std::uint32_t, 3> near_row{}, far_row{};

@@ -14,15 +14,15 @@ namespace dmpc::core {
 /// Counted in one place each, the same under every runner and strategy.
 struct Operations {
   std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
-  /// More steps that rays would take if they left each empty cell by itself; a walk's last jump, out of the grid or beyond the
-  /// light, is not counted.
+  /// More steps that rays would take if they left each empty cell by itself; a traversal's last jump, out of the grid or beyond
+  /// the light, is not counted.
   std::uint64_t empty_cells = 0;
-  std::uint64_t brick_reads = 0;
+  std::uint64_t bvh_node_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
-  std::uint64_t instance_entries = 0;                                 ///< rays that went into a kept mesh, by its place
+  std::uint64_t instance_entries = 0;                                 ///< rays that went into a base mesh, by its place
   std::uint64_t placed_triangles =
-      0;                       ///< of kept meshes, brought to a place: by a walk, once for all rays of a bundle, or to be shaded
-  std::uint64_t shadings = 0;  ///< hits that were shaded
+      0;  ///< of base meshes, brought to a place: by a traversal, once for all rays of a bundle, or to be shaded
+  std::uint64_t shadings = 0;         ///< hits that were shaded
   std::uint64_t normal_reads = 0;     ///< of those, hits on smooth triangles
   std::uint64_t texture_lookups = 0;  ///< of those, hits on textured triangles
   std::uint64_t tile_reads = 0;       ///< of tiles of textures: 1 to 8 for each probe of those

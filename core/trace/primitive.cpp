@@ -244,7 +244,7 @@ double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step
 
 /// For certain: the ray's line passes the sphere.
 bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const Vec3d center = BlockLane{rows, stride, lane}.vector(0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
+  const Vec3d center = LeafLane{rows, stride, lane}.vector(0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
   const Vec3d away = cross(to_origin, d);
   const double radius = std::fabs(double{rows[3 * stride + lane]});
   const double reach = radius + reach_of_rests(radius + largest_component(center) + largest_component(to_origin));
@@ -253,7 +253,7 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
 
 /// For certain: the ray's line passes the cone's axis at more than its largest radius.
 bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const BlockLane cone{rows, stride, lane};
+  const LeafLane cone{rows, stride, lane};
   const float base_radius = rows[3 * stride + lane], apex_radius = rows[7 * stride + lane];
   const Vec3d base = cone.vector(0), axis = is_flat_cone(base_radius, apex_radius) ? cone.vector(4) : cone.vector(4) - base;
   const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);

@@ -34,8 +34,8 @@ inline constexpr float near_start = 0x1p-10F;
 /// Less than near_start by more than t is off, so that neighbours are judged alike.
 inline constexpr float near_edge = 0x1p-12F;
 /// Edge functions in floats are off by less than (edge_rounding * R + rest_weight * rest) * W, where W is the triangle's largest
-/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/lab/oracle/encounter.cpp),
-/// and what the start's rest moves an edge by.
+/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W
+/// (apps/lab/oracle/exact_intersection.cpp), and what the start's rest moves an edge by.
 inline constexpr float edge_rounding = 160 * 0x1p-24F, rest_weight = 8;
 
 /// Faces whose plane is shared are hit within this of the boxes of their corners: farther than rounding moves the plane, by less
@@ -45,7 +45,7 @@ inline constexpr double box_reach = 0x1p-22;
 /// The t of a ray that misses: never in (0, t_max).
 inline constexpr float missed = -1.0F;
 
-/// `rows` points at a block's first value, `stride` is its lane count. Returns the t of the hit of lane `lane`, or `missed`.
+/// `rows` points at a leaf's first value, `stride` is its lane count. Returns the t of the hit of lane `lane`, or `missed`.
 /// Triangles: float, edge functions unfused, decided in double when one is zero (watertight along shared edges and at shared
 /// vertices), barycentric weights divided before t is summed, so that scaling all coordinates by a power of two scales t exactly.
 /// A t nearer to 0 than `near_start` whose sign is not that of double's t (within the triangle's depths) gives way to it: on

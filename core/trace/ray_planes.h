@@ -14,8 +14,8 @@
 
 namespace dmpc::core {
 
-/// In place of the axis of the plane through which a cell was entered: the walk starts there.
-inline constexpr std::uint8_t walk_starts = 3;
+/// In place of the axis of the plane through which a cell was entered: the traversal starts there.
+inline constexpr std::uint8_t traversal_starts = 3;
 /// Up to here a point on a ray, in double, is off by less than 2^-31 of the grid.
 inline constexpr double near_t_max = 0x1p20;
 
@@ -75,7 +75,7 @@ class RayPlanes {
     return (step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis]) * finest_cells_;
   }
 
-  /// The t at which a walk through a grid of `size` finest cells starts; nothing if the ray misses it or is not finite.
+  /// The t at which a traversal through a grid of `size` finest cells starts; nothing if the ray misses it or is not finite.
   std::optional<double> entry(const Corner& size, float t_max) const {
     const double sum = origin_.x + origin_.y + origin_.z + direction_.x + direction_.y + direction_.z;
     if (!(sum * 0.0 == 0.0)) {  // something is not finite: doubles cannot overflow from floats
@@ -95,7 +95,7 @@ class RayPlanes {
     }
     return t_enter < t_exit ? std::optional(t_enter) : std::nullopt;
   }
-  /// Whether the walk that starts at `t_enter` starts in a finest cell from `index` on.
+  /// Whether the traversal that starts at `t_enter` starts in a finest cell from `index` on.
   bool starts_above(std::size_t axis, std::int32_t index, double t_enter) const {
     return step_[axis] == 0 ? origin_[axis] * finest_cells_ >= index : (plane(axis, index) <= t_enter) == (step_[axis] > 0);
   }

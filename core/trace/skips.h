@@ -43,7 +43,7 @@ struct Skip {
 inline constexpr std::array all_skips{
     // Those whose boxes the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
-         "children of bricks that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
+         "children of BVH nodes that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
     Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention shoots it)", "shadow rays", &Skips::unlit,
          &SkippedWork::unlit},
     // What those rays would have spawned is not counted.

@@ -6,14 +6,14 @@
 
 #include "core/record/directory.h"
 #include "core/record/records.h"
+#include "core/trace/cell_traversal.h"
 #include "core/trace/kernel.h"
-#include "core/trace/walk.h"
 
 namespace dmpc::core {
 
 enum class Traced : std::uint8_t { hit, miss, absent, left };
 
-/// The answer of a walk that has ended or has left its region.
+/// The answer of a traversal that has ended or has left its region.
 inline Traced finish(Cursor& cursor) {
   if (cursor.stage == Cursor::Stage::left) {
     return Traced::left;
@@ -25,22 +25,22 @@ inline Traced finish(Cursor& cursor) {
 /// Where the ray goes on, after Traced::left.
 inline Passage passage_of(const Cursor& cursor) { return {cursor.t_enter, cursor.arrival, cursor.entry_axis, cursor.best}; }
 
-/// The cursor of a walk that enters a region.
+/// The cursor of a traversal that enters a region.
 inline Cursor arrive(const Passage& passage) {
   Cursor cursor;
   cursor.best = passage.best;
   cursor.t_enter = passage.t_enter;
   cursor.entry_axis = passage.entry_axis;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cursor.cell[axis] = passage.cell[axis] & -finest_per_top;
+    cursor.cell[axis] = passage.cell[axis] & -finest_per_macro;
   }
   cursor.stage = Cursor::Stage::directory;
   return cursor;
 }
 
-/// Where a ray's walk begins; nothing if it misses the grid.
+/// Where a ray's traversal begins; nothing if it misses the grid.
 inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& frame) {
-  const Walk walk(ray, frame, {.high = grid_size(frame)});
+  const CellTraversal walk(ray, frame, {.high = grid_size(frame)});
   Cursor cursor;
   if (!walk.enter(ray, cursor)) {
     return std::nullopt;
@@ -48,9 +48,9 @@ inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& fra
   return Passage{.t_enter = cursor.t_enter, .cell = walk.first_cell(cursor)};
 }
 
-/// What trace() would answer from `passage` on in the walk's region if that had no records, without reading any. After
+/// What trace() would answer from `passage` on in the traversal's region if that had no records, without reading any. After
 /// Traced::left `passage` is where the ray goes on, else where it was.
-inline Traced pass(const Ray& ray, const Walk& walk, Passage& passage, Operations& operations) {
+inline Traced pass(const Ray& ray, const CellTraversal& walk, Passage& passage, Operations& operations) {
   Cursor cursor = arrive(passage);
   walk.leave_region(ray, passage.cell, cursor, operations);
   const Traced traced = finish(cursor);
@@ -62,7 +62,7 @@ inline Traced pass(const Ray& ray, const Walk& walk, Passage& passage, Operation
 
 /// Passes through a region by itself.
 inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
-  return pass(ray, Walk(ray, frame, region), passage, operations);
+  return pass(ray, CellTraversal(ray, frame, region), passage, operations);
 }
 
 /// Children that wait and do not lie behind the hit.
@@ -73,28 +73,28 @@ inline std::uint64_t count_before(const MetChildren& waiting, const Hit& hit) {
 
 /// One ray's way among one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
 template <Records R>
-class RayWalk {
+class RayTraversal {
  public:
-  RayWalk(const Ray& ray, Cursor& cursor, R& records, Operations& operations)
+  RayTraversal(const Ray& ray, Cursor& cursor, R& records, Operations& operations)
       : ray_(ray), cursor_(cursor), records_(records), operations_(operations) {}
 
-  /// trace() with kernels of one's own: `meet` finds the children of a brick that the ray meets, test(record, address, best) is
-  /// called for blocks.
+  /// trace() with kernels of one's own: `meet` finds the children of a BVH node that the ray meets, test(record, address, best)
+  /// is called for leaves.
   template <class Test>
-  Traced trace(const DatabaseHeader& header, const Skips& skips, BrickKernel meet, const Test& test) {
+  Traced trace(const DatabaseHeader& header, const Skips& skips, BvhNodeKernel meet, const Test& test) {
     return walk_cells(header, skips, [&](const BoxRay& box, bool any) {
       return header.has_voxels() ? visit_list(header, any, test) : visit_children(box, any, meet, test);
     });
   }
 
-  /// trace() with a visit of what a top cell has of one's own: visit(box, any) looks through it from cursor.next on, and is false
-  /// if a record is absent.
+  /// trace() with a visit of what a macro cell has of one's own: visit(box, any) looks through it from cursor.next on, and is
+  /// false if a record is absent.
   template <class Visit>
   Traced walk_cells(const DatabaseHeader& header, const Skips& skips, const Visit& visit) {
     if (cursor_.stage == Cursor::Stage::finished) {
       return finish(cursor_);
     }
-    const Walk walk(ray_, header.frame, header.region);
+    const CellTraversal walk(ray_, header.frame, header.region);
     if (cursor_.stage == Cursor::Stage::start && !walk.enter(ray_, cursor_)) {
       return finish(cursor_);
     }
@@ -123,9 +123,9 @@ class RayWalk {
   /// Visits the children of the cursor's cell that the ray meets, from cursor.next on. False if a record is absent. `any` hit
   /// will do: it ends the visit.
   template <class Test>
-  bool visit_children(const BoxRay& box, bool any, BrickKernel meet, const Test& test) {
+  bool visit_children(const BoxRay& box, bool any, BvhNodeKernel meet, const Test& test) {
     const auto t_low = static_cast<float>(cursor_.t_enter), t_high = std::min(static_cast<float>(cursor_.exit.t), ray_.t_max);
-    for (BrickChild child = cursor_.next; child.found();) {
+    for (BvhChild child = cursor_.next; child.found();) {
       cursor_.next = child;
       const Address address = child.address();
       const std::byte* record = records_.find(address);
@@ -133,17 +133,17 @@ class RayWalk {
         cursor_.absent = address;
         return false;
       }
-      if (child.is_block()) {
+      if (child.is_leaf()) {
         test(record, address, cursor_.best);
         if (any && cursor_.best.found()) {
           operations_.skipped.any_hit += count_before(cursor_.waiting, cursor_.best);
           break;
         }
-        child = BrickChild::none();
+        child = BvhChild::none();
       } else {
-        ++operations_.brick_reads;
-        const auto& brick = *reinterpret_cast<const Brick*>(record);
-        child = meet(box, brick, t_low, std::min(t_high, cursor_.best.t), !any, cursor_.waiting);
+        ++operations_.bvh_node_reads;
+        const auto& bvh_node = *reinterpret_cast<const BvhNode*>(record);
+        child = meet(box, bvh_node, t_low, std::min(t_high, cursor_.best.t), !any, cursor_.waiting);
       }
       if (!child.found()) {
         child = cursor_.waiting.take_up_to(cursor_.best.t);
@@ -152,23 +152,23 @@ class RayWalk {
     return true;
   }
 
-  /// Tests what the list of the cursor's voxel names, from cursor.next on: a block, or, as if it were a brick's address, the
-  /// number of a reference. What comes behind a block is kept where a child would wait. False if a record is absent.
+  /// Tests what the list of the cursor's voxel names, from cursor.next on: a leaf, or, as if it were a BVH node's address, the
+  /// number of a reference. What comes behind a leaf is kept where a child would wait. False if a record is absent.
   template <class Test>
   bool visit_list(const DatabaseHeader& header, bool any, const Test& test) {
-    BrickChild& behind = cursor_.waiting.record[0];
-    for (BrickChild item = cursor_.next; item.found();) {
+    BvhChild& behind = cursor_.waiting.record[0];
+    for (BvhChild item = cursor_.next; item.found();) {
       cursor_.next = item;
-      const Address address = item.is_block() ? item.address() : reference_address(header, item.bits);
+      const Address address = item.is_leaf() ? item.address() : reference_address(header, item.bits);
       const std::byte* const record = records_.find(address);
       if (record == nullptr) {
         cursor_.absent = address;
         return false;
       }
-      if (!item.is_block()) {
+      if (!item.is_leaf()) {
         const auto reference = read<VoxelReference>(record + reference_offset(item.bits));
-        behind = reference.is_last() ? BrickChild::none() : BrickChild{item.bits + 1};
-        item = BrickChild::block(reference.block());
+        behind = reference.is_last() ? BvhChild::none() : BvhChild{item.bits + 1};
+        item = BvhChild::leaf(reference.leaf());
         continue;
       }
       test(record, address, cursor_.best);
@@ -181,10 +181,10 @@ class RayWalk {
     return true;
   }
 
-  /// Where the ray, from where the cursor arrives on, enters the first box of a block of the database, a float no greater than
+  /// Where the ray, from where the cursor arrives on, enters the first box of a leaf of the database, a float no greater than
   /// trace() could tell, or the first voxel with a list; infinite if trace() would test no primitive any more. No record is
   /// absent, and no list is looked into.
-  float first_block(const Walk& walk, const DatabaseHeader& header) {
+  float first_leaf(const CellTraversal& walk, const DatabaseHeader& header) {
     const BoxRay box(ray_, walk.reciprocal());
     for (bool goes_on = true; goes_on;) {
       if (cursor_.stage == Cursor::Stage::directory) {
@@ -205,19 +205,19 @@ class RayWalk {
  private:
   static constexpr float never = std::numeric_limits<float>::infinity();
 
-  /// From cursor.next on. Reads bricks alone.
+  /// From cursor.next on. Reads BVH nodes alone.
   float first_block_in_cell(const BoxRay& box) {
     const auto t_low = static_cast<float>(cursor_.t_enter);
     const float t_high = std::min({static_cast<float>(cursor_.exit.t), ray_.t_max, cursor_.best.t});
     float first = never;
-    for (BrickChild child = cursor_.next; child.found();) {
-      if (child.is_block()) {
+    for (BvhChild child = cursor_.next; child.found();) {
+      if (child.is_leaf()) {
         first = std::min(first, cursor_.waiting.t_taken);
-        child = BrickChild::none();
+        child = BvhChild::none();
       } else {
-        ++operations_.brick_reads;
-        const auto& brick = *reinterpret_cast<const Brick*>(records_.find(child.address()));
-        child = meet_children(box, brick, t_low, std::min(t_high, first), true, cursor_.waiting);
+        ++operations_.bvh_node_reads;
+        const auto& bvh_node = *reinterpret_cast<const BvhNode*>(records_.find(child.address()));
+        child = meet_children(box, bvh_node, t_low, std::min(t_high, first), true, cursor_.waiting);
       }
       if (!child.found()) {
         child = cursor_.waiting.take_up_to(first);
@@ -242,9 +242,9 @@ template <Records R>
 Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
              Operations& operations) {
   const ShearedRay sheared(ray);
-  return RayWalk(ray, cursor, records, operations)
+  return RayTraversal(ray, cursor, records, operations)
       .trace(header, skips, meet_children, [&](const std::byte* record, Address address, Hit& best) {
-        test_block(ray, sheared, record, address, best, operations);
+        test_leaf(ray, sheared, record, address, best, operations);
       });
 }
 

@@ -11,9 +11,9 @@ namespace dmpc::core {
 
 /// What one operation of each kind costs, in picoseconds.
 struct WorkPrices {
-  std::uint64_t ray_ps = 0;  ///< to make a ray and to begin its walk
+  std::uint64_t ray_ps = 0;  ///< to make a ray and to begin its traversal
   std::uint64_t cell_step_ps = 0;
-  std::uint64_t brick_read_ps = 0;
+  std::uint64_t bvh_node_read_ps = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_test_ps{};  ///< of one lane
   std::uint64_t shading_ps = 0;                                         ///< of a hit: geometry, normals, material
   std::uint64_t tile_read_ps = 0;                                       ///< of a texture, with its entry in the table
@@ -27,18 +27,18 @@ struct WorkPrices {
 /// of 512x512 texels, 2.5 tiles each.
 inline constexpr WorkPrices measured_prices{.ray_ps = 55'000,
                                             .cell_step_ps = 7'500,
-                                            .brick_read_ps = 14'700,
+                                            .bvh_node_read_ps = 14'700,
                                             .primitive_test_ps = {3'700, 7'200, 19'800},
                                             .shading_ps = 167'000,
                                             .tile_read_ps = 67'000};
 
-/// What is done for kept meshes is priced by what is done of the same kind for all: a ray's way into a mesh as so many bricks,
+/// What is done for base meshes is priced by what is done of the same kind for all: a ray's way into a mesh as so many BVH nodes,
 /// which are boxes and transforms of a ray, and a triangle that is placed as so many tests, as both are products and sums of its
 /// corners. Measured are 105 and 18 to 20 ns of that core: 9 scenes (teapot, mount, gears and tetra in 12 to 500 places, apart
 /// and deep in each other) at 256x256, every other pixel, single rays; the time of each 32x32 tile (least of 9 runs, by the scale
 /// that the same scenes have with copies) less that of its other operations; least squares of the relative errors over 514 tiles,
 /// of which half are met to 9 % and nine in ten to 20 %.
-inline constexpr std::uint64_t bricks_an_entry = 7, tests_a_placing = 5;
+inline constexpr std::uint64_t bvh_nodes_an_entry = 7, tests_a_placing = 5;
 
 /// The work of so many operations, in picoseconds. Thread safety: pure.
 std::uint64_t work_of(const Operations& operations, const WorkPrices& prices = measured_prices);

@@ -101,10 +101,10 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
   for (std::uint32_t i = 0; entered_ != 0 && i < count_; ++i) {
     if ((entered_ >> i & 1U) != 0) {
       const auto& [passage, finder] = flights_->entry[i];
-      const auto& [t, primitive, block, lane] = passage.best;
+      const auto& [t, primitive, leaf, lane] = passage.best;
       bundle.arrive(
           i,
-          {passage.t_enter, passage.cell, passage.entry_axis, {t, primitive, finder == self_ ? block : core::no_address, lane}});
+          {passage.t_enter, passage.cell, passage.entry_axis, {t, primitive, finder == self_ ? leaf : core::no_address, lane}});
     }
   }
   const bool is_here =
@@ -130,7 +130,7 @@ core::Traced BundleTask::traced() const {
 }
 
 void BundleTask::shade_hit() {
-  core::expect(found_here(), "a hit is shaded where its block is");
+  core::expect(found_here(), "a hit is shaded where its leaf is");
   push(ray(), bundle_->hit(ended_));
 }
 

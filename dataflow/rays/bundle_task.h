@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/picture/bundle_hit.h"
+#include "core/picture/hits/bundle_hit.h"
 #include "core/trace/bundle.h"
 #include "core/trace/instance_bundle.h"
 #include "dataflow/packets.h"
@@ -61,7 +61,7 @@ class BundleTask {
   // These speak of the first of those that have ended:
   core::Traced traced() const;
   const core::Ray& ray() const { return bundle_->rays[ended_]; }
-  bool found_here() const { return bundle_->hit(ended_).block != core::no_address; }
+  bool found_here() const { return bundle_->hit(ended_).leaf != core::no_address; }
   void shade_hit();
   std::uint32_t stop() const { return flights_->stop[ended_]; }
   RayMessage leaving() const;
@@ -76,7 +76,7 @@ class BundleTask {
                      const Shine& shine);
 
  private:
-  /// How a ray came into the region, if it did not start in it, and where its candidate's block is if that is not here.
+  /// How a ray came into the region, if it did not start in it, and where its candidate's leaf is if that is not here.
   struct Entry {
     core::Passage passage;
     nodes::NodeId finder{};

@@ -28,8 +28,8 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       tested_objects_(capacity.tested_objects),
       open_packets_max_(capacity.open_packets_max()),
       asks_max_(capacity.asks_max()),
-      shares_places_(capacity.shares_places),
-      are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0) {
+      shares_slots_(capacity.shares_slots),
+      are_nodes_joined_(capacity.shares_slots || capacity.ray_credits > 0) {
   static_assert(nodes::begins_as_zeros<Owner>);
   std::tie(room_, slots_, owners_) = layout(capacity).in(node.memory());
   for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
@@ -55,7 +55,7 @@ std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   if (receiver == host_) {
     return 0;
   }
-  if (shares_places_) {
+  if (shares_slots_) {
     core::expect(owner_at(receiver).has_asked == 1 && count == 1, "a place is granted to who asks for it");
     owner_at(receiver).has_asked = 0;
     --asked_;
@@ -100,7 +100,7 @@ void Gather::ask_others(NodeId answering) {
 
 /// After whatever changes what is here for `owner`, or its credit. Says whether a credit went back.
 bool Gather::ask_or_decline(NodeId owner) {
-  if (!shares_places_) {
+  if (!shares_slots_) {
     return false;
   }
   if (wants_to_ask(owner)) {

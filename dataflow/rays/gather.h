@@ -43,7 +43,7 @@ class Gather {
     std::uint32_t node_count = 1;
     std::uint32_t ray_batch = 1;       ///< rays in a full packet
     std::uint32_t ray_credits = 1;     ///< for each other node
-    bool shares_places = false;        ///< owners are asked for credits; without that and without credits all go by the host
+    bool shares_slots = false;         ///< owners are asked for credits; without that and without credits all go by the host
     std::uint32_t open_packets = 0;    ///< that are being filled at one time; 0: one for each node
     std::uint32_t host_credits = 1;    ///< for the host, node `node_count`; at least 1
     std::uint32_t queue_packets = 0;   ///< full packets that may wait for their owners' credits
@@ -114,7 +114,7 @@ class Gather {
   std::uint32_t size() const { return size_; }
   const Counters& counters() const { return counters_; }
   /// Packets tell from now on that so many rays are left.
-  void tell(std::uint32_t rays_left) { rays_left_ = rays_left; }
+  void report(std::uint32_t rays_left) { rays_left_ = rays_left; }
   /// By owner, of whom there has been a ray here; of rays gathered, the packets of those sent.
   std::vector<SentToOwner> pairs() const;
 
@@ -167,7 +167,7 @@ class Gather {
   std::uint32_t tested_objects_;
   std::uint32_t open_packets_max_;
   std::uint32_t asks_max_;
-  bool shares_places_;
+  bool shares_slots_;
   bool are_nodes_joined_;  ///< there are credits between nodes
   std::span<std::byte> room_;
   std::span<Slot> slots_;

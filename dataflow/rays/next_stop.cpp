@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/trace/bundle_kernel.h"
-#include "core/trace/bundle_walk.h"
+#include "core/trace/bundle_traversal.h"
 
 namespace dmpc::dataflow {
 
@@ -13,36 +13,36 @@ namespace {
 
 constexpr float never = std::numeric_limits<float>::infinity();
 
-/// The same in an outline whose cells are cubes of several voxels. Each of their planes is one of the voxels', crossed at the
+/// The same in a proxy whose cells are cubes of several voxels. Each of their planes is one of the voxels', crossed at the
 /// same t, since doubling is exact; beyond the voxels they may go on for a while.
 float first_in_cubes(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                      core::Operations& operations) {
   core::LocalRecords records = surroundings.records;
-  core::DatabaseHeader cubes = surroundings.outline;
+  core::DatabaseHeader cubes = surroundings.proxy;
   cubes.frame.finest_cell = std::ldexp(cubes.frame.finest_cell, cubes.directory_doublings);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cubes.frame.resolution[axis] = cubes.directory_size[axis] * core::cells_per_top;
+    cubes.frame.resolution[axis] = cubes.directory_size[axis] * core::cells_per_macro;
   }
   cubes.region = {.high = core::grid_size(cubes.frame)};
   core::Passage entered = passage;
   entered.cell = core::doubled(passage.cell, cubes.directory_doublings);
   core::Cursor cursor = core::arrive(entered);
-  const core::Walk walk(ray, cubes.frame, cubes.region);
-  return core::RayWalk(ray, cursor, records, operations).first_block(walk, cubes);
+  const core::CellTraversal walk(ray, cubes.frame, cubes.region);
+  return core::RayTraversal(ray, cursor, records, operations).first_leaf(walk, cubes);
 }
 
 /// Where the ray may first meet anything; in no region before that.
-float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Passage& passage, const Surroundings& surroundings,
-                    core::Operations& operations) {
-  if (!surroundings.has_outline()) {
+float first_meeting(const core::Ray& ray, const core::CellTraversal& walk, const core::Passage& passage,
+                    const Surroundings& surroundings, core::Operations& operations) {
+  if (!surroundings.has_proxy()) {
     return static_cast<float>(passage.t_enter);
   }
   core::LocalRecords records = surroundings.records;
-  if (surroundings.outline.directory_doublings > 0) {
+  if (surroundings.proxy.directory_doublings > 0) {
     return first_in_cubes(ray, passage, surroundings, operations);
   }
   core::Cursor cursor = core::arrive(passage);
-  return core::RayWalk(ray, cursor, records, operations).first_block(walk, surroundings.outline);
+  return core::RayTraversal(ray, cursor, records, operations).first_leaf(walk, surroundings.proxy);
 }
 
 }  // namespace
@@ -52,10 +52,10 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
   const Regions& regions = surroundings.regions;
   FoundRegion found = regions.find(passage.cell);
   NextStop stop{.passage = passage, .region = found.index};
-  if (regions.owner_at(stop.region) == here || (!surroundings.has_outline() && !regions.is_empty(stop.region))) {
+  if (regions.owner_at(stop.region) == here || (!surroundings.has_proxy() && !regions.is_empty(stop.region))) {
     return stop;
   }
-  core::Walk walk(ray, surroundings.outline.frame, surroundings.outline.region);
+  core::CellTraversal walk(ray, surroundings.proxy.frame, surroundings.proxy.region);
   const float first = first_meeting(ray, walk, passage, surroundings, operations);
   if (first == never) {
     stop.traced = passage.best.found() ? core::Traced::hit : core::Traced::miss;
@@ -106,7 +106,7 @@ class Ways {
 
   void find() {
     RayMask on = enter_regions(bundle_.left);
-    if (!surroundings_.has_outline()) {
+    if (!surroundings_.has_proxy()) {
       on &= empty_;
     }
     if (on == 0) {
@@ -141,7 +141,7 @@ class Ways {
 
   /// Where rays may first meet anything: those of `rays` that may. The ways of the others end.
   RayMask find_first_meetings(RayMask rays) {
-    if (!surroundings_.has_outline()) {
+    if (!surroundings_.has_proxy()) {
       for_each(rays, [&](std::size_t ray) { first_[ray] = static_cast<float>(bundle_.t_enter[ray]); });
       return rays;
     }
@@ -149,8 +149,8 @@ class Ways {
     const Row<float> best_t = bundle_.best.t;
     core::LocalRecords records = surroundings_.records;
     const RayMask met =
-        core::BundleWalk<core::LocalRecords>(bundle_, records, surroundings_.outline, surroundings_.skips, operations_)
-            .find_first_blocks(rays);
+        core::BundleTraversal<core::LocalRecords>(bundle_, records, surroundings_.proxy, surroundings_.skips, operations_)
+            .find_first_leaves(rays);
     first_ = bundle_.best.t;
     bundle_.best.t = best_t;
     bundle_.t_enter = t_enter;
@@ -186,7 +186,7 @@ class Ways {
   Row<float> first_{};                    ///< in no region before that a ray meets anything
 };
 
-/// An outline of cubes has another grid than the bundle.
+/// A proxy of cubes has another grid than the bundle.
 void find_next_stops_alone(RayBundle& bundle, const Surroundings& surroundings, nodes::NodeId here, core::Operations& operations,
                            Row<std::uint32_t>& region) {
   for_each(bundle.left, [&](std::size_t ray) {
@@ -205,7 +205,7 @@ void find_next_stops_alone(RayBundle& bundle, const Surroundings& surroundings, 
 
 void find_next_stops(RayBundle& bundle, const Surroundings& surroundings, nodes::NodeId here, core::Operations& operations,
                      Row<std::uint32_t>& region) {
-  if (surroundings.outline.directory_doublings > 0) {
+  if (surroundings.proxy.directory_doublings > 0) {
     find_next_stops_alone(bundle, surroundings, here, operations, region);
   } else {
     Ways(bundle, surroundings, here, operations, region).find();

@@ -25,17 +25,16 @@ struct NextStop {
 /// What is known of all of space.
 struct Surroundings {
   const Regions& regions;
-  const core::DatabaseHeader&
-      outline;                 ///< of the database's outline (core/database/outline.h); without a directory: none is known
-  core::LocalRecords records;  ///< the outline's
+  const core::DatabaseHeader& proxy;  ///< of the database's proxy (core/database/proxy.h); without a directory: none is known
+  core::LocalRecords records;         ///< the proxy's
   core::Skips skips;
 
-  bool has_outline() const { return outline.directory != core::no_address; }
+  bool has_proxy() const { return proxy.directory != core::no_address; }
 };
 
 /// The way of a ray that enters the grid, or leaves a region, by `passage`; in a region of node `here`'s it stops in any case,
-/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, bricks and skipped
-/// regions that it adds to `operations`.
+/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, BVH nodes and
+/// skipped regions that it adds to `operations`.
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                    std::optional<nodes::NodeId> here, core::Operations& operations);
 

@@ -24,10 +24,10 @@ class PartTracer : public core::GridTracer<PartRecords> {
   /// Rays may be in others than region().
   bool has_several_regions() const { return regions_ != nullptr && regions_->region_count() > regions_->node_count(); }
 
-  /// Goes to the node's region that holds a finest cell; where regions move, to the largest block of the node's around it, so
-  /// that rays walk as they would if the block had not been cut. False, and nothing done, if it has none there.
+  /// Goes to the node's region that holds a finest cell; where regions move, to the largest leaf of the node's around it, so
+  /// that rays walk as they would if the leaf had not been cut. False, and nothing done, if it has none there.
   bool enter(const core::Corner& cell) {
-    if (regions_ == nullptr || (region().contains(cell) && is_block_whole())) {
+    if (regions_ == nullptr || (region().contains(cell) && is_leaf_whole())) {
       return region().contains(cell);
     }
     const std::uint32_t index = regions_->region_index_of(cell);
@@ -37,25 +37,25 @@ class PartTracer : public core::GridTracer<PartRecords> {
     go_to(index);
     return true;
   }
-  /// Goes there for a ray that was taken up when the region was the node's. Where regions move it may have been handed over
+  /// Goes there for a ray that was taken up when the region was the node's. Where regions move it may have been migrated
   /// since, but all its records are still here.
   bool enter_taken_up(const core::Corner& cell) {
     const bool is_here = enter(cell);
     if (is_here || regions_ == nullptr || !regions_->are_moving()) {
       return is_here;
     }
-    block_ = {regions_->region_at(regions_->region_index_of(cell)), 0, 0};
-    move_to(block_.box);
+    leaf_ = {regions_->region_at(regions_->region_index_of(cell)), 0, 0};
+    move_to(leaf_.box);
     return true;
   }
 
  private:
-  /// No unit of the block in which rays walk has been handed over since.
-  bool is_block_whole() const { return !regions_->are_moving() || (block_.count > 0 && regions_->bsp()->owns(self_, block_)); }
+  /// No unit of the leaf in which rays walk has been migrated since.
+  bool is_leaf_whole() const { return !regions_->are_moving() || (leaf_.count > 0 && regions_->bsp()->owns(self_, leaf_)); }
   void go_to(std::uint32_t index) {
     if (regions_->are_moving()) {
-      block_ = regions_->bsp()->block_around(index);
-      move_to(block_.box);
+      leaf_ = regions_->bsp()->leaf_around(index);
+      move_to(leaf_.box);
     } else {
       move_to(regions_->region_at(index));
     }
@@ -63,7 +63,7 @@ class PartTracer : public core::GridTracer<PartRecords> {
 
   const Regions* regions_ = nullptr;
   nodes::NodeId self_{};
-  Bsp::Block block_;  ///< where regions move; without regions until rays walk in one
+  Bsp::Leaf leaf_;  ///< where regions move; without regions until rays walk in one
 };
 
 }  // namespace dmpc::dataflow

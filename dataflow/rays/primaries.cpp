@@ -13,20 +13,20 @@ namespace {
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
 /// Goes through the rays of a pass. Calls begin(partition, node, number) where a partition's run of consecutive rays of one node
-/// begins, with `nobody` for rays that are not dealt and, in the end, behind the last.
+/// begins, with `nobody` for rays that are not assigned and, in the end, behind the last.
 template <class Begin>
-void deal(const core::RenderSettings& settings, std::span<const Regions> partitions, const core::Pass& pass,
-          const core::PixelMask& done, const std::stop_token& stop, const PixelOrder& order, const Begin& begin) {
+void assign(const core::RenderSettings& settings, std::span<const Regions> partitions, const core::Pass& pass,
+            const core::PixelMask& done, const std::stop_token& stop, const PixelOrder& order, const Begin& begin) {
   PrimaryOwners owners(settings, partitions);
-  const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
+  const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_assigned) {
     for (; those != 0; those &= those - 1) {
       const auto partition = static_cast<std::size_t>(std::countr_zero(those));
-      begin(partition, is_dealt ? owners.owners()[partition] : nobody, number);
+      begin(partition, is_assigned ? owners.owners()[partition] : nobody, number);
     }
   };
   const core::SampleRange numbered = numbered_samples(pass);
   std::uint64_t end = 0;    // behind the ray before
-  bool follows_on = false;  // there is one that is dealt
+  bool follows_on = false;  // there is one that is assigned
   for (std::uint32_t place = 0; place < settings.camera.pixel_count() && !stop.stop_requested(); ++place) {
     const std::uint32_t pixel = order.pixel_at(place);
     if (done.has(pixel) || !pass.has(pixel)) {
@@ -61,12 +61,12 @@ std::size_t joint_count(std::span<const Regions> partitions) {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
-                                                    const core::Pass& pass, const core::PixelMask& done,
-                                                    const std::stop_token& stop, const PixelOrder& order) {
+std::vector<std::vector<PrimaryRun>> assign_primaries(const core::RenderSettings& settings, const Regions& partition,
+                                                      const core::Pass& pass, const core::PixelMask& done,
+                                                      const std::stop_token& stop, const PixelOrder& order) {
   std::vector<std::vector<PrimaryRun>> runs(partition.node_count());
   PrimaryRun* before = nullptr;
-  deal(settings, std::span(&partition, 1), pass, done, stop, order, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
+  assign(settings, std::span(&partition, 1), pass, done, stop, order, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
     if (before != nullptr) {
       before->count = number - before->first;
     }
@@ -86,7 +86,7 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
     for (const Regions& partition : joint) {
       counts.emplace_back(partition.node_count());
     }
-    deal(settings, joint, pass, done, stop, order, [&](std::size_t partition, std::uint32_t node, std::uint64_t) {
+    assign(settings, joint, pass, done, stop, order, [&](std::size_t partition, std::uint32_t node, std::uint64_t) {
       if (node != nobody) {
         ++counts[first + partition][node];
       }
@@ -95,14 +95,14 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
   return counts;
 }
 
-nodes::Room<PrimaryRun> Primaries::layout(std::size_t run_count, bool is_dealt) {
+nodes::Room<PrimaryRun> Primaries::layout(std::size_t run_count, bool is_assigned) {
   return {nodes::Category::queues,
-          std::max(run_count, is_dealt ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0)};
+          std::max(run_count, is_assigned ? assigned_packets * std::tuple_size_v<decltype(AssignedPrimaries::runs)> : 0)};
 }
 
 Primaries::Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples,
-                     bool is_dealt)
-    : runs_(layout(runs.size(), is_dealt).in(memory)), count_(runs.size()), samples_(samples) {
+                     bool is_assigned)
+    : runs_(layout(runs.size(), is_assigned).in(memory)), count_(runs.size()), samples_(samples) {
   std::copy(runs.begin(), runs.end(), runs_.begin());
   for (const PrimaryRun& run : runs) {
     left_ += run.count;
@@ -122,20 +122,20 @@ std::uint64_t Primaries::take() {
   return number;
 }
 
-void Primaries::put(const DealtPrimaries& dealt) {
-  core::expect(dealt.count <= dealt.runs.size() && count_ + dealt.count <= runs_.size(), "dealt rays come by credit");
-  core::expect(empty() || dealt.samples == samples_, "a pass begins when the one before has ended");
-  samples_ = dealt.samples;
+void Primaries::put(const AssignedPrimaries& assigned) {
+  core::expect(assigned.count <= assigned.runs.size() && count_ + assigned.count <= runs_.size(), "assigned rays come by credit");
+  core::expect(empty() || assigned.samples == samples_, "a pass begins when the one before has ended");
+  samples_ = assigned.samples;
   ++packets_;
-  for (std::uint32_t i = 0; i < dealt.count; ++i) {
-    runs_[(first_ + count_) % runs_.size()] = dealt.runs[i];
+  for (std::uint32_t i = 0; i < assigned.count; ++i) {
+    runs_[(first_ + count_) % runs_.size()] = assigned.runs[i];
     ++count_;
-    left_ += dealt.runs[i].count;
+    left_ += assigned.runs[i].count;
   }
 }
 
 std::uint32_t Primaries::packets_worked_off() {
-  const std::size_t room = DealtPrimaries().runs.size();
+  const std::size_t room = AssignedPrimaries().runs.size();
   const auto kept = static_cast<std::uint32_t>((count_ + room - 1) / room);
   return packets_ > kept ? std::exchange(packets_, kept) - kept : 0;
 }

@@ -1,4 +1,4 @@
-// Which node starts which primary rays: dealt by the host before the start and before every later pass, kept by each node as
+// Which node starts which primary rays: assigned by the host before the start and before every later pass, kept by each node as
 // runs.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/picture/pixel_task.h"
-#include "core/picture/sample_pass.h"
+#include "core/picture/sampling/sample_pass.h"
 #include "dataflow/packets.h"
 #include "dataflow/rays/pixel_order.h"
 #include "dataflow/regions/regions.h"
@@ -22,11 +22,11 @@ namespace dmpc::dataflow {
 /// only leaves that on the film: these are spread by their places in `order`, an equal share of the picture a node, so that no
 /// node has all of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with
 /// what it has.
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
-                                                    const core::Pass& pass, const core::PixelMask& done,
-                                                    const std::stop_token& stop = {}, const PixelOrder& order = {});
+std::vector<std::vector<PrimaryRun>> assign_primaries(const core::RenderSettings& settings, const Regions& partition,
+                                                      const core::Pass& pass, const core::PixelMask& done,
+                                                      const std::stop_token& stop = {}, const PixelOrder& order = {});
 
-/// How many runs deal_primaries() would deal to each node, for each of `partitions`, which share out one grid. Takes hardly
+/// How many runs assign_primaries() would assign to each node, for each of `partitions`, which share out one grid. Takes hardly
 /// longer for many partitions than for one.
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
                                                          std::span<const Regions> partitions, const core::Pass& pass,
@@ -39,14 +39,14 @@ struct PrimaryStart {
   core::SampleRange samples;
 };
 
-/// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
-/// way. Thread safety: belongs to one node.
+/// A node's own primary rays, in its local memory: those assigned before the start, then packets of those that the host assigns
+/// on the way. Thread safety: belongs to one node.
 class Primaries {
  public:
-  /// Copies `runs`, which are of the first pass. With `is_dealt` there is room for dealt_packets afterwards.
-  Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_dealt);
+  /// Copies `runs`, which are of the first pass. With `is_assigned` there is room for assigned_packets afterwards.
+  Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_assigned);
   /// What the constructor takes.
-  static nodes::Room<PrimaryRun> layout(std::size_t run_count, bool is_dealt);
+  static nodes::Room<PrimaryRun> layout(std::size_t run_count, bool is_assigned);
 
   bool empty() const { return left_ == 0; }
   /// Rays that have not started.
@@ -56,7 +56,7 @@ class Primaries {
   /// The number of the next ray to start. Requires that one is left.
   std::uint64_t take();
   /// Takes in a packet. Requires that none is left of an earlier pass.
-  void put(const DealtPrimaries& dealt);
+  void put(const AssignedPrimaries& assigned);
   /// Packets taken in whose room has become free since the last call: so many more may come.
   std::uint32_t packets_worked_off();
 

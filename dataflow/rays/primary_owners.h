@@ -14,7 +14,7 @@
 #include "core/base/units.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/joint_lattice.h"
-#include "dataflow/regions/lattice_walk.h"
+#include "dataflow/regions/lattice_traversal.h"
 #include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
@@ -140,7 +140,7 @@ class PrimaryOwners {
 
   const core::RenderSettings& settings_;
   JointLattice lattice_;
-  LatticeWalk walk_;
+  LatticeTraversal walk_;
   std::vector<SkyOwners> sky_;
   std::vector<std::uint16_t> owners_;
   std::array<std::size_t, JointLattice::partitions_max>

@@ -45,7 +45,7 @@ class RayQueue {
       const std::uint32_t used = lists() - (are_kinds_apart ? 2 : 1);  // no ray has depth 0
       return std::min(rays(), (rays() + used * (group_rays() - 1)) / group_rays());
     }
-    std::uint32_t places() const { return groups() * group_rays(); }
+    std::uint32_t slots() const { return groups() * group_rays(); }
   };
 
   /// Empty.
@@ -63,8 +63,8 @@ class RayQueue {
   /// What the constructor takes.
   static nodes::Layout<std::byte, std::uint32_t, std::uint32_t, List, Sender> layout(const Capacity& capacity) {
     using nodes::Category;
-    return {{Category::queues, capacity.places() * ray_message_bytes(capacity.tested_objects)},
-            {Category::queues, capacity.places()},
+    return {{Category::queues, capacity.slots() * ray_message_bytes(capacity.tested_objects)},
+            {Category::queues, capacity.slots()},
             {Category::queues, capacity.groups()},
             {Category::queues, capacity.lists()},
             {Category::queues, capacity.sender_count}};
@@ -116,7 +116,7 @@ class RayQueue {
   }
   /// The credits that `sender` can have back: its packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
-    return places_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
+    return slots_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
   }
   /// `count` of them, at most owed(), have been given back.
   void gave_back(std::uint32_t sender, std::uint32_t count) {

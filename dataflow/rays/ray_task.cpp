@@ -36,9 +36,9 @@ void RayTask::enter(const RayMessage& message) {
   flight_->ray = message.ray;
   *cursor_ = core::arrive(message.passage());
   flight_->finder = nodes::NodeId{message.finder};
-  flight_->block_at_finder = message.best.block;
+  flight_->block_at_finder = message.best.leaf;
   if (flight_->finder != self_) {
-    cursor_->best.block = core::no_address;
+    cursor_->best.leaf = core::no_address;
   }
   tested_.set(message.tested);
   entered_cell_ = message.cell;
@@ -83,17 +83,17 @@ core::Traced RayTask::walk(PartTracer& tracer, core::Operations& operations) {
   return tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, *cursor_, operations);
 }
 
-/// A block on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
+/// A leaf on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
 /// node where it proves to be the hit is to meet it itself, so that it need not go back to its finder.
 core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {
   const core::ShearedRay sheared(flight_->ray);
   const auto test = [&](const std::byte* record, core::Address address, core::Hit& best) {
-    const auto header = core::read<core::BlockHeader>(record);
+    const auto header = core::read<core::LeafHeader>(record);
     if (tested_.has(header.shared_name)) {
       tests_avoided_ += header.count;
     } else {
-      core::test_block(flight_->ray, sheared, record, address, best, operations);
-      if (best.block != address) {
+      core::test_leaf(flight_->ray, sheared, record, address, best, operations);
+      if (best.leaf != address) {
         tested_.add(header.shared_name);
       }
     }
@@ -115,7 +115,7 @@ bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
 }
 
 void RayTask::shade_hit() {
-  core::expect(found_here(), "a hit is shaded where its block is");
+  core::expect(found_here(), "a hit is shaded where its leaf is");
   push(flight_->ray, cursor_->best);
 }
 
@@ -129,7 +129,7 @@ void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
 core::Hit RayTask::travelling_candidate() const {
   core::Hit candidate = cursor_->best;
   if (!found_here()) {
-    candidate.block = flight_->block_at_finder;
+    candidate.leaf = flight_->block_at_finder;
   }
   return candidate;
 }

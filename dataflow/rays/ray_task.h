@@ -28,7 +28,7 @@ class RayTask {
   static constexpr std::uint32_t rays_max = 1;
 
   /// Nothing under way. A stack of `waiting_max` hits: core::waiting_hits_max().
-  /// With `tested_objects` rays remember so many blocks that they have tested; `has_instances`: the database has, and rays have
+  /// With `tested_objects` rays remember so many leaves that they have tested; `has_instances`: the database has, and rays have
   /// longer cursors. Not both.
   RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects = 0,
           bool has_instances = false);
@@ -56,7 +56,7 @@ class RayTask {
     shoot(ray);
     return &flight_->ray;
   }
-  /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the block's address is
+  /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the leaf's address is
   /// forgotten here, and kept for that node.
   void enter(const RayMessage& message);
   void enter(std::span<const std::byte> message) { enter(message_in(message)); }
@@ -72,8 +72,8 @@ class RayTask {
   // After that:
   core::Traced traced() const { return traced_; }
   const core::Ray& ray() const { return flight_->ray; }
-  /// The hit's block was read on this node.
-  bool found_here() const { return cursor_->best.block != core::no_address; }
+  /// The hit's leaf was read on this node.
+  bool found_here() const { return cursor_->best.leaf != core::no_address; }
   /// Takes up the hit that was found here.
   void shade_hit();
   /// The region that it goes to, by number.
@@ -88,7 +88,7 @@ class RayTask {
   /// The hit as it goes to its finder.
   RayMessage confirmed_hit() const;
   nodes::NodeId finder() const { return flight_->finder; }
-  /// Lanes of blocks that were not tested here, since their ray had them on its list.
+  /// Lanes of leaves that were not tested here, since their ray had them on its list.
   std::uint64_t tests_avoided() const { return tests_avoided_; }
   /// The caller has seen to the ray: it is no longer under way.
   void drop_ended() { stage_ = Stage::none; }
@@ -114,7 +114,7 @@ class RayTask {
   /// How far the ray under way is.
   enum class Stage : std::uint8_t { none, shot, entered, ended };
 
-  /// A ray, and where its candidate's block is if that is not here.
+  /// A ray, and where its candidate's leaf is if that is not here.
   struct Flight {
     core::Ray ray;
     nodes::NodeId finder{};

@@ -10,8 +10,8 @@ namespace dmpc::dataflow {
 
 inline constexpr std::uint32_t tested_objects_max = 8;
 
-/// Names of blocks that a ray has tested where it comes from and may meet again where it goes: those whose boxes reach beyond a
-/// region or a voxel (core::BlockHeader::shared_name), the newest first; 0 where there is none. A block is tested for all of a
+/// Names of leaves that a ray has tested where it comes from and may meet again where it goes: those whose boxes reach beyond a
+/// region or a voxel (core::LeafHeader::shared_name), the newest first; 0 where there is none. A leaf is tested for all of a
 /// ray, wherever its box is met, so a second test finds nothing new.
 using TestedNames = std::array<std::uint32_t, tested_objects_max>;
 
@@ -24,7 +24,7 @@ class TestedObjects {
   const TestedNames& names() const { return names_; }
   void set(const TestedNames& names) { names_ = names; }
 
-  /// Whether the block of this name was tested.
+  /// Whether the leaf of this name was tested.
   bool has(std::uint32_t name) const {
     return name != 0 && std::find(names_.begin(), names_.begin() + capacity_, name) != names_.begin() + capacity_;
   }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/picture/subsample.h"
+#include "core/picture/camera/subsample.h"
 #include "dataflow/regions/charged_picture.h"
 
 namespace dmpc::dataflow {

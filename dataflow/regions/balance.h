@@ -21,7 +21,7 @@ enum class Balance : std::uint8_t {
   subsampled,  ///< regions of about equal predicted load
   equal_size,  ///< the naive split
   scattered,   ///< a regular lattice, many regions a node, neighbours on different nodes
-  moving       ///< subsampled regions, each of many units, which nodes hand over to others while rays travel
+  moving       ///< subsampled regions, each of many units, which nodes migrate to others while rays travel
 };
 
 struct BalanceOptions {

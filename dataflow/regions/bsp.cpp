@@ -94,22 +94,22 @@ core::Region Bsp::region_at(std::uint32_t index) const {
   return region;
 }
 
-Bsp::Block Bsp::block_around(std::uint32_t index) const {
-  Block block{{{}, grid_size_}, 0, region_count_};
-  while (!owns(owner_at(index), block)) {
-    const std::uint32_t low_count = low_count_of(block.count);
-    const Cut& cut = cuts_[block.first + low_count - 1];
-    const bool is_high = index >= block.first + low_count;
-    (is_high ? block.box.low : block.box.high)[cut.axis()] = cut.at();
-    block.first += is_high ? low_count : 0;
-    block.count = is_high ? block.count - low_count : low_count;
+Bsp::Leaf Bsp::leaf_around(std::uint32_t index) const {
+  Leaf leaf{{{}, grid_size_}, 0, region_count_};
+  while (!owns(owner_at(index), leaf)) {
+    const std::uint32_t low_count = low_count_of(leaf.count);
+    const Cut& cut = cuts_[leaf.first + low_count - 1];
+    const bool is_high = index >= leaf.first + low_count;
+    (is_high ? leaf.box.low : leaf.box.high)[cut.axis()] = cut.at();
+    leaf.first += is_high ? low_count : 0;
+    leaf.count = is_high ? leaf.count - low_count : low_count;
   }
-  return block;
+  return leaf;
 }
 
-bool Bsp::owns(nodes::NodeId node, const Block& block) const {
-  const auto first = owner_.begin() + block.first;
-  return std::all_of(first, first + block.count, [node](std::uint16_t owner) { return owner == nodes::index_of(node); });
+bool Bsp::owns(nodes::NodeId node, const Leaf& leaf) const {
+  const auto first = owner_.begin() + leaf.first;
+  return std::all_of(first, first + leaf.count, [node](std::uint16_t owner) { return owner == nodes::index_of(node); });
 }
 
 std::uint32_t Bsp::region_index_of(nodes::NodeId node) const {
@@ -146,14 +146,14 @@ Bsp Bsp::without_units() const {
 Bsp Bsp::by_unit() const {
   Bsp units = *this;
   units.node_count_ = region_count_;
-  std::vector<bool> is_holding(node_count_, false);
+  std::vector<bool> is_throttling(node_count_, false);
   for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
-    is_holding[owner_[unit]] = is_holding[owner_[unit]] || !is_empty(unit);
+    is_throttling[owner_[unit]] = is_throttling[owner_[unit]] || !is_empty(unit);
   }
   units.empty_ = {};
   for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
     units.owner_[unit] = static_cast<std::uint16_t>(unit);
-    if (!is_holding[owner_[unit]]) {
+    if (!is_throttling[owner_[unit]]) {
       units.mark_empty(unit);
     }
   }

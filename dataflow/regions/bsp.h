@@ -62,14 +62,14 @@ class Bsp {
   core::Region region_at(std::uint32_t index) const;
 
   /// Regions with successive numbers that make up a box.
-  struct Block {
+  struct Leaf {
     core::Region box;
     std::uint32_t first = 0, count = 0;
   };
-  /// The largest block around region `index` that a cut or the grid's border ends, and whose regions are all of its owner.
-  Block block_around(std::uint32_t index) const;
-  /// All of the block's regions are `node`'s.
-  bool owns(nodes::NodeId node, const Block& block) const;
+  /// The largest leaf around region `index` that a cut or the grid's border ends, and whose regions are all of its owner.
+  Leaf leaf_around(std::uint32_t index) const;
+  /// All of the leaf's regions are `node`'s.
+  bool owns(nodes::NodeId node, const Leaf& leaf) const;
 
   /// A plane between regions, in four bytes.
   class Cut {

@@ -63,7 +63,7 @@ class ChargedPicture {
       const core::Corner size = core::grid_size(frame);
       core::Region cell{cursor.cell, cursor.cell};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        cell.high[axis] = std::min(cell.low[axis] + core::finest_per_top, size[axis]);
+        cell.high[axis] = std::min(cell.low[axis] + core::finest_per_macro, size[axis]);
       }
       const bool in_cell = cursor.stage == core::Cursor::Stage::child;
       const double t = in_cell ? std::max(cursor.t_enter, double{t_taken()}) : cursor.t_enter;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/picture/sample_pass.h"
+#include "core/picture/sampling/sample_pass.h"
 
 namespace dmpc::dataflow {
 

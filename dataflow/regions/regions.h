@@ -69,7 +69,7 @@ class Regions {
   template <class Visit>
   void for_each_plane(const Visit& visit) const;
 
-  /// Regions are units that nodes hand over while rays travel.
+  /// Regions are units that nodes migrate while rays travel.
   bool are_moving() const { return bsp() != nullptr && bsp()->is_of_units(); }
   /// These units, as if each were the region of a node of its number. Requires that regions move.
   Regions by_unit() const { return std::get<Bsp>(how_).by_unit(); }

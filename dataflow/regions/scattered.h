@@ -1,4 +1,4 @@
-// Space cut into a regular lattice of many regions, so dealt to the nodes that each has as many, far from each other.
+// Space cut into a regular lattice of many regions, so assigned to the nodes that each has as many, far from each other.
 //
 // Source of the idea: H. Kobayashi and others, 1988, as D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for
 // Ray Tracing in Parallel", 1994, have it: load concentrates locally, so it is split into several regions, and neighbours go to
@@ -18,7 +18,7 @@
 
 namespace dmpc::dataflow {
 
-/// How many regions a lattice has along the two cut axes, and how they are dealt: the region at (x, y) is node
+/// How many regions a lattice has along the two cut axes, and how they are assigned: the region at (x, y) is node
 /// (step[0] x + step[1] y) mod node_count's.
 struct ScatteredShape {
   std::array<std::uint32_t, 2> count = {1, 1};

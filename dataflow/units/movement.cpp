@@ -9,7 +9,7 @@
 namespace dmpc::dataflow {
 
 Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units) : node_(&node), units_(units) {
-  std::tie(version_, pages_of_, rays_told_, stale_, packet_) = layout(plan).in(node.memory());
+  std::tie(version_, pages_of_, rays_reported_, stale_, packet_) = layout(plan).in(node.memory());
   std::fill(stale_.begin(), stale_.end(), none);
 }
 
@@ -21,7 +21,7 @@ nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::b
           {nodes::Category::queues, plan.unit_packet_bytes()}};
 }
 
-void Movement::tell_news(nodes::NodeId sender) {
+void Movement::report_news(nodes::NodeId sender) {
   std::uint32_t& stale = stale_[nodes::index_of(sender)];
   if (stale != none) {
     send_control(*node_, sender, Kind::unit_moved,
@@ -52,18 +52,18 @@ bool Movement::receive(const nodes::Packet& packet) {
 
 /// The node with most primary rays left that it has heard of, if it has none itself.
 std::optional<nodes::NodeId> Movement::partner() const {
-  const auto most = std::max_element(rays_told_.begin(), rays_told_.end());
+  const auto most = std::max_element(rays_reported_.begin(), rays_reported_.end());
   if (*most == 0 || !units_.primaries->empty() || units_.pages->free_frames() == 0) {
     return std::nullopt;
   }
-  return nodes::NodeId{static_cast<std::uint32_t>(most - rays_told_.begin())};
+  return nodes::NodeId{static_cast<std::uint32_t>(most - rays_reported_.begin())};
 }
 
 void Movement::ask() {
   const nodes::NodeId partner = *this->partner();
-  hand_over_.ask();
+  migration_.ask();
   ++counters_.asks;
-  rays_told_[nodes::index_of(partner)] = 0;  // until it tells it anew: a node that refuses is not asked again before others
+  rays_reported_[nodes::index_of(partner)] = 0;  // until it tells it anew: a node that refuses is not asked again before others
   send_control(*node_, partner, Kind::unit_ask,
                UnitAsk{.free_frames = units_.pages->free_frames(),
                        .free_runs = static_cast<std::uint32_t>(units_.primaries->free_runs())});
@@ -72,7 +72,7 @@ void Movement::ask() {
 /// The one with most primary rays, if that is no more than the node would keep.
 std::optional<std::uint32_t> Movement::unit_to_give() const {
   const UnitPrimaries& primaries = *units_.primaries;
-  if (!hand_over_.may_give() || primaries.empty()) {
+  if (!migration_.may_give() || primaries.empty()) {
     return std::nullopt;
   }
   const std::uint32_t unit = primaries.largest_unit();
@@ -80,7 +80,7 @@ std::optional<std::uint32_t> Movement::unit_to_give() const {
   return primaries.left_of(unit) <= primaries.left() / 2 ? std::optional(unit) : std::nullopt;
 }
 
-/// A walk through its records, once for many questions.
+/// A traversal through its records, once for many questions.
 void Movement::mark(std::uint32_t unit) {
   if (marked_ != unit) {
     const UnitPages::Marked marked = units_.pages->mark(*units_.header, units_.regions->region_at(unit));
@@ -90,7 +90,7 @@ void Movement::mark(std::uint32_t unit) {
   }
 }
 
-/// It has as many primary rays as pages, and the asker room for both.
+/// It has as many primary rays as pages, and the requester room for both.
 bool Movement::is_worth_giving(std::uint32_t unit, const UnitAsk& ask) {
   if (pages_of_[unit] == 0) {
     mark(unit);
@@ -100,14 +100,14 @@ bool Movement::is_worth_giving(std::uint32_t unit, const UnitAsk& ask) {
          units_.primaries->runs_of(unit) <= ask.free_runs;
 }
 
-void Movement::take_ask(nodes::NodeId asker, const UnitAsk& ask) {
+void Movement::take_ask(nodes::NodeId requester, const UnitAsk& ask) {
   const std::optional<std::uint32_t> unit = unit_to_give();
   if (!unit || !is_worth_giving(*unit, ask)) {
-    return send_control(*node_, asker, Kind::unit_refusal, UnitRefusal{});
+    return send_control(*node_, requester, Kind::unit_refusal, UnitRefusal{});
   }
   mark(*unit);
-  hand_over_.give();
-  taker_ = asker;
+  migration_.give();
+  recipient_ = requester;
   unit_ = *unit;
   pages_left_ = pages_of_[*unit];
   next_frame_ = 0;
@@ -125,34 +125,34 @@ void Movement::send_page() {
   const std::span<const std::byte> page = units_.pages->bytes_at(frame);
   std::memcpy(packet_.data(), &header, sizeof(header));
   std::memcpy(packet_.data() + sizeof(header), page.data(), page.size());
-  node_->grant(taker_, unit_channel);
-  node_->send_reserved(taker_, unit_channel, number_of(Kind::unit_page), std::span<const std::byte>(packet_));
+  node_->grant(recipient_, unit_channel);
+  node_->send_reserved(recipient_, unit_channel, number_of(Kind::unit_page), std::span<const std::byte>(packet_));
 }
 
 /// Those that have not started meanwhile, if there are any.
 void Movement::send_primaries() {
   UnitPrimaryRays rays{.unit = unit_};
   const std::uint64_t left = units_.primaries->left_of(unit_);
-  rays.dealt = units_.primaries->give(unit_);
+  rays.assigned = units_.primaries->give(unit_);
   are_primaries_left_ = units_.primaries->runs_of(unit_) > 0;
   rays.is_last = are_primaries_left_ ? 0 : 1;
   counters_.primaries_given += left - units_.primaries->left_of(unit_);
-  node_->grant(taker_, unit_channel);
-  node_->send_reserved(taker_, unit_channel, number_of(Kind::unit_primaries), rays);
+  node_->grant(recipient_, unit_channel);
+  node_->send_reserved(recipient_, unit_channel, number_of(Kind::unit_primaries), rays);
 }
 
-void Movement::acknowledge(nodes::NodeId giver) {
-  send_control(*node_, giver, Kind::unit_acknowledgement, UnitAcknowledgement{});
+void Movement::acknowledge(nodes::NodeId donor) {
+  send_control(*node_, donor, Kind::unit_acknowledgement, UnitAcknowledgement{});
 }
 
 void Movement::take_refusal() {
-  hand_over_.refused();
+  migration_.refused();
   ++counters_.refusals;
 }
 
 void Movement::take_page(const nodes::Packet& packet) {
   core::expect(packet.payload.size() == packet_.size(), "a page comes with its header");
-  core::expect(!hand_over_.is_settled(), "a page comes to a node that has asked");
+  core::expect(!migration_.is_settled(), "a page comes to a node that has asked");
   const auto header = packet.front<UnitPageHeader>();
   const bool is_new = units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
   counters_.pages_installed += is_new ? 1 : 0;
@@ -164,33 +164,33 @@ void Movement::take_page(const nodes::Packet& packet) {
   acknowledge(packet.source);
 }
 
-void Movement::take_primaries(nodes::NodeId giver, const UnitPrimaryRays& rays) {
+void Movement::take_primaries(nodes::NodeId donor, const UnitPrimaryRays& rays) {
   core::expect(answers_for(rays.unit), "primary rays come behind the pages of their unit");
   const std::uint64_t before = units_.primaries->left();
-  units_.primaries->put(rays.unit, rays.dealt);
+  units_.primaries->put(rays.unit, rays.assigned);
   counters_.primaries_taken += units_.primaries->left() - before;
-  acknowledge(giver);
+  acknowledge(donor);
   if (rays.is_last != 0) {
-    hand_over_.taken();
-    hand_over_.rays_came();
+    migration_.taken();
+    migration_.rays_came();
   }
 }
 
-/// The taker answers for the unit with its last page; primary rays follow.
+/// The recipient answers for the unit with its last page; primary rays follow.
 bool Movement::take_acknowledgement() {
   if (pages_left_ > 0) {
     send_page();
     return true;
   }
   if (answers_for(unit_)) {
-    units_.regions->give_to(unit_, taker_);
+    units_.regions->give_to(unit_, recipient_);
     ++version_[unit_];
   }
   if (are_primaries_left_) {
     send_primaries();
     return true;
   }
-  hand_over_.given();
+  migration_.given();
   return false;
 }
 
@@ -205,8 +205,8 @@ void Movement::take_news(const UnitMoved& moved) {
 
 MovementCounters Movement::counters() const {
   MovementCounters counters = counters_;
-  counters.units_given = hand_over_.given_count();
-  counters.units_taken = hand_over_.taken_count();
+  counters.units_given = migration_.given_count();
+  counters.units_taken = migration_.taken_count();
   for (std::uint32_t unit = 0; unit < version_.size(); ++unit) {
     counters.units += answers_for(unit) ? 1 : 0;
   }

@@ -76,7 +76,7 @@ class UnitPages {
   std::span<const std::byte> bytes_at(std::uint32_t frame) const { return bytes_.subspan(frame * page_bytes_, page_bytes_); }
 
  private:
-  /// A brick without children, a block without primitives.
+  /// A BVH node without children, a block without primitives.
   alignas(core::record_alignment) static const std::array<std::byte, core::record_bytes_max + core::overread_bytes> nothing;
 
   static std::size_t frame_bytes(const Capacity& capacity) {

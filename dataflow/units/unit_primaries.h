@@ -95,35 +95,35 @@ class UnitPrimaries {
   }
 
   /// Some of a unit's runs, as many as a packet holds, or none if there is none; they are here no longer.
-  DealtPrimaries give(std::uint32_t unit) {
-    DealtPrimaries dealt{.samples = samples_};
+  AssignedPrimaries give(std::uint32_t unit) {
+    AssignedPrimaries assigned{.samples = samples_};
     if (List* const list = find(unit)) {
-      dealt.count = std::min(list->count, static_cast<std::uint32_t>(dealt.runs.size()));
-      for (std::uint32_t i = 0; i < dealt.count; ++i) {
-        dealt.runs[i] = runs_[list->first + i];
-        list->rays -= dealt.runs[i].count;
-        left_ -= dealt.runs[i].count;
+      assigned.count = std::min(list->count, static_cast<std::uint32_t>(assigned.runs.size()));
+      for (std::uint32_t i = 0; i < assigned.count; ++i) {
+        assigned.runs[i] = runs_[list->first + i];
+        list->rays -= assigned.runs[i].count;
+        left_ -= assigned.runs[i].count;
       }
-      list->first += dealt.count;
-      list->count -= dealt.count;
+      list->first += assigned.count;
+      list->count -= assigned.count;
     }
-    return dealt;
+    return assigned;
   }
 
   /// Some of a unit's runs have come, for all of which there was room before the first.
-  void put(std::uint32_t unit, const DealtPrimaries& dealt) {
-    core::expect(dealt.count == 0 || dealt.samples == samples_, "primary rays go along in the pass that they are of");
+  void put(std::uint32_t unit, const AssignedPrimaries& assigned) {
+    core::expect(assigned.count == 0 || assigned.samples == samples_, "primary rays go along in the pass that they are of");
     List& list = lists_.front();
     if (empty()) {
       list = {.unit = unit};
     }
-    core::expect(list.unit == unit && list.first + list.count + dealt.count <= runs_.size(),
+    core::expect(list.unit == unit && list.first + list.count + assigned.count <= runs_.size(),
                  "runs come where there is room for all of their unit");
-    for (std::uint32_t i = 0; i < dealt.count; ++i) {
-      runs_[list.first + list.count] = dealt.runs[i];
+    for (std::uint32_t i = 0; i < assigned.count; ++i) {
+      runs_[list.first + list.count] = assigned.runs[i];
       ++list.count;
-      list.rays += dealt.runs[i].count;
-      left_ += dealt.runs[i].count;
+      list.rays += assigned.runs[i].count;
+      left_ += assigned.runs[i].count;
     }
   }
 

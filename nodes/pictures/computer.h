@@ -12,18 +12,18 @@
 
 #include "core/base/counts.h"
 #include "core/base/expect.h"
-#include "core/picture/film.h"
-#include "core/picture/fine_detail.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/film.h"
+#include "core/picture/film/partial_picture.h"
 #include "core/picture/pixel_task.h"
-#include "core/picture/refinement.h"
+#include "core/picture/sampling/fine_detail.h"
+#include "core/picture/sampling/refinement.h"
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
 #include "nodes/gathering.h"
+#include "nodes/observers/watching.h"
 #include "nodes/pictures/host.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::pictures {
 
@@ -77,12 +77,12 @@ struct Report : Outcome {
 /// copied.
 template <class Plan, class MakeProgram>
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program,
-                                                                  const nodes::Patience& patience,
+                                                                  const nodes::Batching& batching,
                                                                   std::uint32_t interrupt_kinds = 0) {
   std::vector<nodes::NodeSpecification> all;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     all.push_back({plan.node_memory(i), plan.node_mailbox, [make_program, i](nodes::Node& node) { return make_program(i, node); },
-                   plan.held_bytes, interrupt_kinds, patience});
+                   plan.held_bytes, interrupt_kinds, batching});
   }
   all.push_back({plan.host_memory(), plan.host_mailbox, {}, plan.held_bytes});
   return all;

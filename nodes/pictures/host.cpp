@@ -69,7 +69,7 @@ core::PixelMask Host::with_light() const {
   return mask;
 }
 
-void Host::tell_progress(std::uint32_t pixels) const {
+void Host::report_progress(std::uint32_t pixels) const {
   if (progress_) {
     progress_(pixels, refinement_.pixel_count());
   }

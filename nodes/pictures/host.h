@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include "core/picture/film.h"
-#include "core/picture/partial_picture.h"
-#include "core/picture/refinement.h"
+#include "core/picture/film/film.h"
+#include "core/picture/film/partial_picture.h"
+#include "core/picture/sampling/refinement.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
+#include "nodes/observers/watching.h"
 #include "nodes/program.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::pictures {
 
@@ -46,7 +46,7 @@ class Host : public nodes::Program {
   bool has_light(std::uint32_t pixel) const { return (with_light_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
   core::PixelMask with_light() const;
   std::uint32_t pixels_with_light() const { return pixels_with_light_; }
-  void tell_progress(std::uint32_t pixels) const;
+  void report_progress(std::uint32_t pixels) const;
   /// Whether what is done should be kept now.
   bool is_due() const { return continuation_.is_due && continuation_.is_due(); }
   bool may_be_kept() const { return static_cast<bool>(continuation_.keep); }

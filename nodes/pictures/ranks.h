@@ -59,44 +59,44 @@ std::string figures_of(const Plan& plan, const Own&... own) {
 
 /// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
 /// its program keeps. Returns when all have their nodes. put_own(flat) adds to the job what is the strategy's, deal(streams,
-/// rank, node) sends what the node is dealt. `are_frames`: nodes are kept, for nodes::hand_out_again() of settings before another
-/// picture. Throws what fails on another rank.
-template <class PutOwn, class Deal>
-void hand_out(const core::RenderSettings& settings, std::uint32_t node_count, const std::string& watch_order, bool are_frames,
-              nodes::RankLinks& links, const PutOwn& put_own, const Deal& deal) {
+/// rank, node) sends what the node is assigned. `are_frames`: nodes are kept, for nodes::hand_out_again() of settings before
+/// another picture. Throws what fails on another rank.
+template <class PutOwn, class Assign>
+void hand_out(const core::RenderSettings& settings, std::uint32_t node_count, const std::string& observer_order, bool are_frames,
+              nodes::RankLinks& links, const PutOwn& put_own, const Assign& assign) {
   nodes::FlatWriter job;
   job.put(nodes::StreamKind::job, are_frames, settings);
   put_own(job);
   nodes::StreamsToRanks streams(links);
   streams.write_counted_to_all(job.take());
-  streams.write_counted_to_all(watch_order);
+  streams.write_counted_to_all(observer_order);
   for (std::uint32_t node = 0; node < node_count; ++node) {
     if (const std::uint32_t rank = nodes::rank_of(node, node_count, links.rank_count()); rank != 0) {
-      deal(streams, rank, node);
+      assign(streams, rank, node);
     }
   }
   streams.finish();
 }
 
 /// The nodes of a run that are on this rank. `Job` is what a strategy makes them of: made of the flat bytes behind settings, of
-/// which it takes all, it has a plan(), the specifications() of its nodes, for which it reads what they are dealt from the stream
-/// (with a Following if they are watched), and gather() of what they report.
-template <class Job, class Following>
+/// which it takes all, it has a plan(), the specifications() of its nodes, for which it reads what they are assigned from the
+/// stream (with a Following if they are watched), and gather() of what they report.
+template <class Job, class WorkerCallbacks>
 class PartOfRun {
  public:
   /// `told`: read from the stream, of which it reads the rest.
-  PartOfRun(std::string_view told, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
-      : PartOfRun(nodes::FlatReader(told), stream, links, following) {}
+  PartOfRun(std::string_view reported, nodes::StreamFromHost& stream, nodes::RankLinks& links, const WorkerCallbacks& callbacks)
+      : PartOfRun(nodes::FlatReader(reported), stream, links, callbacks) {}
   PartOfRun(const PartOfRun&) = delete;
   PartOfRun& operator=(const PartOfRun&) = delete;
 
   bool is_repeated() const { return are_frames_; }
 
-  void begin_again(std::string_view told) {
-    settings_ = nodes::read_again<core::RenderSettings>(told);
+  void begin_again(std::string_view reported) {
+    settings_ = nodes::read_again<core::RenderSettings>(reported);
     begin_frame(*runner_, job_.plan().node_count(), settings_);
     if (!order_.empty()) {
-      following_.watch_again();
+      callbacks_.watch_again();
     }
   }
 
@@ -104,18 +104,18 @@ class PartOfRun {
     stream_.say_ready();
     const nodes::RunEnd end = runner_->run(std::move(stop));
     job_.gather(*runner_);
-    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
+    runner_->gather_ranks(order_.empty() ? std::string() : callbacks_.seen());
     return end;
   }
 
  private:
-  PartOfRun(nodes::FlatReader job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
-      : following_(following), stream_(stream), settings_(beginning_of(job)), job_(job, links, following) {
+  PartOfRun(nodes::FlatReader job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const WorkerCallbacks& callbacks)
+      : callbacks_(callbacks), stream_(stream), settings_(beginning_of(job)), job_(job, links, callbacks) {
     core::expect(job.is_at_end(), "a job is as long as it says");
-    following.check_room(nodes::rank_memory(nodes::peers_of(job_.plan()), &links, links.rank()));
+    callbacks.check_room(nodes::rank_memory(nodes::peers_of(job_.plan()), &links, links.rank()));
     order_ = nodes::read_counted(stream);
-    watching_ = order_.empty() ? nodes::Watching() : following.watch(order_);
-    runner_ = nodes::make_runner(job_.specifications(settings_, stream, watching_, order_.empty() ? nullptr : &following),
+    watching_ = order_.empty() ? nodes::Watching() : callbacks.watch(order_);
+    runner_ = nodes::make_runner(job_.specifications(settings_, stream, watching_, order_.empty() ? nullptr : &callbacks),
                                  job_.plan().request.computer, watching_.observer);
   }
 
@@ -126,7 +126,7 @@ class PartOfRun {
     return flat.take<core::RenderSettings>();
   }
 
-  const Following& following_;
+  const WorkerCallbacks& callbacks_;
   nodes::StreamFromHost& stream_;
   bool are_frames_ = false;
   core::RenderSettings settings_;
@@ -136,12 +136,12 @@ class PartOfRun {
   std::unique_ptr<nodes::Runner> runner_;
 };
 
-/// What another rank does while rank 0 renders. No more of the scene is in its memory than its nodes are dealt. Where there are
-/// several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then.
-template <class Job, class Following>
-nodes::Followed follow(nodes::RankLinks& links, const std::stop_token& stop, const Following& following) {
-  return nodes::follow_runs(links, stop, [&](std::string_view told, nodes::StreamFromHost& stream) {
-    return PartOfRun<Job, Following>(told, stream, links, following);
+/// What another rank does while rank 0 renders. No more of the scene is in its memory than its nodes are assigned. Where there
+/// are several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then.
+template <class Job, class WorkerCallbacks>
+nodes::WorkerOutcome follow(nodes::RankLinks& links, const std::stop_token& stop, const WorkerCallbacks& callbacks) {
+  return nodes::run_as_worker(links, stop, [&](std::string_view reported, nodes::StreamFromHost& stream) {
+    return PartOfRun<Job, WorkerCallbacks>(reported, stream, links, callbacks);
   });
 }
 

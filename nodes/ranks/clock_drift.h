@@ -16,13 +16,13 @@ inline constexpr int clock_questions = 32;
 
 /// One round trip: of rank 0's clock when it asked and when the answer came, and of the other's in between.
 struct ClockAnswer {
-  std::uint64_t asked_ns = 0, told_ns = 0, heard_ns = 0;
+  std::uint64_t asked_ns = 0, reported_ns = 0, heard_ns = 0;
 
   std::uint64_t round_trip_ns() const { return heard_ns - asked_ns; }
   /// By rank 0's clock.
   std::uint64_t middle_ns() const { return asked_ns + round_trip_ns() / 2; }
   /// The other's less rank 0's.
-  std::int64_t offset_ns() const { return static_cast<std::int64_t>(told_ns - middle_ns()); }
+  std::int64_t offset_ns() const { return static_cast<std::int64_t>(reported_ns - middle_ns()); }
   /// By which that is wrong at most.
   std::uint64_t error_ns() const { return round_trip_ns() - round_trip_ns() / 2; }
 };

@@ -16,7 +16,7 @@
 
 namespace dmpc::nodes {
 
-/// Items: clock_asked, clock_told, clocks_read, start. Thread safety: belongs to one thread at a time.
+/// Items: clock_asked, clock_reported, clocks_read, start. Thread safety: belongs to one thread at a time.
 class ClockTalk {
  public:
   /// `links` outlive this. On rank 0 `compares` says whether clocks are to be compared; the others hear of it.
@@ -27,10 +27,10 @@ class ClockTalk {
     switch (header.item) {
       case Item::clock_asked:
         compares_ = true;  // before the start, hence after the run, too
-        links_->say(rank, Item::clock_told, bytes_of(nanoseconds(CLOCK_MONOTONIC)));
+        links_->say(rank, Item::clock_reported, bytes_of(nanoseconds(CLOCK_MONOTONIC)));
         return true;
-      case Item::clock_told:
-        heard_ = {.told_ns = value_of<std::uint64_t>(bytes), .heard_ns = nanoseconds(CLOCK_MONOTONIC)};
+      case Item::clock_reported:
+        heard_ = {.reported_ns = value_of<std::uint64_t>(bytes), .heard_ns = nanoseconds(CLOCK_MONOTONIC)};
         return true;
       case Item::clocks_read:
         are_clocks_read_ = true;

@@ -24,11 +24,11 @@ namespace dmpc::nodes {
 class ClosingTalk {
  public:
   /// `links` and `nodes` outlive this.
-  ClosingTalk(RankLinks& links, NodeThreads& nodes) : links_(&links), nodes_(&nodes), last_words_(links.rank_count()) {}
+  ClosingTalk(RankLinks& links, NodeThreads& nodes) : links_(&links), nodes_(&nodes), termination_messages_(links.rank_count()) {}
 
   /// Takes an item of this talk; false if it is of another. What has ended elsewhere ends here.
   bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
-    LastWord& word = last_words_[rank];
+    TerminationMessage& word = termination_messages_[rank];
     if (header.item == Item::text) {
       word.text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       return true;
@@ -46,7 +46,7 @@ class ClosingTalk {
   void close() {
     is_closing_ = true;
     nodes_->join();
-    const LastWord word = own_word();
+    const TerminationMessage word = own_message();
     if (!word.text.empty()) {
       links_->say_to_all(Item::text, std::as_bytes(std::span(word.text)));
     }
@@ -56,26 +56,29 @@ class ClosingTalk {
   bool is_closing() const { return is_closing_; }
   /// All have said their last word.
   bool is_closed() const {
-    const auto is_silent = [](const LastWord& word) { return word.ending == Ending::none; };
-    return is_closing_ && std::count_if(last_words_.begin(), last_words_.end(), is_silent) == 1 && links_->has_said_all();
+    const auto is_silent = [](const TerminationMessage& word) { return word.ending == Ending::none; };
+    return is_closing_ && std::count_if(termination_messages_.begin(), termination_messages_.end(), is_silent) == 1 &&
+           links_->has_said_all();
   }
 
   /// This rank knows from that one's last word that the run has not ended well.
-  bool has_told_of_failure(std::uint32_t rank) const { return last_words_[rank].ending >= Ending::stalled; }
+  bool has_reported_of_failure(std::uint32_t rank) const { return termination_messages_[rank].ending >= Ending::stalled; }
 
-  /// How the run has ended, as badly as anywhere; throws what a rank has failed with, or StandstillError. When all is closed.
+  /// How the run has ended, as badly as anywhere; throws what a rank has failed with, or DeadlockError. When all is closed.
   RunEnd judge(const std::optional<Chaos>& disturbance) const {
-    const auto gravity = [](const LastWord& word) { return std::pair(word.ending, !word.text.empty()); };
-    const auto gravest = std::max_element(last_words_.begin(), last_words_.end(),
-                                          [&](const LastWord& a, const LastWord& b) { return gravity(a) < gravity(b); });
+    const auto gravity = [](const TerminationMessage& word) { return std::pair(word.ending, !word.text.empty()); };
+    const auto gravest =
+        std::max_element(termination_messages_.begin(), termination_messages_.end(),
+                         [&](const TerminationMessage& a, const TerminationMessage& b) { return gravity(a) < gravity(b); });
     switch (std::max(nodes_->ending(), gravest->ending)) {
       case Ending::failed:
         if (nodes_->failure()) {
           std::rethrow_exception(nodes_->failure());
         }
-        fail_as(gravest->kind, links_->name_of(static_cast<std::uint32_t>(gravest - last_words_.begin())) + ": " + gravest->text);
+        fail_as(gravest->kind,
+                links_->name_of(static_cast<std::uint32_t>(gravest - termination_messages_.begin())) + ": " + gravest->text);
       case Ending::stalled:
-        throw StandstillError(stall_text(disturbance) + nodes_->describe() + texts());
+        throw DeadlockError(deadlock_text(disturbance) + nodes_->describe() + texts());
       case Ending::interrupted:
         return RunEnd::interrupted;
       default:
@@ -89,14 +92,14 @@ class ClosingTalk {
     Ending ending;
     FailureKind kind;
   };
-  struct LastWord {
+  struct TerminationMessage {
     Ending ending = Ending::none;
     FailureKind kind = FailureKind::internal;  ///< of one that has failed
     std::string text;                          ///< of one that has failed, or a line for each program of one that stalls
   };
 
-  LastWord own_word() const {
-    LastWord word{.ending = nodes_->ending()};
+  TerminationMessage own_message() const {
+    TerminationMessage word{.ending = nodes_->ending()};
     if (word.ending == Ending::stalled) {
       word.text = nodes_->describe();
     }
@@ -111,7 +114,7 @@ class ClosingTalk {
   /// The texts of the other ranks.
   std::string texts() const {
     std::string texts;
-    for (const LastWord& word : last_words_) {
+    for (const TerminationMessage& word : termination_messages_) {
       texts += word.text;
     }
     return texts;
@@ -119,7 +122,7 @@ class ClosingTalk {
 
   RankLinks* links_;
   NodeThreads* nodes_;
-  std::vector<LastWord> last_words_;  ///< of other ranks, as far as they have come
+  std::vector<TerminationMessage> termination_messages_;  ///< of other ranks, as far as they have come
   bool is_closing_ = false;
 };
 

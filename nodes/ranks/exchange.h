@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "nodes/ranks/nap.h"
+#include "nodes/ranks/backoff.h"
 #include "nodes/ranks/rank_links.h"
 
 namespace dmpc::nodes {
@@ -20,7 +20,7 @@ using Wait = std::function<void(const std::function<bool()>& is_done)>;
 class Exchange {
  public:
   /// `links` outlive this.
-  explicit Exchange(RankLinks& links) : links_(&links), nap_(links.idle()) {}
+  explicit Exchange(RankLinks& links) : links_(&links), backoff_(links.idle()) {}
 
   /// Takes and sends what there is, as RankLinks do, with act() in between; sleep(time) if that is nothing, by what act() returns
   /// either.
@@ -32,7 +32,7 @@ class Exchange {
     if (!has_moved || ++turns_ % turns_a_look == 0) {
       links_->look_after();
     }
-    has_moved ? nap_.end() : rest(sleep);
+    has_moved ? backoff_.end() : rest(sleep);
   }
   /// With nothing else to do.
   template <class Receive>
@@ -47,7 +47,7 @@ class Exchange {
     }
   }
   /// Others, who moved what there was, do so no more: soon something comes.
-  void end_nap() { nap_.end(); }
+  void end_backoff() { backoff_.end(); }
 
  private:
   /// So many turns does a thread that always has something to do take from one look at who is silent to the next.
@@ -55,7 +55,7 @@ class Exchange {
 
   template <class Sleep>
   void rest(const Sleep& sleep) {
-    const std::chrono::nanoseconds time = nap_.next();
+    const std::chrono::nanoseconds time = backoff_.next();
     if (time == time.zero()) {
       sched_yield();
     } else {
@@ -64,7 +64,7 @@ class Exchange {
   }
 
   RankLinks* links_;
-  Nap nap_;
+  Backoff backoff_;
   std::uint32_t turns_ = 0;
 };
 

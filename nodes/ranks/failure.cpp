@@ -11,7 +11,7 @@ namespace dmpc::nodes {
 Failure failure_of(const std::exception_ptr& exception) {
   try {
     std::rethrow_exception(exception);
-  } catch (const core::RoomError& error) {
+  } catch (const core::CapacityError& error) {
     return {FailureKind::room, error.what()};
   } catch (const std::bad_alloc&) {
     return {FailureKind::room, "there is no more memory: ask for fewer nodes"};
@@ -27,7 +27,7 @@ Failure failure_of(const std::exception_ptr& exception) {
 void fail_as(FailureKind kind, const std::string& text) {
   switch (kind) {
     case FailureKind::room:
-      throw core::RoomError(text);
+      throw core::CapacityError(text);
     case FailureKind::fabric:
       throw FabricError(text);
     case FailureKind::internal:

@@ -23,7 +23,7 @@ struct Failure {
 /// What is said of an exception.
 Failure failure_of(const std::exception_ptr& exception);
 
-/// Throws what it is of: core::RoomError, FabricError or core::InternalError.
+/// Throws what it is of: core::CapacityError, FabricError or core::InternalError.
 [[noreturn]] void fail_as(FailureKind kind, const std::string& text);
 
 /// Tells rank 0, which waits for something else.

@@ -27,15 +27,15 @@ enum class Item : std::uint8_t {
   rank_report,    ///< a part of what the sender has to say after the run, beside its nodes
   rank_reported,  ///< no more of that comes from it
 
-  stream,       ///< from rank 0, before the run: a part of what a rank's nodes are made from
-  stream_read,  ///< to rank 0: how many bytes of that have been read
-  ready,        ///< to rank 0: all nodes are made
-  clock_asked,  ///< from rank 0, before the start or after the run: what the receiver's clock shows
-  clock_told,   ///< to rank 0: that
-  clocks_read,  ///< from rank 0, after the run: it asks no more
-  start,        ///< from rank 0: everybody is ready, and what the receiver's clock showed when the run began
-  failure,      ///< to rank 0: why no node is made, or no report
-  dismissal     ///< from rank 0, its very last word: the status with which all end
+  stream,          ///< from rank 0, before the run: a part of what a rank's nodes are made from
+  stream_read,     ///< to rank 0: how many bytes of that have been read
+  ready,           ///< to rank 0: all nodes are made
+  clock_asked,     ///< from rank 0, before the start or after the run: what the receiver's clock shows
+  clock_reported,  ///< to rank 0: that
+  clocks_read,     ///< from rank 0, after the run: it asks no more
+  start,           ///< from rank 0: everybody is ready, and what the receiver's clock showed when the run began
+  failure,         ///< to rank 0: why no node is made, or no report
+  dismissal        ///< from rank 0, its very last word: the status with which all end
 };
 
 /// Stands before an item's bytes.

@@ -36,10 +36,10 @@ class GatheringTalk {
         rank_reports_[rank].traffic = value_of<RankTraffic>(bytes);
         return true;
       case Item::rank_report:
-        append(rank_reports_[rank].told, bytes);
+        append(rank_reports_[rank].reported, bytes);
         return true;
       case Item::rank_reported:
-        ++ranks_told_;
+        ++reports_ended_;
         return true;
       default:
         return false;
@@ -47,33 +47,33 @@ class GatheringTalk {
   }
 
   /// `told` by the nodes here, by index. On rank 0 with what nodes elsewhere told.
-  std::vector<std::string> gather(std::vector<std::string> told, const Wait& wait) {
+  std::vector<std::string> gather(std::vector<std::string> reported, const Wait& wait) {
     if (links_->rank() == 0) {
       wait([this] { return ranks_reported_ + 1 == links_->rank_count(); });
-      for (std::size_t index = 0; index < told.size(); ++index) {
-        told[index] += reports_[index];
+      for (std::size_t index = 0; index < reported.size(); ++index) {
+        reported[index] += reports_[index];
       }
-      return told;
+      return reported;
     }
-    for (std::uint32_t index = 0; index < told.size(); ++index) {
-      if (!told[index].empty()) {
-        links_->say(0, Item::report, std::as_bytes(std::span(told[index])), index);
+    for (std::uint32_t index = 0; index < reported.size(); ++index) {
+      if (!reported[index].empty()) {
+        links_->say(0, Item::report, std::as_bytes(std::span(reported[index])), index);
       }
     }
     links_->say(0, Item::reported, {});
     wait([this] { return links_->has_said_all(); });
-    return told;
+    return reported;
   }
 
   /// `own`: of this rank. On rank 0 those of all ranks, but for clocks; else nothing.
   std::vector<RankReport> gather_ranks(RankReport own, const Wait& wait) {
     if (links_->rank() == 0) {
-      wait([this] { return ranks_told_ + 1 == links_->rank_count(); });
+      wait([this] { return reports_ended_ + 1 == links_->rank_count(); });
       rank_reports_.front() = std::move(own);
       return std::move(rank_reports_);
     }
     links_->say(0, Item::rank_traffic, bytes_of(own.traffic));
-    links_->say(0, Item::rank_report, std::as_bytes(std::span(own.told)));
+    links_->say(0, Item::rank_report, std::as_bytes(std::span(own.reported)));
     links_->say(0, Item::rank_reported, {});
     wait([this] { return links_->has_said_all(); });
     return {};
@@ -87,7 +87,7 @@ class GatheringTalk {
   RankLinks* links_;
   std::vector<std::string> reports_;      ///< of other ranks' nodes, by node
   std::vector<RankReport> rank_reports_;  ///< of other ranks themselves
-  std::uint32_t ranks_reported_ = 0, ranks_told_ = 0;
+  std::uint32_t ranks_reported_ = 0, reports_ended_ = 0;
 };
 
 }  // namespace dmpc::nodes

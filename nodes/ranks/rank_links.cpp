@@ -47,7 +47,7 @@ bool RankLinks::has_said_all() const {
 FrameNumber RankLinks::note(const Arrival& arrival) {
   Peer& peer = peers_[arrival.rank];
   peer.heard = time_run();
-  peer.told = 0;
+  peer.reported = 0;
   const FrameNumber expected = peer.frames_taken;
   peer.frames_taken = number_of(arrival.frame) + 1;
   return expected;
@@ -62,34 +62,34 @@ void RankLinks::expect_number(FrameNumber expected, const Arrival& arrival) cons
 
 RankLinks::Clock::duration RankLinks::time_run() {
   const Clock::time_point now = Clock::now();
-  time_run_ += std::min<Clock::duration>(now - std::exchange(last_look_, now), silence_.look_max());
+  time_run_ += std::min<Clock::duration>(now - std::exchange(last_poll_, now), silence_.look_max());
   return time_run_;
 }
 
-void RankLinks::tell_of_silence(std::uint32_t rank, Clock::duration silence) {
-  const std::int64_t times = silence / silence_.told;
+void RankLinks::report_of_silence(std::uint32_t rank, Clock::duration silence) {
+  const std::int64_t times = silence / silence_.reported;
   const bool is_first = fabric_->rank() == (rank == 0 ? 1U : 0U);
-  if (is_first && listener_ && times > std::exchange(peers_[rank].told, std::max(times, peers_[rank].told))) {
+  if (is_first && listener_ && times > std::exchange(peers_[rank].reported, std::max(times, peers_[rank].reported))) {
     const auto seconds = [](Clock::duration time) {
       return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(time).count()) + " s";
     };
-    listener_(name_of(rank) + ": nothing has been heard of it for " + seconds(times * silence_.told) +
+    listener_(name_of(rank) + ": nothing has been heard of it for " + seconds(times * silence_.reported) +
               "; it is waited for until that is " + seconds(silence_.longest));
   }
 }
 
 void RankLinks::look_after() {
   const Clock::duration run = time_run();
-  const Clock::time_point now = last_look_;
+  const Clock::time_point now = last_poll_;
   for (std::uint32_t rank = 0; rank < ways_.size(); ++rank) {
     if (!is_other(rank)) {
       continue;
     }
-    if (now - peers_[rank].spoken_to > silence_.life_sign) {
-      ways_[rank].show_life();
+    if (now - peers_[rank].spoken_to > silence_.heartbeat) {
+      ways_[rank].send_heartbeat();
       peers_[rank].spoken_to = now;
     }
-    tell_of_silence(rank, run - peers_[rank].heard);
+    report_of_silence(rank, run - peers_[rank].heard);
     if (run - peers_[rank].heard > silence_.longest) {
       throw LostRank(name_of(rank) + " is lost: nothing has been heard of it for " + std::to_string(silence_.longest.count()) +
                      " ms");

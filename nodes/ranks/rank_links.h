@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/ranks/backoff.h"
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/frame.h"
-#include "nodes/ranks/nap.h"
 #include "nodes/ranks/rank_way.h"
 
 namespace dmpc::nodes {
@@ -22,11 +22,11 @@ namespace dmpc::nodes {
 /// When ranks are taken for lost. A silence is reckoned by the time in which this rank itself ran: where all were stopped, as
 /// clusters stop what has to wait for others, nobody was silent.
 struct RankSilence {
-  std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long
+  std::chrono::milliseconds heartbeat{2'000};  ///< a rank with nothing to say says so after so long
   std::chrono::milliseconds longest{600'000};  ///< one that says nothing for so long is lost: a debugger may hold it, or swapping
-  std::chrono::milliseconds told{30'000};      ///< each time one has said nothing for so long that is told
+  std::chrono::milliseconds reported{30'000};  ///< each time one has said nothing for so long that is told
   /// Who looks up after a longer time than this did not run in between, and counts no more than this.
-  std::chrono::milliseconds look_max() const { return std::min(longest, told) / 8; }
+  std::chrono::milliseconds look_max() const { return std::min(longest, reported) / 8; }
 };
 
 /// Thread safety: belongs to one thread at a time.
@@ -74,7 +74,7 @@ class RankLinks {
   /// Shows others that this rank lives, and tells whom it waits for; throws LostRank if one has been silent for too long.
   void look_after();
   /// Who is told "rank 1 on host b: ..." of a rank that is waited for: on rank 0, and where that is the one on rank 1.
-  void tell_to(std::function<void(const std::string&)> listener) { listener_ = std::move(listener); }
+  void report_to(std::function<void(const std::string&)> listener) { listener_ = std::move(listener); }
 
   struct Sent {
     std::uint64_t frames = 0, bytes = 0;
@@ -92,8 +92,8 @@ class RankLinks {
 
   struct Peer {
     FrameNumber frames_taken = 0;
-    Clock::duration heard{};  ///< by the time in which this rank ran
-    std::int64_t told = 0;    ///< how often its silence has been since
+    Clock::duration heard{};    ///< by the time in which this rank ran
+    std::int64_t reported = 0;  ///< how often its silence has been since
     Clock::time_point spoken_to;
   };
 
@@ -104,14 +104,14 @@ class RankLinks {
   /// Returns the number that it should have.
   FrameNumber note(const Arrival& arrival);
   void expect_number(FrameNumber expected, const Arrival& arrival) const;
-  void tell_of_silence(std::uint32_t rank, Clock::duration silence);
+  void report_of_silence(std::uint32_t rank, Clock::duration silence);
 
   Fabric* fabric_;
   RankSilence silence_;
   Idle idle_;
   std::vector<RankWay> ways_;  ///< by rank, this one included
   std::vector<Peer> peers_;    ///< likewise
-  Clock::time_point last_look_ = Clock::now();
+  Clock::time_point last_poll_ = Clock::now();
   Clock::duration time_run_{};
   Sent taken_;
   std::function<void(const std::string&)> listener_;

@@ -19,8 +19,8 @@ static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to
 
 struct RankReport {
   RankTraffic traffic;
-  ClockDrift clock;  ///< of an observed run
-  std::string told;  ///< what whoever called there had to say
+  ClockDrift clock;      ///< of an observed run
+  std::string reported;  ///< what whoever called there had to say
 };
 
 }  // namespace dmpc::nodes

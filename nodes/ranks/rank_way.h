@@ -42,7 +42,7 @@ class RankWay {
   }
 
   /// Sends a frame, though it be an empty one.
-  void show_life() {
+  void send_heartbeat() {
     if (begin_frame()) {
       send();
     }

@@ -51,7 +51,7 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
   return plan;
 }
 
-/// While nodes carry, the communicating thread's naps are so many times as long: it looks where all that are awake are stopped,
+/// While nodes carry, the communicating thread's sleeps are so many times as long: it looks where all that are awake are stopped,
 /// or in long quanta.
 constexpr int leisure = 16;
 
@@ -180,7 +180,7 @@ struct RanksRunner::Implementation final : Carrier {
       throw Dismissed{value_of<int>(bytes)};
     }
     core::expect(header.item == Item::failure, "what a run is made from comes before it");
-    if (!closing.has_told_of_failure(rank)) {  // else it is of the run, of which this rank knows
+    if (!closing.has_reported_of_failure(rank)) {  // else it is of the run, of which this rank knows
       fail_as_said(links.name_of(rank), bytes);
     }
   }
@@ -233,12 +233,12 @@ struct RanksRunner::Implementation final : Carrier {
     call.wait(is_something_new ? time.zero() : do_nodes_carry ? leisure * time : time);
     lock.lock();
     if (do_nodes_carry && nodes.all_sleep()) {
-      exchange.end_nap();
+      exchange.end_backoff();
     }
   }
 
-  std::vector<RankReport> gather_ranks(const std::string& told) {
-    std::vector<RankReport> reports = gathering.gather_ranks({counting.traffic(), {}, told}, communicating());
+  std::vector<RankReport> gather_ranks(const std::string& reported) {
+    std::vector<RankReport> reports = gathering.gather_ranks({counting.traffic(), {}, reported}, communicating());
     for (std::uint32_t rank = 1; rank < reports.size(); ++rank) {
       reports[rank].clock = clocks.drift_of(rank);
     }
@@ -278,12 +278,12 @@ Program& RanksRunner::program(std::size_t index) { return *implementation_->node
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
 
 /// Every rank does so after the run, in which it is seen to that nothing else is under way.
-std::vector<std::string> RanksRunner::gather(const Tell& tell) {
+std::vector<std::string> RanksRunner::gather(const Report& report) {
   Implementation& runner = *implementation_;
-  return runner.gathering.gather(told_by(runner.nodes.processors(), runner.is_here.size(), tell), runner.communicating());
+  return runner.gathering.gather(reported_by(runner.nodes.processors(), runner.is_here.size(), report), runner.communicating());
 }
 
-std::vector<RankReport> RanksRunner::gather_ranks(const std::string& told) { return implementation_->gather_ranks(told); }
+std::vector<RankReport> RanksRunner::gather_ranks(const std::string& reported) { return implementation_->gather_ranks(reported); }
 RankTraffic RanksRunner::traffic() const { return implementation_->counting.traffic(); }
 
 }  // namespace dmpc::nodes

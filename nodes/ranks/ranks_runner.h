@@ -40,9 +40,9 @@ class RanksRunner final : public Runner {
 
   bool is_here(std::size_t index) const override;
   /// To be called on all ranks, or on none.
-  std::vector<std::string> gather(const Tell& tell) override;
+  std::vector<std::string> gather(const Report& report) override;
   /// Likewise, after gather().
-  std::vector<RankReport> gather_ranks(const std::string& told) override;
+  std::vector<RankReport> gather_ranks(const std::string& reported) override;
   /// After run(): until all were told how it had ended.
   RankTraffic traffic() const;
 

@@ -12,10 +12,10 @@
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"
 #include "nodes/flat_bytes.h"
+#include "nodes/observers/watching.h"
 #include "nodes/ranks/rank_memory.h"
 #include "nodes/ranks/streams.h"
 #include "nodes/runner.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
 
@@ -32,7 +32,7 @@ inline StreamKind kind_of_stream(std::string_view bytes) {
 }
 
 /// What a rank brings to a run that rank 0 leads.
-struct Following {
+struct WorkerCallbacks {
   /// Called when the plan is known, before anything of it is set aside; throws if this rank has no room.
   std::function<void(const RankMemory&)> check_room = [](const RankMemory&) {};
   /// Called next, if rank 0 wants the nodes looked at, with what it orders: who looks on here.
@@ -44,7 +44,7 @@ struct Following {
 };
 
 /// How a run went for a rank that renders what rank 0 has handed out.
-struct Followed {
+struct WorkerOutcome {
   RunEnd end = RunEnd::finished;
   std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes keep during the run
 };
@@ -63,8 +63,8 @@ void hand_out_again(const Value& value, RankLinks& links) {
 
 /// The value, from what another rank was told.
 template <class Value>
-Value read_again(std::string_view told) {
-  FlatReader flat(told);
+Value read_again(std::string_view reported) {
+  FlatReader flat(reported);
   core::expect(flat.take<StreamKind>() == StreamKind::again, "nodes that are there are told of another run");
   return flat.take<Value>();
 }
@@ -73,18 +73,18 @@ Value read_again(std::string_view told) {
 /// that are here by what was told and the rest of the stream; they run, by `run(stop)`, and where `is_repeated()` run anew after
 /// each `begin_again(told)`, until they give way to others. Where they are not to run anew it returns after the first run.
 template <class MakePart>
-Followed follow_runs(RankLinks& links, const std::stop_token& stop, const MakePart& make_part) {
+WorkerOutcome run_as_worker(RankLinks& links, const std::stop_token& stop, const MakePart& make_part) {
   StreamFromHost stream(links);
-  std::string told = read_counted(stream);
+  std::string reported = read_counted(stream);
   while (true) {
-    auto part = make_part(std::string_view(told), stream);
-    Followed followed{.bytes_received = stream.bytes_read()};
-    followed.end = part.run(stop);
+    auto part = make_part(std::string_view(reported), stream);
+    WorkerOutcome outcome{.bytes_received = stream.bytes_read()};
+    outcome.end = part.run(stop);
     if (!part.is_repeated()) {
-      return followed;
+      return outcome;
     }
-    while (kind_of_stream(told = read_counted(stream)) == StreamKind::again) {
-      part.begin_again(told);
+    while (kind_of_stream(reported = read_counted(stream)) == StreamKind::again) {
+      part.begin_again(reported);
       part.run(stop);
     }
   }

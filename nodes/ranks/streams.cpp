@@ -103,16 +103,16 @@ std::size_t StreamFromHost::take(std::span<std::byte> into) {
     taken += part;
   }
   bytes_read_ += taken;
-  if (bytes_read_ - bytes_told_ >= window_.size() / 4) {
+  if (bytes_read_ - bytes_reported_ >= window_.size() / 4) {
     say_read();
   }
   return taken;
 }
 
 void StreamFromHost::say_read() {
-  const std::uint64_t bytes = bytes_read_ - bytes_told_;
+  const std::uint64_t bytes = bytes_read_ - bytes_reported_;
   links_->say(0, Item::stream_read, bytes_of(bytes));
-  bytes_told_ = bytes_read_;
+  bytes_reported_ = bytes_read_;
 }
 
 void StreamFromHost::say_ready() {

@@ -83,7 +83,7 @@ class StreamFromHost final : public ByteStream {
   Exchange exchange_;
   std::vector<std::byte> window_;      ///< a ring: what has come and is not read
   std::size_t first_ = 0, count_ = 0;  ///< of it
-  std::uint64_t bytes_read_ = 0, bytes_told_ = 0;
+  std::uint64_t bytes_read_ = 0, bytes_reported_ = 0;
 };
 
 }  // namespace dmpc::nodes

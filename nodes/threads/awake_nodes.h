@@ -1,9 +1,9 @@
 // Which of the nodes that share a thread are awake, whose turn is next, and where that thread, a driver, sleeps while none is.
 //
-// A node sleeps as any does: its mailbox's word is ASLEEP (nodes/mailbox.h). Whoever replaces that rings its bell, which puts the
-// node's number into the driver's own mailbox; so the driver is woken, and counted, as a node with a thread of its own is.
+// A node sleeps as any does: its mailbox's word is ASLEEP (nodes/mailbox.h). Whoever replaces that rings its wake-up, which puts
+// the node's number into the driver's own mailbox; so the driver is woken, and counted, as a node with a thread of its own is.
 //
-// Thread safety: bells may be rung by any thread, and woken().rouse() be called; everything else belongs to the driver.
+// Thread safety: wake-ups may be rung by any thread, and woken().rouse() be called; everything else belongs to the driver.
 //
 // Invariants
 // (1) A node is in line, or its turn is on, or its mailbox's word is ASLEEP, or it is woken: then its number is with the one
@@ -11,8 +11,8 @@
 // (2) The awake count (nodes/awake_count.h) counts drivers. A driver leaves it when nobody is in line and after the word of
 //     woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a driver that runs, or brings
 //     packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is under way.
-// Progress: as push()'s. A driver that is stopped between a packet and the bell delays the packet's node until it goes on, as it
-// does its own nodes.
+// Progress: as push()'s. A driver that is stopped between a packet and the wake-up delays the packet's node until it goes on, as
+// it does its own nodes.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +35,9 @@ class BasicAwakeNodes {
   BasicAwakeNodes(std::uint32_t count, LocalMemory& memory, BasicAwakeCount<Atomics>& awake)
       : woken_(capacity(count), memory), awake_(&awake), line_(count), in_line_(count) {
     core::expect(count > 0, "a driver has a node");
-    bells_.reserve(count);
+    wake_ups_.reserve(count);
     for (std::uint32_t number = 0; number < count; ++number) {
-      bells_.emplace_back(*this, number);
+      wake_ups_.emplace_back(*this, number);
       line_[number] = number;
     }
   }
@@ -48,7 +48,7 @@ class BasicAwakeNodes {
   static std::size_t bytes(std::uint32_t count) { return Mailbox::bytes(capacity(count)); }
 
   /// For the mailbox of a node.
-  Bell& bell(std::uint32_t number) { return bells_.at(number); }
+  WakeUp& wake_up(std::uint32_t number) { return wake_ups_.at(number); }
 
   /// Puts those that have been woken in line, and calls woke(number) for each.
   template <class Woke>
@@ -82,9 +82,9 @@ class BasicAwakeNodes {
  private:
   using Mailbox = BasicMailbox<Atomics>;
 
-  class NodeBell final : public Bell {
+  class NodeWakeUp final : public WakeUp {
    public:
-    NodeBell(BasicAwakeNodes& nodes, std::uint32_t number) : nodes_(&nodes), number_(number) {}
+    NodeWakeUp(BasicAwakeNodes& nodes, std::uint32_t number) : nodes_(&nodes), number_(number) {}
     void ring() override { nodes_->wake(number_); }
 
    private:
@@ -101,7 +101,7 @@ class BasicAwakeNodes {
 
   Mailbox woken_;
   BasicAwakeCount<Atomics>* awake_;
-  std::vector<NodeBell> bells_;
+  std::vector<NodeWakeUp> wake_ups_;
   std::vector<std::uint32_t> line_;  ///< a ring
   std::size_t first_ = 0, in_line_;
 };

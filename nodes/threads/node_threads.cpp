@@ -15,15 +15,15 @@ namespace dmpc::nodes {
 namespace {
 
 bool packet_comes_soon(ThreadProcessor& self) {
-  for (int look = 0; look < self.looks.allowed() && self.mailbox.is_empty(); ++look) {
+  for (int look = 0; look < self.polls.allowed() && self.mailbox.is_empty(); ++look) {
     const std::uint64_t before_ns = nanoseconds(CLOCK_MONOTONIC);
     sched_yield();
     const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC);
-    if (now_ns - before_ns > Looks::long_yield_ns) {
-      self.looks.yielded_long(now_ns, nanoseconds(CLOCK_PROCESS_CPUTIME_ID));
+    if (now_ns - before_ns > PollBackoff::long_yield_ns) {
+      self.polls.yielded_long(now_ns, nanoseconds(CLOCK_PROCESS_CPUTIME_ID));
     }
   }
-  self.looks.end();
+  self.polls.end();
   return !self.mailbox.is_empty();
 }
 
@@ -42,17 +42,17 @@ std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
 }
 
 /// How many drivers so many nodes have, the host included, if it is a pool of so many threads (ComputerRequest).
-std::size_t driver_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
+std::size_t worker_thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
   return pool_threads ? std::min<std::size_t>(*pool_threads, node_count) : 0;
 }
 
 std::uint32_t thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
-  return static_cast<std::uint32_t>(pool_threads ? driver_count(pool_threads, node_count) : node_count);
+  return static_cast<std::uint32_t>(pool_threads ? worker_thread_count(pool_threads, node_count) : node_count);
 }
 
 }  // namespace
 
-std::string stall_text(const std::optional<Chaos>& chaos) {
+std::string deadlock_text(const std::optional<Chaos>& chaos) {
   return "all nodes sleep, nothing is under way, and the work is unfinished" +
          (chaos ? " (chaos seed " + std::to_string(chaos->seed) + "):" : ":");
 }
@@ -76,15 +76,15 @@ NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, cons
       by_index_[i] = processors_.back().get();
     }
   }
-  make_drivers(driver_count(pool_threads, processors_.size()));
+  make_worker_threads(worker_thread_count(pool_threads, processors_.size()));
 }
 
 /// Neighbours, which have most to say to each other, share a driver; the last one has the host.
-void NodeThreads::make_drivers(std::size_t count) {
+void NodeThreads::make_worker_threads(std::size_t count) {
   const std::span<const std::unique_ptr<ThreadProcessor>> all = processors_;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = all.size() * i / count, end = all.size() * (i + 1) / count;
-    drivers_.push_back(std::make_unique<Driver>(all.subspan(first, end - first), awake_));
+    worker_threads_.push_back(std::make_unique<WorkerThread>(all.subspan(first, end - first), awake_));
   }
 }
 
@@ -92,7 +92,7 @@ NodeThreads::~NodeThreads() = default;
 
 void NodeThreads::deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
   ThreadProcessor& source = *by_index_[header.source];
-  const bool may_wait = (source.patience.kinds >> header.kind & 1U) != 0;
+  const bool may_wait = (source.batching.kinds >> header.kind & 1U) != 0;
   PacketHeader sent = header;
   const std::uint32_t index = index_of(target);
   std::span<const std::byte> front;
@@ -123,13 +123,13 @@ void NodeThreads::add_waiting(ThreadProcessor& source, NodeId target, const Pack
   core::expect(source.waiting_count == 0 || source.waiting_for == target, "packets that may wait have one target");
   core::expect(mailbox_towards(target).add(source.waiting, header, payload, front), "credits leave room in the target's mailbox");
   source.waiting_for = target;
-  if (++source.waiting_count >= source.patience.packets || !may_wait) {
-    hand_over(source);
+  if (++source.waiting_count >= source.batching.packets || !may_wait) {
+    migration(source);
   }
 }
 
-void NodeThreads::hand_over(ThreadProcessor& source) {
-  mailbox_towards(source.waiting_for).hand_over(source.waiting, count_towards(source.waiting_for));
+void NodeThreads::migration(ThreadProcessor& source) {
+  mailbox_towards(source.waiting_for).migration(source.waiting, count_towards(source.waiting_for));
   source.waiting_count = source.quanta_waited = 0;
 }
 
@@ -137,8 +137,8 @@ void NodeThreads::start(std::uint64_t start_ns) {
   start_ns_ = start_ns;
   try {
     start_threads();
-  } catch (const core::RoomError&) {
-    fail(std::make_exception_ptr(core::RoomError(too_few_threads(starts_.size() - 1))));
+  } catch (const core::CapacityError&) {
+    fail(std::make_exception_ptr(core::CapacityError(too_few_threads(starts_.size() - 1))));
   } catch (...) {
     fail(std::current_exception());
   }
@@ -151,20 +151,20 @@ void NodeThreads::begin_again() {
   for (const auto& processor : processors_) {
     processor->begin_again();
   }
-  for (const auto& driver : drivers_) {
-    driver->begin_again();
+  for (const auto& worker_thread : worker_threads_) {
+    worker_thread->begin_again();
   }
-  awake_.begin_again(static_cast<std::uint32_t>(drivers_.empty() ? processors_.size() : drivers_.size()));
+  awake_.begin_again(static_cast<std::uint32_t>(worker_threads_.empty() ? processors_.size() : worker_threads_.size()));
 }
 
 void NodeThreads::start_threads() {
   const std::size_t more_bytes = outlet_ != nullptr ? carrier_stack_bytes : 0;
   starts_.reserve(processors_.size());
-  for (const auto& driver : drivers_) {
-    starts_.push_back({this, nullptr, driver.get()});
-    driver->thread.start(driver->stack_bytes() + more_bytes, enter, &starts_.back());
+  for (const auto& worker_thread : worker_threads_) {
+    starts_.push_back({this, nullptr, worker_thread.get()});
+    worker_thread->thread.start(worker_thread->stack_bytes() + more_bytes, enter, &starts_.back());
   }
-  if (!drivers_.empty()) {
+  if (!worker_threads_.empty()) {
     return;
   }
   for (const auto& processor : processors_) {
@@ -174,8 +174,8 @@ void NodeThreads::start_threads() {
 }
 
 void NodeThreads::join() {
-  for (const auto& driver : drivers_) {
-    driver->thread.join();
+  for (const auto& worker_thread : worker_threads_) {
+    worker_thread->thread.join();
   }
   for (const auto& processor : processors_) {
     processor->thread.join();
@@ -183,9 +183,10 @@ void NodeThreads::join() {
 }
 
 std::string NodeThreads::too_few_threads(std::size_t started) const {
-  if (!drivers_.empty()) {
-    return "a pool of " + std::to_string(drivers_.size()) + " threads was asked for, and this computer lets dmpc start but " +
-           std::to_string(started) + ": ask for fewer threads, or for a higher limit (ulimit -u, pids.max of a container)";
+  if (!worker_threads_.empty()) {
+    return "a pool of " + std::to_string(worker_threads_.size()) +
+           " threads was asked for, and this computer lets dmpc start but " + std::to_string(started) +
+           ": ask for fewer threads, or for a higher limit (ulimit -u, pids.max of a container)";
   }
   return "a computer of " + std::to_string(by_index_.size() - 1) + " nodes takes " + std::to_string(processors_.size()) +
          " threads" + (outlet_ == nullptr ? "" : " here") + ", and this one lets dmpc start but " + std::to_string(started) +
@@ -194,7 +195,7 @@ std::string NodeThreads::too_few_threads(std::size_t started) const {
 
 void NodeThreads::enter(void* start) {
   const Start& self = *static_cast<Start*>(start);
-  self.driver != nullptr ? self.nodes->run_driver(*self.driver) : self.nodes->run_node(*self.processor);
+  self.worker_thread != nullptr ? self.nodes->run_worker_thread(*self.worker_thread) : self.nodes->run_node(*self.processor);
 }
 
 void NodeThreads::run_node(ThreadProcessor& self) {
@@ -220,25 +221,26 @@ void NodeThreads::run_node(ThreadProcessor& self) {
   counters.wall_ns = nanoseconds(CLOCK_MONOTONIC) - start_ns;
 }
 
-void NodeThreads::run_driver(Driver& driver) {
+void NodeThreads::run_worker_thread(WorkerThread& worker_thread) {
   core::use_usual_arithmetic();
-  driver.begin_turns();
-  const std::uint64_t start_ns = driver.times.now_ns();
+  worker_thread.begin_turns();
+  const std::uint64_t start_ns = worker_thread.times.now_ns();
   try {
     while (ending() == Ending::none) {
-      driver.awake_nodes.take_woken([&driver](std::uint32_t number) { driver.note_sleep(*driver.nodes[number]); });
-      const std::optional<std::uint32_t> next = driver.awake_nodes.next();
-      next ? take_turn(driver, *next) : sleep(driver);
+      worker_thread.awake_nodes.take_woken(
+          [&worker_thread](std::uint32_t number) { worker_thread.note_sleep(*worker_thread.nodes[number]); });
+      const std::optional<std::uint32_t> next = worker_thread.awake_nodes.next();
+      next ? take_turn(worker_thread, *next) : sleep(worker_thread);
     }
   } catch (...) {
     fail(std::current_exception());
   }
-  driver.end_turns(start_ns);
+  worker_thread.end_turns(start_ns);
 }
 
 /// A node runs until it has nothing to do, or has had its quanta; who is awake after that has another turn after all others.
-void NodeThreads::take_turn(Driver& driver, std::uint32_t number) {
-  ThreadProcessor& self = *driver.nodes[number];
+void NodeThreads::take_turn(WorkerThread& worker_thread, std::uint32_t number) {
+  ThreadProcessor& self = *worker_thread.nodes[number];
   Next next = Next::go_on;
   for (int quantum = 0; next == Next::go_on && quantum < quanta_per_turn && ending() == Ending::none; ++quantum) {
     next = step(self);
@@ -250,10 +252,10 @@ void NodeThreads::take_turn(Driver& driver, std::uint32_t number) {
     self.pass_idly();
   }
   if (next != Next::rest || !falls_asleep(self)) {
-    driver.awake_nodes.stay(number);
+    worker_thread.awake_nodes.stay(number);
   }
   carry();
-  driver.end_turn(self);
+  worker_thread.end_turn(self);
 }
 
 void NodeThreads::carry() const {
@@ -284,8 +286,8 @@ NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
   const bool has_more = work(self);
   const bool holds_packets = self.holds_packets();
   // Before it sleeps in any case, for an awake node alone keeps the others from finding that all is over.
-  if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= patience_quanta_max)) {
-    hand_over(self);
+  if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= batching_quanta_max)) {
+    migration(self);
   }
   return has_more ? Next::go_on : holds_packets ? Next::pass : Next::rest;
 }
@@ -308,10 +310,10 @@ bool NodeThreads::work_observed(ThreadProcessor& self) {
   const bool has_more = self.program->work();
   end_span(self, span);
   if (self.is_waiting && !has_more) {
-    self.lent_ns += span.own_ns;
+    self.service_idle_ns += span.own_ns;
   } else if (!has_more) {
     self.waits_since_ns = span.end_ns;
-    self.lent_ns = 0;
+    self.service_idle_ns = 0;
   }
   self.is_waiting = !has_more;
   return has_more;
@@ -331,7 +333,7 @@ void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) 
                        .times = {.received_ns = span.begin_ns}});
   self.program->receive(packet);
   end_span(self, span);
-  self.lent_ns += self.is_waiting ? span.own_ns : 0;
+  self.service_idle_ns += self.is_waiting ? span.own_ns : 0;
 }
 
 /// What it does for others ends no wait, as on a modelled machine.
@@ -342,7 +344,7 @@ void NodeThreads::end_wait(ThreadProcessor& self, const Packet& packet, std::uin
                      .kind = packet.kind,
                      .begin_ns = self.waits_since_ns,
                      .end_ns = end_ns,
-                     .own_ns = end_ns - self.waits_since_ns - self.lent_ns});
+                     .own_ns = end_ns - self.waits_since_ns - self.service_idle_ns});
 }
 
 Span NodeThreads::begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const {
@@ -373,11 +375,11 @@ void NodeThreads::rest(ThreadProcessor& self) {
 }
 
 /// Until a node is woken or the run ends.
-void NodeThreads::sleep(Driver& driver) {
-  if (go_to_sleep(driver.awake_nodes.woken())) {
-    driver.share_out_time();
-    driver.awake_nodes.woken().wait();
-    driver.begin_turns();
+void NodeThreads::sleep(WorkerThread& worker_thread) {
+  if (go_to_sleep(worker_thread.awake_nodes.woken())) {
+    worker_thread.share_out_time();
+    worker_thread.awake_nodes.woken().wait();
+    worker_thread.begin_turns();
   }
 }
 
@@ -411,10 +413,10 @@ void NodeThreads::end(Ending ending) {
   if (!ending_.compare_exchange_strong(none, ending, std::memory_order_release, std::memory_order_relaxed)) {
     return;
   }
-  for (const auto& driver : drivers_) {
-    driver->awake_nodes.woken().rouse();
+  for (const auto& worker_thread : worker_threads_) {
+    worker_thread->awake_nodes.woken().rouse();
   }
-  if (drivers_.empty()) {
+  if (worker_threads_.empty()) {
     for (const auto& processor : processors_) {
       processor->mailbox.rouse();
     }

@@ -17,8 +17,8 @@
 #include "nodes/node.h"
 #include "nodes/observer.h"
 #include "nodes/runner.h"
-#include "nodes/threads/driver.h"
 #include "nodes/threads/thread_processor.h"
+#include "nodes/threads/worker_thread.h"
 
 namespace dmpc::nodes {
 
@@ -45,7 +45,7 @@ struct Outlet {
 };
 
 /// What is said of a stall, before a line for each program.
-std::string stall_text(const std::optional<Chaos>& chaos);
+std::string deadlock_text(const std::optional<Chaos>& chaos);
 
 /// Thread safety: deliver() and what threads run belongs to the nodes' threads; end(), fail() and ending() may be called from
 /// any. What is said to be the bringer's is called by one thread at a time, a node's or one that is none;
@@ -108,7 +108,7 @@ class NodeThreads final : public Network {
   struct Start {
     NodeThreads* nodes;
     ThreadProcessor* processor;
-    Driver* driver;  ///< or this one
+    WorkerThread* worker_thread;  ///< or this one
   };
   /// What a node does after a quantum.
   enum class Next : std::uint8_t {
@@ -120,15 +120,15 @@ class NodeThreads final : public Network {
   Mailbox& mailbox_towards(NodeId target) const;
   void add_waiting(ThreadProcessor& source, NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
                    std::span<const std::byte> front, bool may_wait);
-  void hand_over(ThreadProcessor& source);
+  void migration(ThreadProcessor& source);
   AwakeCount& count_towards(NodeId target) { return by_index_[index_of(target)] != nullptr ? awake_ : uncounted_; }
-  void make_drivers(std::size_t count);
+  void make_worker_threads(std::size_t count);
   void start_threads();
   std::string too_few_threads(std::size_t started) const;
   static void enter(void* start);
   void run_node(ThreadProcessor& self);
-  void run_driver(Driver& driver);
-  void take_turn(Driver& driver, std::uint32_t number);
+  void run_worker_thread(WorkerThread& worker_thread);
+  void take_turn(WorkerThread& worker_thread, std::uint32_t number);
   static bool falls_asleep(ThreadProcessor& self);
   Next step(ThreadProcessor& self);
   bool work(ThreadProcessor& self);
@@ -139,7 +139,7 @@ class NodeThreads final : public Network {
   Span begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const;
   void end_span(ThreadProcessor& self, Span& span) const;
   void rest(ThreadProcessor& self);
-  void sleep(Driver& driver);
+  void sleep(WorkerThread& worker_thread);
   bool go_to_sleep(Mailbox& inbox);
   bool has_to_send() const { return outlet_ != nullptr && !outlet_->outbox.is_empty(); }
   void carry() const;
@@ -155,7 +155,7 @@ class NodeThreads final : public Network {
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
   std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< those that are here
   std::vector<ThreadProcessor*> by_index_;                    ///< of all; nothing for those that are elsewhere
-  std::vector<std::unique_ptr<Driver>> drivers_;              ///< none where each node has a thread
+  std::vector<std::unique_ptr<WorkerThread>> worker_threads_;  ///< none where each node has a thread
   std::vector<Start> starts_;
 };
 

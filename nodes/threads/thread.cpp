@@ -31,7 +31,7 @@ void Thread::start(std::size_t stack_bytes, void (*body)(void*), void* argument)
   started_ = sized && pthread_create(&handle_, &attributes, enter, this) == 0;
   pthread_attr_destroy(&attributes);
   if (!started_) {
-    throw core::RoomError("this computer has no room for another thread");
+    throw core::CapacityError("this computer has no room for another thread");
   }
 }
 

@@ -20,7 +20,7 @@ class Thread {
   ~Thread() { join(); }
 
   /// Runs body(argument) on a thread with at least `stack_bytes` of stack (more under sanitizers). `body` must not throw. Throws
-  /// core::RoomError if the real computer has no room for another thread.
+  /// core::CapacityError if the real computer has no room for another thread.
   void start(std::size_t stack_bytes, void (*body)(void*), void* argument);
   /// Waits until the body has returned.
   void join();

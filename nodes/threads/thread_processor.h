@@ -10,16 +10,16 @@
 
 #include "core/base/expect.h"
 #include "nodes/atomics.h"
+#include "nodes/batching.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
 #include "nodes/observer.h"
-#include "nodes/patience.h"
 #include "nodes/runner.h"
 #include "nodes/threads/clock.h"
-#include "nodes/threads/held_packets.h"
-#include "nodes/threads/looks.h"
+#include "nodes/threads/delayed_packets.h"
+#include "nodes/threads/poll_backoff.h"
 #include "nodes/threads/thread.h"
 
 namespace dmpc::nodes {
@@ -29,12 +29,12 @@ namespace dmpc::nodes {
 inline constexpr std::uint32_t quanta_per_yield = 16;
 
 /// A place for the packets that chaos holds back at this node, if it does.
-inline std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification,
-                                                  NodeId id, LocalMemory& memory, Network& network) {
+inline std::optional<DelayedPackets> delayed_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification,
+                                                        NodeId id, LocalMemory& memory, Network& network) {
   if (!chaos || specification.held_bytes == 0) {
     return std::nullopt;
   }
-  return HeldPackets(*chaos, id, memory, specification.held_bytes, network);
+  return DelayedPackets(*chaos, id, memory, specification.held_bytes, network);
 }
 
 /// What all processors of a computer have in common.
@@ -77,9 +77,9 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   ThreadProcessor(const NodeSpecification& specification, NodeId id, const ThreadComputer& computer)
       : memory(specification.plan),
         mailbox(specification.mailbox, memory),
-        held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
-        patience(specification.patience),
-        looks(looks_before_sleep(computer.peer_count, computer.core_count), computer.core_count),
+        held(delayed_packets_of(computer.chaos, specification, id, memory, computer.network)),
+        batching(specification.batching),
+        polls(polls_before_sleep(computer.peer_count, computer.core_count), computer.core_count),
         node(id, computer.peer_count, memory, way_out(computer)),
         interrupt_kinds(specification.interrupt_kinds) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
@@ -135,25 +135,25 @@ struct alignas(cache_line_bytes) ThreadProcessor {
 
   LocalMemory memory;
   Mailbox mailbox;
-  std::optional<HeldPackets> held;
-  Patience patience;
+  std::optional<DelayedPackets> held;
+  Batching batching;
   Mailbox::Batch waiting;  ///< packets sent that may wait, in slots of their target
   NodeId waiting_for{};    ///< their target
   std::uint32_t waiting_count = 0, quanta_waited = 0;
-  Looks looks;                     ///< at its mailbox before it sleeps
+  PollBackoff polls;               ///< at its mailbox before it sleeps
   std::optional<Telling> telling;  ///< if somebody looks on
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
   std::uint64_t held_before = 0;  ///< packets held back in earlier runs
   std::uint32_t quanta_idle = 0;
-  std::uint64_t call = 0;                         ///< number of the program's call, if somebody looks on
-  Charges charged;                                ///< until the last one's end, likewise
-  std::uint32_t interrupt_kinds;                  ///< which end no wait
-  bool is_waiting = false;                        ///< it has nothing to do, if somebody looks on
-  std::uint64_t waits_since_ns = 0, lent_ns = 0;  ///< likewise; what it did for others meanwhile
-  std::uint32_t quanta_to_run = 0;                ///< this many quanta from now the node runs one
-  bool is_asleep = false;                         ///< of a driver's: its mailbox's word was made ASLEEP
+  std::uint64_t call = 0;                                 ///< number of the program's call, if somebody looks on
+  Charges charged;                                        ///< until the last one's end, likewise
+  std::uint32_t interrupt_kinds;                          ///< which end no wait
+  bool is_waiting = false;                                ///< it has nothing to do, if somebody looks on
+  std::uint64_t waits_since_ns = 0, service_idle_ns = 0;  ///< likewise; what it did for others meanwhile
+  std::uint32_t quanta_to_run = 0;                        ///< this many quanta from now the node runs one
+  bool is_asleep = false;                                 ///< of a driver's: its mailbox's word was made ASLEEP
   std::uint64_t asleep_since_ns = 0;
   Thread thread;  ///< not of a driver's
 };

@@ -29,7 +29,7 @@ RunEnd ThreadsRunner::judge() const {
     case Ending::failed:
       std::rethrow_exception(nodes_.failure());
     case Ending::stalled:
-      throw StandstillError(stall_text(disturbance_) + nodes_.describe());
+      throw DeadlockError(deadlock_text(disturbance_) + nodes_.describe());
     case Ending::interrupted:
       return RunEnd::interrupted;
     default:
@@ -42,8 +42,8 @@ RunEnd ThreadsRunner::judge() const {
 Node& ThreadsRunner::node(std::size_t index) { return nodes_.processor(index).node; }
 Program& ThreadsRunner::program(std::size_t index) { return *nodes_.processor(index).program; }
 
-std::vector<std::string> ThreadsRunner::gather(const Tell& tell) {
-  return told_by(nodes_.processors(), nodes_.processors().size(), tell);
+std::vector<std::string> ThreadsRunner::gather(const Report& report) {
+  return reported_by(nodes_.processors(), nodes_.processors().size(), report);
 }
 
 }  // namespace dmpc::nodes

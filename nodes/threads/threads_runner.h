@@ -29,7 +29,7 @@ class ThreadsRunner final : public Runner {
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
-  std::vector<std::string> gather(const Tell& tell) override;
+  std::vector<std::string> gather(const Report& report) override;
 
  private:
   RunEnd judge() const;

@@ -26,7 +26,7 @@ class PathFinder {
 
   // Of a node's program.
   void computes(NodeId node, std::uint64_t ns) { program(node).times.computing_ns += ns; }
-  void loses(NodeId node, std::uint64_t stolen_ns) { program(node).times.stolen_ns += stolen_ns; }
+  void loses(NodeId node, std::uint64_t service_busy_ns) { program(node).times.service_busy_ns += service_busy_ns; }
   void receives(NodeId node, PacketKind kind, std::uint64_t ns) { add(program(node).times, &PathTimes::receiving_ns, kind, ns); }
   /// `message`: its number, to be used again when it has been received. `left_ns`: when the sender is done with it.
   void sends(NodeId node, std::uint32_t message, PacketKind kind, std::uint64_t ns, std::uint64_t left_ns) {

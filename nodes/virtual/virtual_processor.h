@@ -28,20 +28,20 @@ struct Message {
   NodeId target{};
   PacketHeader header;
   std::vector<std::byte> payload;
-  std::span<const std::byte> lasting;  ///< the payload's end, where it is, if the sender has said that it lasts
-  std::uint32_t next = 0;              ///< in a MessageQueue
-  MessageTimes times;                  ///< for an observer
+  std::span<const std::byte> immutable;  ///< the payload's end, where it is, if the sender has said that it lasts
+  std::uint32_t next = 0;                ///< in a MessageQueue
+  MessageTimes times;                    ///< for an observer
 
   std::uint64_t bytes() const { return sizeof(PacketHeader) + header.bytes; }
   bool is_bulk() const { return header.bytes > small_payload_bytes; }
-  Packet packet() const { return {NodeId{header.source}, header.kind, payload, lasting}; }
+  Packet packet() const { return {NodeId{header.source}, header.kind, payload, immutable}; }
 };
 
 /// Messages by number; a number is used again, and so is its memory.
 class MessageStore {
  public:
   std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
-                    std::span<const std::byte> lasting) {
+                    std::span<const std::byte> immutable) {
     if (free_.empty()) {
       add_block();
     }
@@ -51,7 +51,7 @@ class MessageStore {
     message.target = target;
     message.header = header;
     message.payload.assign(payload.begin(), payload.end());
-    message.lasting = lasting;
+    message.immutable = immutable;
     return number;
   }
   const Message& operator[](std::uint32_t number) const { return blocks_[number / block_size][number % block_size]; }
@@ -115,7 +115,7 @@ struct alignas(64) VirtualProcessor final : Network {
         mailbox(specification.mailbox),
         interrupt_kinds(specification.interrupt_kinds),
         ways(peer_count),
-        memory(specification.plan, Lasting::is_referred_to),
+        memory(specification.plan, Immutable::is_referred_to),
         node(id, peer_count, memory, *this) {
     static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
     program = specification.make_program(node);
@@ -129,8 +129,8 @@ struct alignas(64) VirtualProcessor final : Network {
 
   /// The sender's side: the message has its place in the target's mailbox from now on.
   bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
-                        std::span<const std::byte> lasting) override {
-    const std::uint32_t number = computer.messages.put(target, header, front, lasting);
+                        std::span<const std::byte> immutable) override {
+    const std::uint32_t number = computer.messages.put(target, header, front, immutable);
     sent.push_back(number);
     VirtualProcessor& at = *computer.processors[index_of(target)];
     const bool is_bulk = computer.messages[number].is_bulk();
@@ -145,7 +145,7 @@ struct alignas(64) VirtualProcessor final : Network {
 
   /// Another run begins, for a program whose charges so far have this price.
   void begin_again(std::uint64_t price_ps) {
-    sequence = occupied_until_ns = remainder_ps = served_until_ns = idle_since_ns = lent_before_ns = calls = 0;
+    sequence = occupied_until_ns = remainder_ps = served_until_ns = idle_since_ns = service_idle_before_ns = calls = 0;
     charged_ps = price_ps;
     charged = program->charges();
     has_more = true;
@@ -180,7 +180,7 @@ struct alignas(64) VirtualProcessor final : Network {
 
   std::uint64_t served_until_ns = 0;  ///< the last interrupt
   std::uint64_t idle_since_ns = 0;
-  std::uint64_t lent_before_ns = 0;             ///< times.lent_ns when it fell idle
+  std::uint64_t service_idle_before_ns = 0;     ///< times.service_idle_ns when it fell idle
   std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;

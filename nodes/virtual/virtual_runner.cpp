@@ -121,7 +121,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void leave(VirtualProcessor& self, std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     const Message& message = computer.messages[number];
     if constexpr (is_watched) {
-      tell_sent(number, time_ns, call);
+      report_sent(number, time_ns, call);
     }
     std::uint64_t& enters_ns = self.ways[index_of(message.target)].last_enters_ns;
     enters_ns = std::max(enters_ns, time_ns + machine.cost_of_message(message.bytes()).latency_ns);
@@ -172,11 +172,11 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   /// From having nothing to do to having something, once the services that have been asked for are over: returns when.
   std::uint64_t end_wait(VirtualProcessor& self, std::uint32_t number) {
     const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
-    const std::uint64_t own_ns = begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
+    const std::uint64_t own_ns = begin_ns - self.idle_since_ns - (self.times.service_idle_ns - self.service_idle_before_ns);
     self.times.waiting_ns[computer.messages[number].header.kind] += own_ns;
     if constexpr (is_watched) {
       if (begin_ns > self.idle_since_ns) {
-        tell_wait(self, number, begin_ns, own_ns);
+        report_wait(self, number, begin_ns, own_ns);
       }
     }
     return begin_ns;
@@ -206,12 +206,12 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     self.served_until_ns = start_ns + service_ns;
     if (self.is_occupied) {
       self.occupied_until_ns += service_ns;
-      self.times.stolen_ns += service_ns;
+      self.times.service_busy_ns += service_ns;
       if (is_watched && paths) {
         paths->loses(self.id, service_ns);
       }
     } else {
-      self.times.lent_ns += service_ns;
+      self.times.service_idle_ns += service_ns;
     }
   }
 
@@ -253,7 +253,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
       self.has_more = self.program->work() || self.program->has_leftovers();
     } else {
       self.idle_since_ns = now_ns;
-      self.lent_before_ns = self.times.lent_ns;
+      self.service_idle_before_ns = self.times.service_idle_ns;
       return;
     }
     std::swap(self.outgoing, self.sent);  // empty until now
@@ -329,14 +329,14 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// A message whose sender's processor is done with it at `time_ns`.
-  void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
+  void report_sent(std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     Message& message = computer.messages[number];
     message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
     observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
   }
 
   /// Of a node that a message wakes, which has come or comes when a service is over.
-  void tell_wait(VirtualProcessor& self, std::uint32_t number, std::uint64_t end_ns, std::uint64_t own_ns) {
+  void report_wait(VirtualProcessor& self, std::uint32_t number, std::uint64_t end_ns, std::uint64_t own_ns) {
     const Message& message = computer.messages[number];
     Waited wait{.node = self.id,
                 .peer = NodeId{message.header.source},
@@ -367,7 +367,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint64_t call) {
-    return {node, peer, message.header.kind, call, message.payload, message.times, message.lasting.size()};
+    return {node, peer, message.header.kind, call, message.payload, message.times, message.immutable.size()};
   }
 
   // ---- The end -----------------------------------------------------------------------------------------------------------
@@ -376,7 +376,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void finish() {
     const auto& all = computer.processors;
     if (!all_finished(all)) {
-      throw StandstillError("nothing is under way, no node has work, and the run is unfinished:" + describe(all));
+      throw DeadlockError("nothing is under way, no node has work, and the run is unfinished:" + describe(all));
     }
     expect_nothing_lost();
     result.total_ns = events.now_ns();
@@ -385,7 +385,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
     for (const auto& processor : all) {
       VirtualTimes& times = processor->times;
-      times.end_ns = result.total_ns - processor->idle_since_ns - (times.lent_ns - processor->lent_before_ns);
+      times.end_ns = result.total_ns - processor->idle_since_ns - (times.service_idle_ns - processor->service_idle_before_ns);
       core::expect(times.total_ns() == result.total_ns, "the parts of a node's time add up to the run's");
       result.nodes.push_back(times);
     }
@@ -427,9 +427,9 @@ RunEnd VirtualRunner::run(std::stop_token stop) { return implementation_->run(st
 
 Node& VirtualRunner::node(std::size_t index) { return implementation_->computer.processors.at(index)->node; }
 Program& VirtualRunner::program(std::size_t index) { return *implementation_->computer.processors.at(index)->program; }
-std::vector<std::string> VirtualRunner::gather(const Tell& tell) {
+std::vector<std::string> VirtualRunner::gather(const Report& report) {
   const auto& processors = implementation_->computer.processors;
-  return told_by(processors, processors.size(), tell);
+  return reported_by(processors, processors.size(), report);
 }
 std::optional<VirtualReport> VirtualRunner::virtual_report() const { return implementation_->result; }
 

@@ -37,7 +37,7 @@ class VirtualRunner final : public Runner {
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
-  std::vector<std::string> gather(const Tell& tell) override;
+  std::vector<std::string> gather(const Report& report) override;
 
   std::optional<VirtualReport> virtual_report() const override;
 

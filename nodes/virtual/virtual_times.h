@@ -17,18 +17,18 @@ namespace dmpc::nodes {
 
 /// The times of one node in one run, in nanoseconds of virtual time.
 struct VirtualTimes {
-  std::uint64_t computing_ns = 0;  ///< the operations that the program charged
-  std::uint64_t sending_ns = 0;    ///< of packets, but for those sent by an interrupt's service
-  std::uint64_t receiving_ns = 0;  ///< of packets, but for those that interrupted
-  std::uint64_t stolen_ns = 0;     ///< service of interrupts while the program had something to do
-  std::uint64_t lent_ns = 0;       ///< the same while it had nothing to do
+  std::uint64_t computing_ns = 0;     ///< the operations that the program charged
+  std::uint64_t sending_ns = 0;       ///< of packets, but for those sent by an interrupt's service
+  std::uint64_t receiving_ns = 0;     ///< of packets, but for those that interrupted
+  std::uint64_t service_busy_ns = 0;  ///< service of interrupts while the program had something to do
+  std::uint64_t service_idle_ns = 0;  ///< the same while it had nothing to do
   /// Nothing to do, by the kind of the packet that ended it.
   std::array<std::uint64_t, packet_kind_count> waiting_ns{};
   std::uint64_t end_ns = 0;  ///< nothing to do any more
 
   /// The length of the run: the same for every node.
   std::uint64_t total_ns() const {
-    return computing_ns + sending_ns + receiving_ns + stolen_ns + lent_ns +
+    return computing_ns + sending_ns + receiving_ns + service_busy_ns + service_idle_ns +
            std::accumulate(waiting_ns.begin(), waiting_ns.end(), std::uint64_t{0}) + end_ns;
   }
 };

@@ -16,23 +16,23 @@ constexpr std::uint32_t packet_questions_max = 16;
 
 constexpr std::size_t question_bytes(QuestionKind kind) {
   return sizeof(QuestionHeader) + (kind == QuestionKind::below           ? sizeof(core::Below)
-                                   : kind == QuestionKind::below_in_mesh ? sizeof(core::Below) + sizeof(core::ToldPlace)
+                                   : kind == QuestionKind::below_in_mesh ? sizeof(core::Below) + sizeof(core::ReportedInstance)
                                                                          : sizeof(core::Address));
 }
 
 core::RecordKind record_kind(QuestionKind kind) {
   core::expect(!is_about_ray(kind), "a question is about a record");
-  return kind == QuestionKind::block     ? core::RecordKind::block
+  return kind == QuestionKind::leaf      ? core::RecordKind::leaf
          : kind == QuestionKind::normals ? core::RecordKind::normals
          : kind == QuestionKind::tile    ? core::RecordKind::tile
-                                         : core::RecordKind::brick;
+                                         : core::RecordKind::bvh_node;
 }
 
 QuestionKind question_about(core::RecordKind kind) {
-  return kind == core::RecordKind::block     ? QuestionKind::block
+  return kind == core::RecordKind::leaf      ? QuestionKind::leaf
          : kind == core::RecordKind::normals ? QuestionKind::normals
          : kind == core::RecordKind::tile    ? QuestionKind::tile
-                                             : QuestionKind::brick;
+                                             : QuestionKind::bvh_node;
 }
 
 std::size_t answer_bytes_max(QuestionKind kind) {
@@ -77,10 +77,10 @@ std::size_t question_packet_bytes(const PageCapacity& capacity) {
   }
   const std::uint32_t questions = std::min(capacity.in_flight, packet_questions_max);
   const QuestionKind longest = capacity.open_pages > 0 ? QuestionKind::below_in_mesh : QuestionKind::below;
-  return std::max(questions * question_bytes(longest), answer_bytes_max(QuestionKind::block));
+  return std::max(questions * question_bytes(longest), answer_bytes_max(QuestionKind::leaf));
 }
 
-nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ToldPlace> Forest::own_layout(
+nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ReportedInstance> Forest::own_layout(
     const PageCapacity& capacity) {
   return {{Category::queues, capacity.in_flight},
           {Category::queues, capacity.node_count},
@@ -90,7 +90,7 @@ nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ToldP
 }
 
 nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
-  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, capacity.leading_bytes() + core::overread_bytes) +
+  return nodes::ImmutablePieces::layout(core::MemoryUse::home_pages, capacity.leading_bytes() + core::overread_bytes) +
          HomePages::layout(capacity, index) + own_layout(capacity);
 }
 
@@ -119,7 +119,7 @@ const std::byte* Forest::find_below(core::Address address) {
 
 void Forest::ask(std::uint32_t slot, const core::Below& below) { ask_below(slot, QuestionKind::below, below); }
 
-void Forest::ask(std::uint32_t slot, const core::Below& below, const core::ToldPlace& place) {
+void Forest::ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place) {
   places_[slot] = place;
   ask_below(slot, QuestionKind::below_in_mesh, below);
 }
@@ -199,10 +199,10 @@ void Forest::answer(const nodes::Packet& questions, const core::DatabaseHeader& 
     rest = rest.subspan(question_bytes(header.kind));
     if (is_about_ray(header.kind)) {
       const auto below = core::read<core::Below>(content);
-      const core::Hit hit =
-          header.kind == QuestionKind::below
-              ? core::trace_below(below, *this, operations)
-              : core::trace_below(below, core::read<core::ToldPlace>(content + sizeof(below)), *this, database, operations);
+      const core::Hit hit = header.kind == QuestionKind::below
+                                ? core::trace_below(below, *this, operations)
+                                : core::trace_below(below, core::read<core::ReportedInstance>(content + sizeof(below)), *this,
+                                                    database, operations);
       writer.add(AnswerHeader{header.slot, hit.found() ? std::uint16_t{sizeof(hit)} : std::uint16_t{0}});
       if (hit.found()) {
         writer.add(hit);

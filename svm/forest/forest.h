@@ -5,7 +5,7 @@
 // Invariants: (1) what lies in a page behind the forest holds all that is below it in the tree, so its home answers from its own
 // memory at once, and waits for nothing; (2) a pixel waits for one answer at most, so there are never more questions than slots;
 // (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions. Pages that lead into
-// kept meshes are open, which (1) does not hold for: few are at every node, of more a walk asks for one record after the other,
+// base meshes are open, which (1) does not hold for: few are at every node, of more a walk asks for one record after the other,
 // and goes on by itself; in a mesh (1) holds again, and the question tells where the mesh stands.
 //
 // What nodes of strategy forest ask each other, and answer: values, without pointers. A packet has as many as fill it.
@@ -28,7 +28,7 @@
 #include "core/trace/below.h"
 #include "core/trace/below_in_mesh.h"
 #include "core/trace/operations.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/pages/faults.h"
@@ -41,13 +41,13 @@
 
 namespace dmpc::svm {
 
-/// What a question asks for: what a ray meets below a child, outside of kept meshes or in one, or a record.
-enum class QuestionKind : std::uint8_t { below, block, normals, tile, brick, below_in_mesh };
+/// What a question asks for: what a ray meets below a child, outside of base meshes or in one, or a record.
+enum class QuestionKind : std::uint8_t { below, leaf, normals, tile, bvh_node, below_in_mesh };
 
 /// Whether it is about a ray.
 constexpr bool is_about_ray(QuestionKind kind) { return kind == QuestionKind::below || kind == QuestionKind::below_in_mesh; }
 
-/// Stands before a core::Below, in a mesh with a core::ToldPlace behind, or, of a record, its core::Address.
+/// Stands before a core::Below, in a mesh with a core::ReportedInstance behind, or, of a record, its core::Address.
 struct QuestionHeader {
   std::uint16_t slot = 0;  ///< of the pixel that waits, for the answer
   QuestionKind kind{};
@@ -79,7 +79,7 @@ class Forest : public PlainRecords {
  public:
   static constexpr const char* awaited = "answers";
 
-  /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/lasting_pieces.h), and takes the
+  /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/immutable_pieces.h), and takes the
   /// credits for its questions.
   Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// What the constructor takes at node `index`.
@@ -121,7 +121,7 @@ class Forest : public PlainRecords {
     const auto& task = waiting.task(slot);
     if (!task.is_tracing() || is_open(task.absent())) {
       ask(slot, task.absent_kind(), task.absent());
-    } else if (const auto place = task.place_of_walk()) {
+    } else if (const auto place = task.instance_of_traversal()) {
       ask(slot, task.below(waiting.settings().skips), *place);
     } else {
       ask(slot, task.below(waiting.settings().skips));
@@ -130,7 +130,7 @@ class Forest : public PlainRecords {
   /// `slot` goes on when it is known what its ray meets below a child, which find() has just said is absent.
   void ask(std::uint32_t slot, const core::Below& below);
   /// The same in a mesh that stands there.
-  void ask(std::uint32_t slot, const core::Below& below, const core::ToldPlace& place);
+  void ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place);
   /// `slot` goes on when the record, of which find() has just said the same, has come.
   void ask(std::uint32_t slot, core::RecordKind kind, core::Address address);
   /// Sends what is asked, in full packets or not, as far as credits go.
@@ -181,7 +181,7 @@ class Forest : public PlainRecords {
     std::uint32_t count = 0;
   };
 
-  static nodes::Layout<Question, Queue, std::byte, std::byte, core::ToldPlace> own_layout(const PageCapacity& capacity);
+  static nodes::Layout<Question, Queue, std::byte, std::byte, core::ReportedInstance> own_layout(const PageCapacity& capacity);
   const std::byte* find_below(core::Address address);
   /// Of a record that is not in the forest.
   bool is_open(core::Address address) const { return core::byte_offset(address) < closed_from_; }
@@ -203,7 +203,7 @@ class Forest : public PlainRecords {
   std::span<Queue> queues_;    ///< by owner
   std::span<std::byte> packet_;
   std::span<std::byte> lent_;
-  std::span<core::ToldPlace> places_;  ///< of questions in meshes, by slot
+  std::span<core::ReportedInstance> places_;  ///< of questions in meshes, by slot
   core::Address lent_address_ = core::no_address;
   std::uint32_t waiting_ = 0, under_way_ = 0;
 };

@@ -60,7 +60,7 @@ class ForestStrategy final : public Strategy {
   }
 
   /// Packets are small or bulk, as it comes.
-  void add_places(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
+  void add_slots(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
     const std::uint32_t asked = others * plan.request_credits;         // questions: each other node's credits for this one
     const std::uint32_t answers = std::min(plan.task_count(), asked);  // one for each packet of questions

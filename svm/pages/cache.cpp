@@ -20,8 +20,8 @@ nodes::Layout<std::uint64_t, PageId> own_layout(const CacheShape& shape) {
 }  // namespace
 
 nodes::MemoryPlan Cache::layout(const CacheShape& shape) {
-  return nodes::LastingPieces::layout(core::MemoryUse::cache_frames, frame_bytes(shape)) + PageTable::layout(shape.frame_count) +
-         own_layout(shape) + kind_of(shape.replacement).layout(shape.frame_count);
+  return nodes::ImmutablePieces::layout(core::MemoryUse::cache_frames, frame_bytes(shape)) +
+         PageTable::layout(shape.frame_count) + own_layout(shape) + kind_of(shape.replacement).layout(shape.frame_count);
 }
 
 Cache::Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
@@ -64,7 +64,7 @@ PageId Cache::install_by(PageId page, Places& places, const Put& put) {
   return evicted;
 }
 
-void Cache::tell_of_hit(std::uint32_t frame) {
+void Cache::report_of_hit(std::uint32_t frame) {
   if (frame != last_frame_) {
     last_frame_ = frame;
     policy_->hit(pages_[frame], frame);

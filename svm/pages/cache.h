@@ -10,7 +10,7 @@
 #include <span>
 
 #include "nodes/byte_source.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_table.h"
@@ -45,7 +45,7 @@ class Cache {
   void touch(std::uint32_t frame) {
     stamps_[frame] = ++clock_;
     if (hears_hits_) {
-      tell_of_hit(frame);
+      report_of_hit(frame);
     }
   }
   /// The first byte of a frame's page.
@@ -65,7 +65,7 @@ class Cache {
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps_.size()); }
 
  private:
-  void tell_of_hit(std::uint32_t frame);
+  void report_of_hit(std::uint32_t frame);
 
   /// Returns the page that had to go, which `places` no longer finds. put(frame) puts the page's bytes there.
   template <class Places, class Put>
@@ -73,7 +73,7 @@ class Cache {
 
   bool hears_hits_;
   std::uint64_t clock_ = 0;
-  nodes::LastingPieces frames_;
+  nodes::ImmutablePieces frames_;
   PageTable table_;
   std::span<std::uint64_t> stamps_;      ///< time of each frame's last reference
   std::span<PageId> pages_;              ///< the page in each frame

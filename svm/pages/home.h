@@ -10,7 +10,7 @@ namespace dmpc::svm {
 
 /// Where pages are at home.
 enum class PageHomes : std::uint8_t {
-  spread,  ///< dealt over the nodes
+  spread,  ///< assigned over the nodes
   host,    ///< all at the host, which every node asks, as virtual memory was in the Pixel Machine's
   tree     ///< all at the host, which is the root of a tree of nodes that ask their parents (svm/pages/request_tree.h)
 };
@@ -33,7 +33,7 @@ class Homes {
     constexpr bool operator==(const Place&) const = default;
   };
 
-  /// The homes of pages dealt over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
+  /// The homes of pages assigned over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
   explicit Homes(std::uint32_t node_count, std::uint32_t first = 0)
       : node_count_(node_count),
         first_(first),

@@ -27,7 +27,7 @@ HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const node
 }
 
 nodes::MemoryPlan HomePages::layout(const PageCapacity& capacity, std::uint32_t index) {
-  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, room_bytes(capacity, index));
+  return nodes::ImmutablePieces::layout(core::MemoryUse::home_pages, room_bytes(capacity, index));
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "nodes/byte_source.h"
-#include "nodes/lasting_pieces.h"
+#include "nodes/immutable_pieces.h"
 #include "nodes/node.h"
 #include "svm/pages/home.h"
 #include "svm/pages/page.h"
@@ -17,7 +17,7 @@ namespace dmpc::svm {
 /// none.
 class HomePages {
  public:
-  /// Puts the node's pages, from `database`, into its local memory (nodes/lasting_pieces.h).
+  /// Puts the node's pages, from `database`, into its local memory (nodes/immutable_pieces.h).
   HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// What the constructor takes at node `index`.
   static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
@@ -46,7 +46,7 @@ class HomePages {
   std::uint32_t self_;
   std::uint32_t first_page_;
   std::uint32_t count_;
-  nodes::LastingPieces pages_;
+  nodes::ImmutablePieces pages_;
 };
 
 /// Takes the credits for what a node may ask of each other one, or of its parent if the host is home to all.

@@ -31,7 +31,7 @@ struct WorkCounters {
 /// Questions of nodes that hold a forest, and what became of them.
 struct QuestionCounters {
   std::uint64_t rays_asked = 0;        ///< what does this ray meet below that child
-  std::uint64_t records_asked = 0;     ///< what is in this record, for shading, or for a walk that leads into kept meshes
+  std::uint64_t records_asked = 0;     ///< what is in this record, for shading, or for a walk that leads into base meshes
   std::uint64_t rays_answered = 0;     ///< of other nodes
   std::uint64_t records_answered = 0;  ///< of other nodes
   std::uint64_t answers = 0;           ///< received, to either

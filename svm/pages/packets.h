@@ -2,7 +2,7 @@
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
 //   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
-//   passed_request         node -> parent      request   small  the asker's request, which has places all the way up
+//   passed_request         node -> parent      request   small  the requester's request, which has places all the way up
 //   page_reply             home -> node        bulk      bulk   the request
 //
 // Where nodes ask the host by way of a tree (svm/pages/request_tree.h) page requests go to the parent, and the reply comes from
@@ -62,7 +62,7 @@ static_assert(is_small_packet<PageRequest>);
 /// A page request that its receiver does not have the page for, on its way up the tree.
 struct PassedRequest {
   PageId page = no_page;
-  std::uint32_t asker = 0;
+  std::uint32_t requester = 0;
 };
 static_assert(is_small_packet<PassedRequest>);
 

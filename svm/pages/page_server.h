@@ -29,9 +29,9 @@ class PageServer {
   /// Replies at once, with the page's bytes: the request has reserved the reply's place.
   void reply(const PassedRequest& request, const std::byte* bytes) {
     const PageReplyHeader header{request.page};
-    const nodes::NodeId asker{request.asker};
-    node_->grant(asker, bulk_channel);
-    core::expect(node_->try_send(asker, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+    const nodes::NodeId requester{request.requester};
+    node_->grant(requester, bulk_channel);
+    core::expect(node_->try_send(requester, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
                                  {bytes, page_size_bytes_}, reply_),
                  "a reply always has room");
     ++served_;

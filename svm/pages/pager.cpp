@@ -121,7 +121,7 @@ void Pager::serve(const nodes::Packet& packet) {
   }
   core::expect(tree_.has_value(), "a request reaches its page's home");
   const nodes::NodeId parent{asked_for(request.page)};
-  node_->grant(parent, request_channel);  // the place that the asker's request has reserved all the way up
+  node_->grant(parent, request_channel);  // the place that the requester's request has reserved all the way up
   node_->send_reserved(parent, request_channel, number_of(Kind::passed_request), request);
 }
 

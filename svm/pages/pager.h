@@ -30,7 +30,7 @@ namespace dmpc::svm {
 /// arrives. Thread safety: none.
 class Pager : public PlainRecords {
  public:
-  /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
+  /// Puts the node's home pages, from `database`, into its local memory (nodes::ImmutablePieces) and takes the credits for its
   /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// What the constructor takes at node `index`.

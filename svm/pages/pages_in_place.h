@@ -26,7 +26,7 @@ class PagesInPlace {
   /// None where the memory has copies of what lasts, or if there are too many.
   static std::optional<PagesInPlace> of(const nodes::LocalMemory& memory, const PageCapacity& capacity,
                                         const nodes::ByteSource& database) {
-    return memory.lasting() == nodes::Lasting::is_referred_to &&
+    return memory.immutable() == nodes::Immutable::is_referred_to &&
                    std::max(capacity.page_count, capacity.cache.frame_count) <= pages_max
                ? std::optional(PagesInPlace(capacity, database))
                : std::nullopt;
@@ -53,7 +53,7 @@ class PagesInPlace {
   PagesInPlace(const PageCapacity& capacity, const nodes::ByteSource& database)
       : count_(capacity.page_count),
         page_size_bytes_(capacity.page_size_bytes()),
-        first_(database.lasting(0, database.size_bytes()).data()),
+        first_(database.immutable(0, database.size_bytes()).data()),
         frames_(std::make_unique<std::uint16_t[]>(count_)) {
     std::fill_n(frames_.get(), count_, static_cast<std::uint16_t>(absent));
   }

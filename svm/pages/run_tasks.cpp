@@ -49,19 +49,19 @@ std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, 
 void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
   nodes::gather_nodes(
       runner, plan.node_count(),
-      [&](std::size_t index, nodes::FlatWriter& told) {
+      [&](std::size_t index, nodes::FlatWriter& reported) {
         const auto& program = dynamic_cast<const AnyTaskProgram&>(runner.program(index));
         const std::span<const std::byte> results = program.results();
-        told.put(program.report().pages);
-        told.put(runner.node(index).counters());
-        told.put(program.charges());
-        told.put_bytes({reinterpret_cast<const char*>(results.data()), results.size()});
+        reported.put(program.report().pages);
+        reported.put(runner.node(index).counters());
+        reported.put(program.charges());
+        reported.put_bytes({reinterpret_cast<const char*>(results.data()), results.size()});
       },
-      [&](std::uint32_t index, nodes::FlatReader& told) {
-        figures.pages[index] = told.take<PageCounters>();
-        figures.counters[index] = told.take<nodes::NodeCounters>();
-        figures.charges[index] = told.take<nodes::Charges>();
-        take(plan.first_task(index), told.take_bytes());
+      [&](std::uint32_t index, nodes::FlatReader& reported) {
+        figures.pages[index] = reported.take<PageCounters>();
+        figures.counters[index] = reported.take<nodes::NodeCounters>();
+        figures.charges[index] = reported.take<nodes::Charges>();
+        take(plan.first_task(index), reported.take_bytes());
       });
 }
 

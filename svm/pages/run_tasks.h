@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "nodes/observer.h"
+#include "nodes/observers/watching.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
-#include "nodes/watch/watching.h"
 #include "svm/pages/node_program.h"
+#include "svm/pages/observers/observed_pagers.h"
+#include "svm/pages/observers/reference_log.h"
 #include "svm/pages/task_heat.h"
 #include "svm/pages/task_kind.h"
 #include "svm/pages/task_plan.h"
-#include "svm/pages/watch/reference_log.h"
-#include "svm/pages/watch/watched_pagers.h"
 
 namespace dmpc::svm {
 
@@ -72,8 +72,8 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std:
 
 /// Runs tasks 0 .. count - 1 over `database`, whole pages that are spread over the nodes and do not change. Results are the same
 /// for every computer, cache and schedule, if each task's depend on its number and what it reads alone. With in_flight = 1 so is
-/// the order of each node's references for every cache: then what svm/pages/watch tells of other caches is exact. Throws
-/// core::UsageError and core::RoomError as TaskPlan does, and whatever a task throws.
+/// the order of each node's references for every cache: then what svm/pages/observers tells of other caches is exact. Throws
+/// core::UsageError and core::CapacityError as TaskPlan does, and whatever a task throws.
 template <PagedTask Task>
 TaskReport<typename Task::Result> run_tasks(std::span<const std::byte> database, std::uint32_t count, const TaskOptions& options,
                                             const TaskWatching& watching = {}, std::stop_token stop = {}) {

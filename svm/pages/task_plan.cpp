@@ -8,7 +8,7 @@
 #include "nodes/node.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 #include "svm/pages/packets.h"
 #include "svm/pages/page.h"
 #include "svm/pages/pager.h"
@@ -61,7 +61,7 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
               .bulk_payload_bytes = page_reply_bytes(options.page_size_bytes)};
   if (options.computer.chaos) {
     pages_.request_credits = nodes::shrunk_credits(*options.computer.chaos, credits, request_channel);
-    held_bytes_ = nodes::HeldPackets::room_bytes(mailbox_.bulk_payload_bytes);
+    held_bytes_ = nodes::DelayedPackets::room_bytes(mailbox_.bulk_payload_bytes);
   }
   check_memory();
 }
@@ -101,7 +101,7 @@ void TaskPlan::check_memory() const {
     most = std::max(most, node_memory(node).total());
   }
   if (options_.computer.node_memory_bytes.value_or(most) < most) {
-    throw core::Refusal<core::RoomError>(core::Sentence(
+    throw core::Refusal<core::CapacityError>(core::Sentence(
         core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "=", nodes::size_text(*options_.computer.node_memory_bytes),
         ": a node takes ", nodes::size_text(most), "; fewer cache_pages, fewer tasks in_flight or more nodes take less"));
   }

@@ -33,7 +33,7 @@ class TaskPlan {
   };
 
   /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of
-  /// range and bytes that are not whole pages, of core::RoomError for less memory than a node takes, naming that.
+  /// range and bytes that are not whole pages, of core::CapacityError for less memory than a node takes, naming that.
   TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes);
 
   const nodes::ComputerRequest& computer() const { return options_.computer; }

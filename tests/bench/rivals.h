@@ -1,9 +1,9 @@
-// Queues that carry packets from many senders to one receiver: ours and a rival of equal guarantee, each with the same few
+// Queues that carry packets from many senders to one receiver: ours and a baseline of equal guarantee, each with the same few
 // functions.
 //
 // Both are lock-free and bounded, refuse when they are full, keep the order of each sender, allocate nothing after the start, and
-// move packets of a size that the compiler knows by copying. The rival's receiver copies once more, out of the queue, where ours
-// reads in the slot; it offers nothing else.
+// move packets of a size that the compiler knows by copying. The baseline's receiver copies once more, out of the queue, where
+// ours reads in the slot; it offers nothing else.
 #pragma once
 
 #include <array>

@@ -25,16 +25,16 @@ Bsp equal_regions(const Subject& subject, std::uint32_t node_count) {
   return dataflow::equal_size_bsp(core::grid_size(settings.header.frame), dataflow::axes_facing(settings.camera), node_count);
 }
 
-Distribution dealt(const Subject& subject, std::uint32_t node_count) {
+Distribution assigned(const Subject& subject, std::uint32_t node_count) {
   return dataflow::distribute(subject.database(), subject.settings(), equal_regions(subject, node_count));
 }
 
 double duplication(const Subject& subject, std::uint32_t node_count) {
-  return dealt(subject, node_count).duplication(subject.database());
+  return assigned(subject, node_count).duplication(subject.database());
 }
 
 PlanRequest request_of(const Subject& subject, std::uint32_t node_count) {
-  return {.shares = dealt(subject, node_count).shares(), .rays = {.ray_batch = 1, .ray_credits = 1}, .width = 8, .height = 8};
+  return {.shares = assigned(subject, node_count).shares(), .rays = {.ray_batch = 1, .ray_credits = 1}, .width = 8, .height = 8};
 }
 
 std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
@@ -44,12 +44,12 @@ std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
 std::optional<std::uint32_t> smallest_above(const Subject& subject, std::uint32_t node_count, std::size_t memory_bytes) {
   PlanRequest request = request_of(subject, node_count);
   request.computer.node_memory_bytes = memory_bytes;
-  return dataflow::smallest_node_count(request, [&](std::uint32_t count) { return dealt(subject, count).shares(); });
+  return dataflow::smallest_node_count(request, [&](std::uint32_t count) { return assigned(subject, count).shares(); });
 }
 
 }  // namespace
 
-TEST_CASE("every node is dealt the part of its own region, and every primary ray goes to one node") {
+TEST_CASE("every node is assigned the part of its own region, and every primary ray goes to one node") {
   const Subject subject(tests::mirrors_and_glass(), {12, 10, 3});
   Bsp bsp = equal_regions(subject, 5);
   bsp.assign(std::vector<std::uint32_t>{3, 1, 4, 0, 2});
@@ -70,7 +70,7 @@ TEST_CASE("every node is dealt the part of its own region, and every primary ray
 
 TEST_CASE("shares say what each node's part and list of primary rays take") {
   const Subject subject(tests::built_in("teapot-4"), {8, 8});
-  const Distribution distribution = dealt(subject, 3);
+  const Distribution distribution = assigned(subject, 3);
   const std::vector<dataflow::Share> shares = distribution.shares();
   REQUIRE(shares.size() == 3);
   for (std::size_t node = 0; node < 3; ++node) {
@@ -81,7 +81,7 @@ TEST_CASE("shares say what each node's part and list of primary rays take") {
 
 TEST_CASE("parts may be measured without being kept") {
   const Subject subject(tests::built_in("teapot-4"), {8, 8});
-  const Distribution kept = dealt(subject, 3);
+  const Distribution kept = assigned(subject, 3);
   dataflow::Regions bsp = equal_regions(subject, 3);
   const dataflow::MeasuredParts parts = dataflow::measure_parts(subject.database(), subject.settings(), bsp);
   const auto shares = dataflow::measure_shares(subject.settings(), std::span(&bsp, 1), std::span(&parts, 1));
@@ -95,23 +95,23 @@ TEST_CASE("parts may be measured without being kept") {
   }
 }
 
-TEST_CASE("nothing is held twice by one node, or by nodes whose borders are those of top cells") {
+TEST_CASE("nothing is held twice by one node, or by nodes whose borders are those of macro cells") {
   const Subject subject(tests::BorderScene().scene(), {4, 4}, tests::BorderScene::options());
   CHECK(duplication(subject, 1) == 1.0);
   CHECK(duplication(subject, 2) == 1.0);
   CHECK(duplication(subject, 4) == 1.0);
 }
 
-TEST_CASE("cuts through top cells have primitives held twice, more of them the more cuts") {
+TEST_CASE("cuts through macro cells have primitives held twice, more of them the more cuts") {
   const Subject subject(tests::built_in("teapot-6"), {4, 4});
   CHECK(duplication(subject, 1) == 1.0);
   CHECK(duplication(subject, 16) > 1.0);
   CHECK(duplication(subject, 64) > duplication(subject, 16));
 }
 
-TEST_CASE("a scene without a primitive is dealt all the same") {
+TEST_CASE("a scene without a primitive is assigned all the same") {
   const Subject subject(core::Scene{}, {3, 2});
-  const Distribution distribution = dealt(subject, 4);
+  const Distribution distribution = assigned(subject, 4);
   CHECK(distribution.duplication(subject.database()) == 1.0);
   std::uint64_t rays = 0;
   for (const auto& runs : distribution.primaries) {

@@ -86,17 +86,17 @@ TEST_CASE("the host gives the credit of an overflow back at once and forwards it
   CHECK(forwarded.payload.size() == dataflow::ray_packet_bytes(2));
 }
 
-TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the host is not passive before") {
-  const std::size_t room = dataflow::DealtPrimaries().runs.size();
+TEST_CASE("primary rays of a later pass are assigned as nodes have room, and the host is not passive before") {
+  const std::size_t room = dataflow::AssignedPrimaries().runs.size();
   dataflow::Plan plan = plan_for(2, 2);
   plan.request.first_samples = 2;
   plan.request.refinement.error = 1e-9;
   core::Film film(4, 2);
   tests::SingleNode single(plan.host_memory(), 2, 3);
-  const auto deal = [&](const core::Pass&, const core::PixelMask&) {
+  const auto assign = [&](const core::Pass&, const core::PixelMask&) {
     return std::vector<std::vector<dataflow::PrimaryRun>>{{}, std::vector<dataflow::PrimaryRun>(2 * room + 1, {0, 1})};
   };
-  dataflow::HostProgram host(single.node, plan, film, {}, deal);
+  dataflow::HostProgram host(single.node, plan, film, {}, assign);
   const auto receive = [&](std::uint32_t sender, Kind kind, const auto& value) {
     host.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&value, 1))});
   };
@@ -114,20 +114,20 @@ TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the ho
   receive(0, Kind::done, dataflow::Done{1});
   receive(1, Kind::done, dataflow::Done{0});
   CHECK(sent(Kind::stop) == 0);
-  CHECK(sent(Kind::primaries) == dataflow::dealt_packets);
+  CHECK(sent(Kind::primaries) == dataflow::assigned_packets);
   const auto tokens = sent(Kind::token);
   host.work();
   CHECK(sent(Kind::token) == tokens);  // it has rays to deal
   receive(1, Kind::primaries_taken, dataflow::PrimariesTaken{1});
-  CHECK(sent(Kind::primaries) == dataflow::dealt_packets + 1);
-  CHECK(single.post.parcels.back().packet().as<dataflow::DealtPrimaries>().count == 1);
+  CHECK(sent(Kind::primaries) == dataflow::assigned_packets + 1);
+  CHECK(single.post.parcels.back().packet().as<dataflow::AssignedPrimaries>().count == 1);
   host.work();
   CHECK(sent(Kind::token) == tokens + 2);
 }
 
 TEST_CASE("a pass whose rays were not all found, as a stop was requested, is not taken for one that has ended") {
   dataflow::Plan plan = plan_for(2, 2);
-  plan.request.is_dealt_on_the_way = true;
+  plan.request.is_assigned_on_the_way = true;
   core::Film film(4, 2);
   tests::SingleNode single(plan.host_memory(), 2, 3);
   dataflow::HostProgram host(single.node, plan, film, {}, [](const core::Pass&, const core::PixelMask&) { return std::nullopt; });
@@ -145,7 +145,7 @@ TEST_CASE("without a credit for the owner the host keeps rays until one comes") 
     host.program.work();
   }
   CHECK(host.program.report().rays_out == 1);
-  CHECK(host.program.report().rays_kept_max == 3);
+  CHECK(host.program.report().rays_buffered_max == 3);
   host.receive(1, Kind::credits, dataflow::Credits{1});
   host.program.work();
   CHECK(host.program.report().rays_out == 3);  // two to a packet
@@ -168,19 +168,19 @@ TEST_CASE("while the host keeps a ray it keeps the token") {
 TEST_CASE("the host tells all nodes when the first asks them to hold primary rays back, and when the last has taken it back") {
   LoneHost host;
   const auto hears = [&](std::uint32_t sender, std::uint32_t holds) {
-    host.receive(sender, Kind::hold, dataflow::Hold{holds});
+    host.receive(sender, Kind::throttle, dataflow::Throttle{holds});
     const Parcel answer = host.single.take();
-    CHECK(Kind{answer.kind} == Kind::hold_acknowledgement);
+    CHECK(Kind{answer.kind} == Kind::throttle_acknowledgement);
     CHECK(answer.target == NodeId{sender});
     host.program.work();
   };
   const auto tells = [&](std::uint32_t holds) {
     for (const std::uint32_t node : {0U, 1U}) {
-      const Parcel told = host.single.take();
-      REQUIRE(Kind{told.kind} == Kind::hold);
-      CHECK(told.target == NodeId{node});
-      CHECK(told.packet().as<dataflow::Hold>().holds == holds);
-      host.receive(node, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+      const Parcel reported = host.single.take();
+      REQUIRE(Kind{reported.kind} == Kind::throttle);
+      CHECK(reported.target == NodeId{node});
+      CHECK(reported.packet().as<dataflow::Throttle>().holds == holds);
+      host.receive(node, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
     }
     CHECK(host.single.post.parcels.empty());
   };
@@ -198,7 +198,7 @@ TEST_CASE("the host tells all nodes when the first asks them to hold primary ray
 
 TEST_CASE("the host hands no token on while what it has relayed is not taken back and acknowledged") {
   LoneHost host;
-  host.receive(1, Kind::hold, dataflow::Hold{1});
+  host.receive(1, Kind::throttle, dataflow::Throttle{1});
   host.program.work();
   for (const Parcel& parcel : host.single.post.parcels) {
     CHECK(Kind{parcel.kind} != Kind::token);

@@ -34,7 +34,7 @@ constexpr core::Passage some_passage{
     .t_enter = 0.1, .cell = {1, 62, 4095}, .entry_axis = 2, .best = {0.5F, 9, core::Address{77}, 6}};
 
 bool same(const core::Hit& a, const core::Hit& b) {
-  return a.t == b.t && a.primitive == b.primitive && a.block == b.block && a.lane == b.lane;
+  return a.t == b.t && a.primitive == b.primitive && a.leaf == b.leaf && a.lane == b.lane;
 }
 
 /// By way of the bytes of a packet.
@@ -81,8 +81,8 @@ TEST_CASE("packets of rays and film are bulk, however short, and those of contro
   CHECK(dataflow::ray_packet_bytes(1) > nodes::small_payload_bytes);
   CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries) > nodes::small_payload_bytes);
   CHECK(dataflow::is_small_packet<dataflow::Credits>);
-  CHECK(dataflow::is_small_packet<dataflow::Hold>);
-  CHECK(dataflow::is_small_packet<dataflow::HoldAcknowledgement>);
+  CHECK(dataflow::is_small_packet<dataflow::Throttle>);
+  CHECK(dataflow::is_small_packet<dataflow::ThrottleAcknowledgement>);
   CHECK(dataflow::is_small_packet<dataflow::Token>);
   CHECK(dataflow::is_small_packet<dataflow::Finish>);
   CHECK(dataflow::is_small_packet<dataflow::FilmAcknowledgement>);

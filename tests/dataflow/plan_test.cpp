@@ -250,12 +250,12 @@ TEST_CASE("values out of range are wrong usage") {
   request.rays.queue_packets = dataflow::queue_packets_max + 1;
   check_wrong(request);
   request.rays.queue_packets.reset();
-  request.rays.ray_places = 1;
+  request.rays.ray_slots = 1;
   CHECK_THROWS_WITH_AS(make_plan(request), doctest::Contains("not both"), core::UsageError);
   request.rays.ray_credits.reset();
   CHECK(error_of(request).empty());
-  for (const std::uint32_t places : {0U, dataflow::ray_places_max + 1}) {
-    request.rays.ray_places = places;
+  for (const std::uint32_t slots : {0U, dataflow::ray_slots_max + 1}) {
+    request.rays.ray_slots = slots;
     check_wrong(request);
   }
 }
@@ -263,19 +263,19 @@ TEST_CASE("values out of range are wrong usage") {
 TEST_CASE("among more than 128 nodes senders share 64 places, unless credits of their own are asked for, and share if asked to") {
   const Plan few = make_plan(request_with(128, 1000)), many = make_plan(request_with(129, 1000));
   CHECK(few.ray_credits == 4);
-  CHECK(few.ray_places == 0);
+  CHECK(few.ray_slots == 0);
   CHECK(many.ray_credits == 0);
-  CHECK(many.ray_places == 64);
+  CHECK(many.ray_slots == 64);
   CHECK(many.queue_packets == 128);
   CHECK(many.host_credits == 1);
   PlanRequest request = request_with(129, 1000);
   request.rays.ray_credits = 2;
   CHECK(make_plan(request).ray_credits == 2);
-  CHECK(make_plan(request).ray_places == 0);
+  CHECK(make_plan(request).ray_slots == 0);
   request = request_with(3, 1000);
-  request.rays.ray_places = 5;
+  request.rays.ray_slots = 5;
   CHECK(make_plan(request).ray_credits == 0);
-  CHECK(make_plan(request).ray_places == 5);
+  CHECK(make_plan(request).ray_slots == 5);
 }
 
 TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.5 MB at most, not 3.9 as with a credit a pair") {
@@ -304,11 +304,11 @@ TEST_CASE("shared places are given up after queued packets and before the length
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
-    CHECK((plan.ray_places == 64 || plan.queue_packets == 0));
-    CHECK((plan.ray_batch == 17 || plan.ray_places == 1));
+    CHECK((plan.ray_slots == 64 || plan.queue_packets == 0));
+    CHECK((plan.ray_batch == 17 || plan.ray_slots == 1));
   }
   request.computer.node_memory_bytes = smallest;
-  CHECK(make_plan(request).ray_places == 1);
+  CHECK(make_plan(request).ray_slots == 1);
   request.computer.node_memory_bytes = smallest - 1;
   CHECK_FALSE(error_of(request).empty());
 }

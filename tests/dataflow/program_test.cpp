@@ -61,7 +61,7 @@ struct LoneProgram {
         made(
             dataflow::make_node_program(single.node, stage.plan,
                                         {stage.distribution.parts[index].header, std::span(stage.distribution.parts[index].bytes),
-                                         primaries, stage.settings, stage.distribution.regions, stage.distribution.outline})),
+                                         primaries, stage.settings, stage.distribution.regions, stage.distribution.proxy})),
         program(*made) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
@@ -133,7 +133,7 @@ TEST_CASE("a hit that is confirmed but not met here goes to its finder with the 
   REQUIRE(sent.size() == 1);
   CHECK(sent[0].is_confirmed == 1);
   CHECK(sent[0].finder == other);
-  CHECK(sent[0].best.block == core::Address{0x7ffffff0});
+  CHECK(sent[0].best.leaf == core::Address{0x7ffffff0});
   CHECK(sent[0].best.lane == 3);
   CHECK(sent[0].ray.pixel == found.ray.pixel);
   const dataflow::ProgramReport report = node.program.report();
@@ -177,16 +177,16 @@ TEST_CASE("a node that holds its primary rays back gives back credits but keeps 
 TEST_CASE("a node that is asked to hold its primary rays back acknowledges, and starts none until it is no longer asked") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16);
   LoneProgram node(stage, 0, stage.distribution.primaries[0]);
-  const auto hold = [&](std::uint32_t holds) {
-    const dataflow::Hold packet{holds};
-    node.program.receive({NodeId{1}, dataflow::number_of(Kind::hold), std::as_bytes(std::span(&packet, 1))});
-    CHECK(Kind{node.single.post.parcels.back().kind} == Kind::hold_acknowledgement);
+  const auto throttle = [&](std::uint32_t holds) {
+    const dataflow::Throttle packet{holds};
+    node.program.receive({NodeId{1}, dataflow::number_of(Kind::throttle), std::as_bytes(std::span(&packet, 1))});
+    CHECK(Kind{node.single.post.parcels.back().kind} == Kind::throttle_acknowledgement);
   };
-  hold(1);
+  throttle(1);
   node.work_to_rest();
   CHECK(node.single.post.parcels.size() == 1);
   CHECK(node.program.report().operations.rays == core::Operations().rays);
-  hold(0);
+  throttle(0);
   node.work_to_rest();
   CHECK(node.program.report().operations.rays[0] > 0);
 }
@@ -197,7 +197,7 @@ TEST_CASE("a node whose queue gets long asks the others to hold their primary ra
   node.work_to_rest();  // nobody answers
   std::uint32_t asked = 0;
   for (const Parcel& parcel : node.single.post.parcels) {
-    asked += Kind{parcel.kind} == Kind::hold ? parcel.packet().as<dataflow::Hold>().holds : 0;
+    asked += Kind{parcel.kind} == Kind::throttle ? parcel.packet().as<dataflow::Throttle>().holds : 0;
   }
   CHECK(asked == 2);
   CHECK(node.program.report().rays.holds == 1);
@@ -205,14 +205,14 @@ TEST_CASE("a node whose queue gets long asks the others to hold their primary ra
 }
 
 TEST_CASE("where places are shared a node whose queue gets long tells the host alone") {
-  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_places = 1, .queue_packets = 1}});
+  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_slots = 1, .queue_packets = 1}});
   LoneProgram node(stage, 1, stage.distribution.primaries[1]);
   node.work_to_rest();  // nobody answers
   std::uint32_t asked = 0;
   for (const Parcel& parcel : node.single.post.parcels) {
-    if (Kind{parcel.kind} == Kind::hold) {
+    if (Kind{parcel.kind} == Kind::throttle) {
       CHECK(parcel.target == NodeId{3});
-      asked += parcel.packet().as<dataflow::Hold>().holds;
+      asked += parcel.packet().as<dataflow::Throttle>().holds;
     }
   }
   CHECK(asked == 1);
@@ -220,25 +220,25 @@ TEST_CASE("where places are shared a node whose queue gets long tells the host a
 }
 
 TEST_CASE("what the host relays a node tells those below it, and answers when they have answered") {
-  const Stage stage(tests::mirrors_and_glass(), 6, 16, {.rays = {.ray_places = 1}});
+  const Stage stage(tests::mirrors_and_glass(), 6, 16, {.rays = {.ray_slots = 1}});
   LoneProgram node(stage, 0);
   const auto receive = [&](std::uint32_t sender, Kind kind, const auto& packet) {
     node.program.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&packet, 1))});
   };
-  receive(6, Kind::hold, dataflow::Hold{1});
+  receive(6, Kind::throttle, dataflow::Throttle{1});
   for (const std::uint32_t below : {4U, 5U}) {
-    const Parcel told = node.single.take();
-    CHECK(Kind{told.kind} == Kind::hold);
-    CHECK(told.target == NodeId{below});
-    CHECK(told.packet().as<dataflow::Hold>().holds == 1);
+    const Parcel reported = node.single.take();
+    CHECK(Kind{reported.kind} == Kind::throttle);
+    CHECK(reported.target == NodeId{below});
+    CHECK(reported.packet().as<dataflow::Throttle>().holds == 1);
   }
-  receive(5, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+  receive(5, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
   CHECK(node.single.post.parcels.empty());
-  receive(4, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+  receive(4, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
   const Parcel answer = node.single.take();
-  CHECK(Kind{answer.kind} == Kind::hold_acknowledgement);
+  CHECK(Kind{answer.kind} == Kind::throttle_acknowledgement);
   CHECK(answer.target == NodeId{6});
-  CHECK_THROWS_AS(receive(4, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{}), core::InternalError);
+  CHECK_THROWS_AS(receive(4, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{}), core::InternalError);
 }
 
 TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {
@@ -255,7 +255,7 @@ TEST_CASE("a node that rests gives back the credit of a ray that it has taken up
   CHECK(node.single.memory.used().bytes == [&] {
     nodes::MemoryPlan planned = stage.plan.node_memory(found.owner);
     planned[nodes::Category::mailbox] = 0;                                                    // the runner's
-    planned[nodes::Category::queues] -= nodes::LocalMemory::bytes_for<dataflow::PrimaryRun>(  // it was dealt none
+    planned[nodes::Category::queues] -= nodes::LocalMemory::bytes_for<dataflow::PrimaryRun>(  // it was assigned none
         stage.distribution.primaries[found.owner].size());
     return planned.bytes;
   }());
@@ -294,7 +294,7 @@ TEST_CASE("any legal order of events gives the same film, and no mailbox overflo
     dataflow::PlanRequest bounds;
     bounds.rays.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
     if (seed % 3 == 2) {
-      bounds.rays.ray_places = 1 + seed % 4;
+      bounds.rays.ray_slots = 1 + seed % 4;
     } else {
       bounds.rays.ray_credits = seed % 4;
     }
@@ -307,7 +307,7 @@ TEST_CASE("any legal order of events gives the same film, and no mailbox overflo
 TEST_CASE("nodes that share an owner's only place, without a queue, go on by way of the host") {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     dataflow::PlanRequest bounds;
-    bounds.rays = {.ray_batch = 2, .ray_places = 1, .queue_packets = 0};
+    bounds.rays = {.ray_batch = 2, .ray_slots = 1, .queue_packets = 0};
     bounds.bundles = seed % 2 == 0;
     run_shuffled(Stage(tests::mirrors_and_glass(), 6, 8, bounds), seed);
   }

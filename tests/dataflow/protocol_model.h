@@ -47,7 +47,7 @@ struct ProtocolSettings {
   std::uint8_t rays_a_packet = 1;           ///< more than 1 only with one credit
   std::uint8_t return_batch = 1;            ///< credits that a busy node collects
   std::uint8_t queue_packets = 0;           ///< at most 2
-  std::uint8_t shared_places = 0;           ///< of each owner, that nodes ask for; 0: they have credits_each of their own
+  std::uint8_t shared_slots = 0;            ///< of each owner, that nodes ask for; 0: they have credits_each of their own
   std::uint8_t open_packets = model_nodes;  ///< being filled at one node at a time
   std::uint8_t asks_max = model_nodes;      ///< owners that a node may be asking for a place
   bool has_backpressure = true;
@@ -63,7 +63,7 @@ struct ProtocolSettings {
 template <class Rules>
 class ProtocolModel {
  public:
-  enum class Kind : std::uint8_t { rays, overflow, credits, hold, hold_acknowledgement, token, finish, ask, unused };
+  enum class Kind : std::uint8_t { rays, overflow, credits, hold, throttle_acknowledgement, token, finish, ask, unused };
 
   struct Message {
     Kind kind{};
@@ -88,9 +88,9 @@ class ProtocolModel {
     std::uint8_t waiting_owner = 0;
     std::array<std::uint8_t, model_nodes> asked{};       ///< whether a place is asked for, by owner
     std::array<std::uint8_t, model_nodes - 1> asking{};  ///< who waits for a place here, the longest first: index + 1
-    std::uint8_t free_places = 0;                        ///< of those shared
+    std::uint8_t free_slots = 0;                         ///< of those shared
     std::uint8_t withheld = 0;                           ///< of those shared: in them packets have come
-    std::uint8_t holds_below = 0;                        ///< members that have been told what to hold back, and not answered
+    std::uint8_t holds_below = 0;                        ///< members that have been told what to throttle, and not answered
     bool is_finished = false;
   };
   struct State {
@@ -155,8 +155,8 @@ class ProtocolModel {
       hold(announcements_in(state) == 0, "termination is detected only when nothing is announced");
     }
     check_credits(state);
-    if (settings_.shared_places > 0) {
-      check_shared_places(state);
+    if (settings_.shared_slots > 0) {
+      check_shared_slots(state);
     }
   }
 
@@ -181,25 +181,25 @@ class ProtocolModel {
     const bool is_host = peer == model_host;
     Member m{.termination = is_host ? Rules::Termination::initiator(model_tree)
                                     : Rules::Termination::member(nodes::NodeId{narrow(peer)}, model_tree),
-             .backpressure{told_by(peer), is_host ? dataflow::Backpressure::relay_capacity : settings_.queue_packets,
+             .backpressure{reported_by(peer), is_host ? dataflow::Backpressure::relay_capacity : settings_.queue_packets,
                            settings_.has_backpressure}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
       m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : credits_each(peer);
     }
-    m.free_places = is_host ? std::uint8_t{0} : settings_.shared_places;
+    m.free_slots = is_host ? std::uint8_t{0} : settings_.shared_slots;
     return m;
   }
 
-  /// To how many a peer says what they are to hold back.
-  std::uint32_t told_by(std::size_t peer) const {
-    return peer == model_host ? place_of(peer).child_count : settings_.shared_places > 0 ? 1 : narrow(model_nodes - 1);
+  /// To how many a peer says what they are to throttle.
+  std::uint32_t reported_by(std::size_t peer) const {
+    return peer == model_host ? place_of(peer).child_count : settings_.shared_slots > 0 ? 1 : narrow(model_nodes - 1);
   }
   static dataflow::TreePlace place_of(std::size_t peer) { return model_tree.place_of(nodes::NodeId{narrow(peer)}); }
   /// That a peer has for a node without asking.
   std::uint8_t credits_each(std::size_t peer) const { return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each; }
   /// Nodes' places are shared, the host's are its own.
-  bool shares_with(std::size_t peer) const { return settings_.shared_places > 0 && peer != model_host; }
+  bool shares_with(std::size_t peer) const { return settings_.shared_slots > 0 && peer != model_host; }
 
   static void append(std::string& bytes, const Member& m) {
     const auto& token = m.termination.token();
@@ -225,7 +225,7 @@ class ProtocolModel {
               static_cast<char>(m.holds_below),
               static_cast<char>(m.waiting),
               static_cast<char>(m.waiting_owner),
-              static_cast<char>(m.free_places),
+              static_cast<char>(m.free_slots),
               static_cast<char>(m.withheld)};
     const auto add = [&](const auto& counts) {
       for (const std::uint8_t count : counts) {
@@ -247,7 +247,7 @@ class ProtocolModel {
     bool is_home = true;
     for (std::size_t peer = 0; peer < model_peers; ++peer) {
       is_home = is_home && state.member[peer].credits == member(peer).credits &&
-                state.member[peer].free_places == member(peer).free_places;
+                state.member[peer].free_slots == member(peer).free_slots;
     }
     return is_home;
   }
@@ -313,12 +313,12 @@ class ProtocolModel {
 
   /// Checks a place that is shared, which may also be free or travel back unused; and of each pair there is one request,
   /// grant or place in use at most, for so many have room in the mailboxes.
-  void check_shared_places(const State& state) const {
+  void check_shared_slots(const State& state) const {
     for (std::size_t to = 0; to < model_nodes; ++to) {
       const Member& target = state.member[to];
-      hold(rays_of_nodes(target) <= settings_.shared_places * settings_.rays_a_packet,
+      hold(rays_of_nodes(target) <= settings_.shared_slots * settings_.rays_a_packet,
            "a received ray has its place in the backlog");
-      std::uint32_t count = target.free_places + target.withheld;
+      std::uint32_t count = target.free_slots + target.withheld;
       for (std::size_t from = 0; from < model_nodes; ++from) {
         const Channel &there = state.channel[from][to], &back = state.channel[to][from];
         const std::uint32_t granted = count_in(back, Kind::credits, true) + state.member[from].credits[to];
@@ -326,7 +326,7 @@ class ProtocolModel {
         hold(count_in(there, Kind::ask, false) <= 1, "a request has its place in the mailbox");
         hold(granted <= 1, "a grant has its place in the mailbox");
       }
-      hold(count == settings_.shared_places, "no place is lost and none is made");
+      hold(count == settings_.shared_slots, "no place is lost and none is made");
     }
   }
 
@@ -398,20 +398,20 @@ class ProtocolModel {
         break;
       case Kind::ask:
         *std::find(m.asking.begin(), m.asking.end(), 0) = narrow(from + 1);
-        grant_places(state, to);
+        grant_slots(state, to);
         break;
       case Kind::unused:
         m.termination.ray_packet_received();
-        ++m.free_places;
-        grant_places(state, to);
+        ++m.free_slots;
+        grant_slots(state, to);
         break;
       case Kind::hold:
         m.backpressure.take(message.count != 0);
         relay_or_acknowledge(state, to, from, message);
         break;
-      case Kind::hold_acknowledgement:
+      case Kind::throttle_acknowledgement:
         if (is_relayed() && to != model_host && from != model_host) {
-          told_below(state, to);
+          reported_below(state, to);
         } else {
           m.backpressure.acknowledged();
         }
@@ -425,35 +425,35 @@ class ProtocolModel {
     }
   }
 
-  // ---- What is to be held back ----------------------------------------------------------------------------------------------
+  // ---- What is to be throttled ----------------------------------------------------------------------------------------------
 
-  bool is_relayed() const { return settings_.shared_places > 0; }
+  bool is_relayed() const { return settings_.shared_slots > 0; }
 
   void relay_or_acknowledge(State& state, std::size_t peer, std::size_t teller, const Message& hold) const {
     const std::uint32_t below = is_relayed() && peer != model_host ? place_of(peer).child_count : 0;
     state.member[peer].holds_below = narrow(below);
     if (below == 0 || !settings_.acknowledges_last) {
-      send(state, peer, teller, {.kind = Kind::hold_acknowledgement});
+      send(state, peer, teller, {.kind = Kind::throttle_acknowledgement});
     }
-    tell_below(state, peer, below, hold.count);
+    report_below(state, peer, below, hold.count);
   }
-  void tell_below(State& state, std::size_t peer, std::uint32_t below, std::uint8_t holds) const {
+  void report_below(State& state, std::size_t peer, std::uint32_t below, std::uint8_t holds) const {
     for (std::uint32_t i = 0; i < below; ++i) {
       const std::size_t child = place_of(peer).first_child + i;
       send(state, peer, child, {Kind::hold, holds});
       hold(count_in(state.channel[peer][child], Kind::hold, false) <= 1, "an announcement has its place in the mailbox");
     }
   }
-  void told_below(State& state, std::size_t peer) const {
+  void reported_below(State& state, std::size_t peer) const {
     if (--state.member[peer].holds_below == 0 && settings_.acknowledges_last) {
-      send(state, peer, index_of(place_of(peer).parent), {.kind = Kind::hold_acknowledgement});
+      send(state, peer, index_of(place_of(peer).parent), {.kind = Kind::throttle_acknowledgement});
     }
   }
 
-  template <class Tell>
-  void count_overflow(Member& m, Tell tell) const {
+  template <class Report>
+  void count_overflow(Member& m, Report report) const {
     if (settings_.counts_overflow) {
-      (m.termination.*tell)();
+      (m.termination.*report)();
     }
   }
 
@@ -461,11 +461,11 @@ class ProtocolModel {
 
   bool is_shared(std::size_t node, std::size_t owner) const { return shares_with(node) && owner != model_host; }
 
-  void grant_places(State& state, std::size_t owner) const {
+  void grant_slots(State& state, std::size_t owner) const {
     Member& m = state.member[owner];
-    while (Rules::grants(m.free_places, m.asking[0] > 0)) {
+    while (Rules::grants(m.free_slots, m.asking[0] > 0)) {
       send(state, owner, m.asking[0] - 1U, {.kind = Kind::credits, .count = 1});
-      --m.free_places;
+      --m.free_slots;
       std::shift_left(m.asking.begin(), m.asking.end(), 1);
       m.asking.back() = 0;
     }
@@ -508,12 +508,12 @@ class ProtocolModel {
     }
   }
 
-  void free_places(State& state, std::size_t node) const {
+  void free_slots(State& state, std::size_t node) const {
     Member& m = state.member[node];
-    const std::uint32_t freed = dataflow::places_freed(m.withheld, rays_of_nodes(m), settings_.rays_a_packet);
+    const std::uint32_t freed = dataflow::slots_freed(m.withheld, rays_of_nodes(m), settings_.rays_a_packet);
     m.withheld = static_cast<std::uint8_t>(m.withheld - freed);
-    m.free_places = static_cast<std::uint8_t>(m.free_places + freed);
-    grant_places(state, node);
+    m.free_slots = static_cast<std::uint8_t>(m.free_slots + freed);
+    grant_slots(state, node);
   }
 
   // ---- A node's quantum --------------------------------------------------------------------------------------------------
@@ -675,7 +675,7 @@ class ProtocolModel {
         Member& m = next.member[node];
         --m.backlog[sender];
         if (shares_with(sender)) {
-          free_places(next, node);
+          free_slots(next, node);
           trace(next, {"traces a received ray", narrow(node), narrow(sender)}, visit);
           continue;
         }
@@ -781,7 +781,7 @@ class ProtocolModel {
   void relay(State state, Visit visit) const {
     auto& relay = state.member[model_host].backpressure;
     const std::uint8_t holds = relay.announce(relay.holders()) ? 1 : 0;
-    tell_below(state, model_host, place_of(model_host).child_count, holds);
+    report_below(state, model_host, place_of(model_host).child_count, holds);
     visit(Action{"asks all to hold", narrow(model_host), narrow(model_host), holds}, state);
   }
 

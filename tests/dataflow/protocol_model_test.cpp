@@ -70,7 +70,7 @@ struct PassiveWithQueue : ProtocolRules {
   }
 };
 
-struct HoldingForEver : ProtocolRules {
+struct ThrottlingForEver : ProtocolRules {
   struct Backpressure : dataflow::Backpressure {
     using dataflow::Backpressure::Backpressure;
     bool is_due(std::uint32_t queued) const { return !is_announced() && dataflow::Backpressure::is_due(queued); }
@@ -129,7 +129,7 @@ struct NotAsking : ProtocolRules {
   static bool asks(bool, bool, bool) { return false; }
 };
 
-struct KeepingPlaces : ProtocolRules {
+struct InstancingPlaces : ProtocolRules {
   static bool declines(bool, bool) { return false; }
 };
 
@@ -196,29 +196,28 @@ TEST_CASE("primary rays that start whatever waits end in every order of events")
 }
 
 TEST_CASE("places that are shared and asked for become free again in every order of events" * doctest::test_suite("slow")) {
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_places = 1}, 10'000);
-  check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_places = 1}, 10'000);
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_places = 2, .owners = 2}, 10'000);
-  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 1, .shared_places = 1}, 10'000);
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_places = 1, .owners = 2},
-                   10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_slots = 1}, 10'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_slots = 1}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_slots = 2, .owners = 2}, 10'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1, .owners = 2}, 10'000);
 }
 
 TEST_CASE("nodes that fill one packet at a time go on in every order of events" * doctest::test_suite("slow")) {
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_slots = 1, .open_packets = 1},
                    1'000);
   check_all_orders({.primaries = {1, 0, 0},
                     .children = children(2),
                     .rays_a_packet = 2,
                     .queue_packets = 1,
-                    .shared_places = 1,
+                    .shared_slots = 1,
                     .open_packets = 2},
                    1'000);
 }
 
 TEST_CASE("nodes that ask one owner at a time go on in every order of events" * doctest::test_suite("slow")) {
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_places = 1, .asks_max = 1}, 1'000);
-  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 2, .shared_places = 1, .asks_max = 1},
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_slots = 1, .asks_max = 1}, 1'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 2, .shared_slots = 1, .asks_max = 1},
                    1'000);
 }
 
@@ -248,55 +247,54 @@ TEST_CASE("a node that takes queued rays for nothing lets the end be announced t
 }
 
 TEST_CASE("a node that never takes back what it asked of the others keeps their primary rays from starting") {
-  check_found<HoldingForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
+  check_found<ThrottlingForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
 }
 
 TEST_CASE("a node that fills on has no packet for the next ray") {
-  check_found<FillingOn>({.primaries = {1, 0, 0}, .children = 2, .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
+  check_found<FillingOn>({.primaries = {1, 0, 0}, .children = 2, .rays_a_packet = 2, .shared_slots = 1, .open_packets = 1},
                          "finds a packet to be put into");
 }
 
 TEST_CASE("a node that asks again before it has its answer has no room for that in the mailbox") {
-  check_found<AskingTwice>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
+  check_found<AskingTwice>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_slots = 1, .owners = 2},
                            "a request has its place");
 }
 
 TEST_CASE("without asking for shared places queued rays wait for ever") {
-  check_found<NotAsking>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
-                         "deadlock");
+  check_found<NotAsking>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_slots = 1, .owners = 2}, "deadlock");
 }
 
 TEST_CASE("a node that keeps the place it no longer needs keeps others from theirs" * doctest::test_suite("slow")) {
-  check_found<KeepingPlaces>({.primaries = {1, 1, 0}, .children = 3, .shared_places = 1, .owners = 2}, "deadlock");
+  check_found<InstancingPlaces>({.primaries = {1, 1, 0}, .children = 3, .shared_slots = 1, .owners = 2}, "deadlock");
 }
 
 TEST_CASE("an owner that grants what it does not have floods its backlog") {
-  check_found<GrantingBlindly>({.primaries = {2, 1, 0}, .children = 3, .shared_places = 1, .owners = 3}, "place");
+  check_found<GrantingBlindly>({.primaries = {2, 1, 0}, .children = 3, .shared_slots = 1, .owners = 3}, "place");
 }
 
 TEST_CASE("a node that asks more owners than may answer has no room for their grants") {
-  check_found<AskingOn>({.primaries = {1, 0, 0}, .children = 3, .shared_places = 1, .asks_max = 1}, "a grant has its place");
+  check_found<AskingOn>({.primaries = {1, 0, 0}, .children = 3, .shared_slots = 1, .asks_max = 1}, "a grant has its place");
 }
 
 TEST_CASE("a node that forgets whom it has not asked waits for ever") {
-  check_found({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 2, .shared_places = 1, .asks_max = 1, .asks_again = false},
+  check_found({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 2, .shared_slots = 1, .asks_max = 1, .asks_again = false},
               "deadlock");
 }
 
 TEST_CASE("a node that acknowledges before those below it have been told has no room for the next announcement") {
   check_found(
-      {.primaries = {1, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2, .acknowledges_last = false},
+      {.primaries = {1, 0, 0}, .children = 3, .queue_packets = 1, .shared_slots = 1, .owners = 2, .acknowledges_last = false},
       "an announcement has its place");
 }
 
 TEST_CASE("a host that takes what it relays for nothing lets the end be announced too early") {
-  check_found<PassiveRelay>({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 1, .shared_places = 1, .owners = 2},
+  check_found<PassiveRelay>({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 1, .shared_slots = 1, .owners = 2},
                             "only when nothing is announced");
 }
 
 TEST_CASE("a node that takes an unanswered request for nothing lets the end be announced too early" *
           doctest::test_suite("slow")) {
-  check_found<PassiveUnanswered>({.primaries = {0, 1, 0}, .children = 2, .shared_places = 1}, "no place is asked for");
+  check_found<PassiveUnanswered>({.primaries = {0, 1, 0}, .children = 2, .shared_slots = 1}, "no place is asked for");
 }
 
 TEST_CASE("without colours the end is announced too early") {

@@ -38,7 +38,8 @@ std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& by_kind
   return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
 }
 
-/// One ray through a grid of two top cells each way, along x, past everything: from the low half to the high half, into the sky.
+/// One ray through a grid of two macro cells each way, along x, past everything: from the low half to the high half, into the
+/// sky.
 Subject lone_ray() {
   core::Scene scene = tests::BorderScene().scene();
   scene.view = {.from = {-3, -0.7, -0.7}, .at = {0, -0.7, -0.7}, .up = {0, 0, 1}};
@@ -98,7 +99,7 @@ TEST_CASE("the same ray by way of the host is one message, too") {
   CHECK(dataflow::ray_traffic(report.sent()).packets == 2);
   CHECK(report.host_rays.rays_in == 1);
   CHECK(report.host_rays.rays_out == 1);
-  CHECK(report.host_rays.rays_kept_max == 1);
+  CHECK(report.host_rays.rays_buffered_max == 1);
 }
 
 TEST_CASE(

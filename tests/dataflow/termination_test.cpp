@@ -131,10 +131,10 @@ TEST_CASE("a member tells when all below it have told, and not before it is call
   CHECK_FALSE(member.hand_on().has_value());
   member.ray_packet_sent();
   member.take({.balance = 2, .is_black = 1});
-  const TokenHandover told = handed_on(member);
-  CHECK(told.token == Token{3, 1});
-  CHECK(told.first == NodeId{3});
-  CHECK(told.count == 1);
+  const TokenHandover reported = handed_on(member);
+  CHECK(reported.token == Token{3, 1});
+  CHECK(reported.first == NodeId{3});
+  CHECK(reported.count == 1);
   CHECK_FALSE(member.hand_on().has_value());
 }
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/digest.h"
+#include "apps/frontend/system/digest.h"
 #include "apps/render/checkpoint_file.h"
 #include "core/base/expect.h"
 #include "core/picture/shade.h"

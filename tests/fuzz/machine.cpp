@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/machine/machine_file.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/machine/machine_file.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/fuzz/targets.h"

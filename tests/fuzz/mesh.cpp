@@ -84,7 +84,7 @@ void describe(const Subject& subject, const Ray& ray, const Hit& hit) {
   std::cerr << "ray from " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z << " along " << ray.direction.x << ' '
             << ray.direction.y << ' ' << ray.direction.z << " to " << ray.t_max << ", ignores " << ray.ignored_primitive
             << "; hit " << hit.primitive << " at " << hit.t << '\n';
-  for (const apps::Encounter& seen : subject.referee.encounters(ray)) {
+  for (const apps::ExactIntersection& seen : subject.referee.exact_intersections(ray)) {
     std::cerr << "may hit " << seen.primitive << " at " << seen.t << " +- " << seen.t_error << ", by " << seen.margin[0]
               << " times rounding\n";
   }

@@ -86,11 +86,11 @@ class MeshRays {
     }
   }
 
-  /// On a plane of the lattice, often one between cells or top cells.
+  /// On a plane of the lattice, often one between cells or macro cells.
   double on_plane(std::size_t axis) {
     const core::GridFrame& frame = database_.header().frame;
     const int cells = frame.resolution[axis] * core::finest_per_cell;
-    constexpr std::array<int, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
+    constexpr std::array<int, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_macro};
     const int span = spans[bytes_.below(spans.size())];
     return core::plane_at(frame, axis, bytes_.word() % cells & -span);
   }

@@ -45,7 +45,7 @@ std::optional<core::Scene> received(tests::Bytes& bytes) {
     return receiver.finish();
   } catch (const apps::Nonsense&) {
     return std::nullopt;
-  } catch (const core::RoomError&) {  // more instances than fit
+  } catch (const core::CapacityError&) {  // more instances than fit
     return std::nullopt;
   }
 }

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/database/database.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/ranks/mpi_library.h"
-#include "apps/edge/ranks/rank_group.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/ranks/mpi_library.h"
+#include "apps/frontend/ranks/rank_group.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "tests/nodes/toy_machine.h"
 
@@ -120,7 +120,7 @@ int main(int count, char** values) {
   int status = 1;
   try {
     const double seconds = count > 1 ? std::strtod(values[1], nullptr) : 3;
-    status = apps::run_as_rank({.own = apps::build_likeness()},
+    status = apps::run_as_rank({.own = apps::build_compatibility()},
                                [seconds](apps::RankGroup& group) { return tests::measure(group, seconds); });
   } catch (const std::exception& error) {
     std::cerr << "mpi_bench: " << error.what() << std::endl;

@@ -95,9 +95,9 @@ TEST_CASE("frames of all ranks to all others at once come whole, and each sender
 
 TEST_CASE("what is sent to a rank that takes nothing is not lost") {
   const Here& now = here();
-  constexpr std::uint64_t looks_in_vain_max = 10'000;
+  constexpr std::uint64_t polls_in_vain_max = 10'000;
   std::size_t sent = 0, taken = 0;
-  for (std::uint64_t looks = 0; now.rank() != 0 && sent < 100 && looks < looks_in_vain_max; ++looks) {
+  for (std::uint64_t looks = 0; now.rank() != 0 && sent < 100 && looks < polls_in_vain_max; ++looks) {
     if (const std::span<std::byte> room = now.fabric.room(0); !room.empty()) {
       now.fabric.send(0, room.size());
       ++sent;

@@ -5,8 +5,8 @@
 #include <exception>
 #include <vector>
 
-#include "apps/edge/ranks/mpi_library.h"
-#include "apps/edge/ranks/rank_group.h"
+#include "apps/frontend/ranks/mpi_library.h"
+#include "apps/frontend/ranks/rank_group.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::tests {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <iostream>
 
-#include "apps/edge/ranks/rank_group.h"
+#include "apps/frontend/ranks/rank_group.h"
 #include "apps/render/self_test.h"
 #include "tests/mpi/here.h"
 
@@ -16,7 +16,7 @@ constexpr std::size_t payload_bytes_max = 40'000;
 
 int run_tests(doctest::Context& context) {
   using namespace dmpc;
-  return apps::run_as_rank({.own = apps::renderer_likeness()}, [&](apps::RankGroup& group) {
+  return apps::run_as_rank({.own = apps::renderer_compatibility()}, [&](apps::RankGroup& group) {
     const tests::Here here{group, group.connect(payload_bytes_max)};
     tests::here_now = &here;
     const int status = context.run();

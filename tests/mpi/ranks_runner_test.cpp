@@ -44,10 +44,10 @@ TEST_CASE("every request is answered across processes") {
   const auto count = static_cast<std::uint32_t>(scaled(400));
   const auto look = [](RanksRunner& runner) {
     for (std::uint32_t index = 0; index < 12; ++index) {
-      CHECK((!runner.is_here(index) || program_of<Asker>(runner, index).all_right()));
+      CHECK((!runner.is_here(index) || program_of<Requester>(runner, index).all_right()));
     }
   };
-  CHECK(end_of(equal_nodes(12, Asker::mailbox(12, 20), making<Asker>(count, 20U)), look) == "");
+  CHECK(end_of(equal_nodes(12, Requester::mailbox(12, 20), making<Requester>(count, 20U)), look) == "");
 }
 
 TEST_CASE("an exception of a program ends the run in all processes, and others say whose it was") {
@@ -65,9 +65,9 @@ TEST_CASE("an exception of a program ends the run in all processes, and others s
 TEST_CASE("what nodes have to say after a run comes to rank 0") {
   const auto text = [](std::size_t index) { return std::string(index * 20'000, static_cast<char>('a' + index)); };
   const auto look = [&](RanksRunner& runner) {
-    const std::vector<std::string> told = runner.gather(text);
-    for (std::size_t index = 0; index < told.size() && runner.is_here(told.size() - 1); ++index) {
-      CHECK(told[index] == text(index));
+    const std::vector<std::string> reported = runner.gather(text);
+    for (std::size_t index = 0; index < reported.size() && runner.is_here(reported.size() - 1); ++index) {
+      CHECK(reported[index] == text(index));
     }
   };
   CHECK(end_of(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(3U)), look) == "");
@@ -94,7 +94,7 @@ void lose_last_rank(int signal) {
   specifications[7].make_program = making<Stops>(signal);
   try {
     end_of(specifications, [](RanksRunner&) {},
-           {.life_sign = std::chrono::milliseconds(50), .longest = std::chrono::milliseconds(1000)});
+           {.heartbeat = std::chrono::milliseconds(50), .longest = std::chrono::milliseconds(1000)});
   } catch (const LostRank&) {
     is_lost = std::current_exception();
   }

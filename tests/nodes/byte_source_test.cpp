@@ -68,9 +68,9 @@ TEST_CASE("a piece of a stream that is not the next one is an error, and no othe
 }
 
 TEST_CASE("what is here lasts, and nothing of a stream does") {
-  CHECK(ByteSource(whole).lasting(1, 3).data() == whole.data() + 1);
+  CHECK(ByteSource(whole).immutable(1, 3).data() == whole.data() + 1);
   WrittenBytes stream;
-  CHECK_THROWS_AS(ByteSource(stream, 1).lasting(0, 1), core::InternalError);
+  CHECK_THROWS_AS(ByteSource(stream, 1).immutable(0, 1), core::InternalError);
 }
 
 }  // namespace

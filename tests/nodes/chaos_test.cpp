@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/support/complaint.h"
 

@@ -37,13 +37,13 @@ TEST_CASE("rooms are taken in their order") {
   CHECK(std::as_bytes(shorts).data() == bytes.data() + 3 * LocalMemory::alignment);
 }
 
-TEST_CASE("rooms, layouts and plans are added, those for lasting bytes among them") {
-  MemoryPlan lasting;
-  lasting.lasting_bytes = lasting[Use::second] = 64;
-  const MemoryPlan sum = Room<std::byte>{Use::first, 1} + small_layout() + lasting;
+TEST_CASE("rooms, layouts and plans are added, those for immutable bytes among them") {
+  MemoryPlan immutable;
+  immutable.immutable_bytes = immutable[Use::second] = 64;
+  const MemoryPlan sum = Room<std::byte>{Use::first, 1} + small_layout() + immutable;
   CHECK(sum[Use::first] == 4 * LocalMemory::alignment);
   CHECK(sum[Use::second] == 2 * LocalMemory::alignment);
-  CHECK(sum.lasting_bytes == 64);
+  CHECK(sum.immutable_bytes == 64);
 }
 
 TEST_CASE("no room takes nothing, and a second one is not in the plan") {

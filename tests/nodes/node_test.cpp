@@ -59,8 +59,8 @@ TEST_CASE("a send spends one credit of its target and channel") {
 struct PlaceWire final : Network {
   void deliver(NodeId, const PacketHeader&, std::span<const std::byte>) override { ++copies; }
   bool deliver_in_place(NodeId, const PacketHeader& header, std::span<const std::byte> front,
-                        std::span<const std::byte> lasting) override {
-    sent = {NodeId{header.source}, header.kind, front, lasting};
+                        std::span<const std::byte> immutable) override {
+    sent = {NodeId{header.source}, header.kind, front, immutable};
     bytes = header.bytes;
     return true;
   }
@@ -71,12 +71,12 @@ struct PlaceWire final : Network {
 
 TEST_CASE("a payload whose end lasts is put together, or leaves its end where it is, and counts alike") {
   const std::array<std::byte, 2> front{std::byte{1}, std::byte{2}};
-  const std::array<std::byte, 3> lasting{std::byte{3}, std::byte{4}, std::byte{5}};
+  const std::array<std::byte, 3> immutable{std::byte{3}, std::byte{4}, std::byte{5}};
   std::array<std::byte, 5> room{};
   OneNode copying;
   copying.node.grant(target, 0);
-  CHECK(copying.node.try_send(target, 0, 7, front, lasting, room));
-  CHECK_FALSE(copying.node.try_send(target, 0, 7, front, lasting, room));
+  CHECK(copying.node.try_send(target, 0, 7, front, immutable, room));
+  CHECK_FALSE(copying.node.try_send(target, 0, 7, front, immutable, room));
   REQUIRE(copying.wire.sent.size() == 1);
   const std::vector<std::byte> whole{std::byte{1}, std::byte{2}, std::byte{3}, std::byte{4}, std::byte{5}};
   CHECK(copying.wire.sent.front().payload == whole);
@@ -86,14 +86,14 @@ TEST_CASE("a payload whose end lasts is put together, or leaves its end where it
   PlaceWire wire;
   Node referring(NodeId{1}, 3, memory, wire);
   referring.grant(target, 0);
-  CHECK(referring.try_send(target, 0, 7, front, lasting, room));
-  CHECK_FALSE(referring.try_send(target, 0, 7, front, lasting, room));
+  CHECK(referring.try_send(target, 0, 7, front, immutable, room));
+  CHECK_FALSE(referring.try_send(target, 0, 7, front, immutable, room));
   CHECK(wire.copies == 0);
-  CHECK(wire.sent.lasting.data() == lasting.data());
+  CHECK(wire.sent.immutable.data() == immutable.data());
   CHECK(wire.bytes == 5);
   CHECK(total(referring.counters().sent).bytes == total(copying.node.counters().sent).bytes);
   CHECK(referring.counters().refused == 1);
-  CHECK_THROWS_AS(static_cast<void>(referring.try_send(target, 0, 7, front, lasting, std::span(room).first(4))),
+  CHECK_THROWS_AS(static_cast<void>(referring.try_send(target, 0, 7, front, immutable, std::span(room).first(4))),
                   core::InternalError);
 }
 

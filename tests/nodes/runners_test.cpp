@@ -68,11 +68,11 @@ TEST_CASE("a token goes round the ring of any computer") {
 TEST_CASE("every request is answered on any computer, with one credit or many") {
   on_each_computer([](const auto& make, bool is_pool) {
     for (const auto& [peers, window] : {std::pair{2U, 1U}, std::pair{5U, 1U}, std::pair{5U, 7U}, std::pair{24U, 1U}}) {
-      const auto runner = make(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)));
+      const auto runner = make(equal_nodes(peers, Requester::mailbox(peers, window), making<Requester>(20U, window)));
       CHECK(runner->run({}) == RunEnd::finished);
       std::uint64_t refused = 0;
       for (std::uint32_t i = 0; i < peers; ++i) {
-        CHECK(program_of<Asker>(*runner, i).all_right());
+        CHECK(program_of<Requester>(*runner, i).all_right());
         CHECK(runner->node(i).counters().received[request].packets == 20 * (peers - 1));
         CHECK(runner->node(i).counters().received[reply].packets == 20 * (peers - 1));
         refused += runner->node(i).counters().refused;
@@ -88,7 +88,7 @@ TEST_CASE("packets that may wait arrive in order on any computer, overtaken by n
   on_each_computer([&](const auto& make, bool /*is_pool*/) {
     for (const std::uint32_t hasty_one : {0U, 6U, 37U, 99U}) {
       auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(hasty_one));
-      specifications[0].patience = {.kinds = 1U << 1U, .packets = 5};
+      specifications[0].batching = {.kinds = 1U << 1U, .packets = 5};
       const auto runner = make(specifications);
       CHECK(runner->run({}) == RunEnd::finished);
       CHECK(program_of<Patient>(*runner, 1).received() == expected);
@@ -106,7 +106,7 @@ TEST_CASE("a node of any computer that puts work off, in case a packet comes, do
 
 TEST_CASE("a stall ends the run of any computer with a report on every node") {
   on_each_computer([](const auto& make, bool /*is_pool*/) {
-    const std::string report = tests::complaint_of<StandstillError>([&] { make(equal_nodes(3, {}, making<Waiter>()))->run({}); });
+    const std::string report = tests::complaint_of<DeadlockError>([&] { make(equal_nodes(3, {}, making<Waiter>()))->run({}); });
     CHECK((report.find("all nodes sleep") != std::string::npos || report.find("nothing is under way") != std::string::npos));
     CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
     CHECK(report.find("node 1: waits for Godot") != std::string::npos);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 #include "nodes/threads/threads_runner.h"
 
 namespace dmpc::tests {
@@ -35,7 +35,7 @@ inline std::vector<nodes::NodeSpecification> equal_nodes(std::uint32_t count, co
 /// With room for packets held back, small ones.
 inline std::vector<nodes::NodeSpecification> disturbed(std::vector<nodes::NodeSpecification> specifications) {
   for (nodes::NodeSpecification& specification : specifications) {
-    specification.held_bytes = nodes::HeldPackets::room_bytes(nodes::small_payload_bytes);
+    specification.held_bytes = nodes::DelayedPackets::room_bytes(nodes::small_payload_bytes);
     specification.plan[nodes::Category::queues] += specification.held_bytes;
   }
   return specifications;

@@ -26,7 +26,7 @@ inline constexpr nodes::PacketKind request = 1;
 inline constexpr nodes::PacketKind reply = 2;
 
 /// Asks every other node `count` times, with `window` requests to each under way at most; answers by a bulk packet.
-class Asker : public ToyProgram {
+class Requester : public ToyProgram {
  public:
   struct Answer {
     std::uint64_t question;
@@ -39,7 +39,7 @@ class Asker : public ToyProgram {
             .bulk_payload_bytes = sizeof(Answer)};
   }
 
-  Asker(nodes::Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count()) {
+  Requester(nodes::Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count()) {
     for (std::uint32_t i = 0; i < node.peer_count(); ++i) {
       node.grant(nodes::NodeId{i}, requests, window);
     }

@@ -151,18 +151,18 @@ void check_all(Faults (*faults_of)(const Place&)) {
   }
 }
 
-Place room_that_says(const Lines& lines, const fs::path& path = "core/README.md") { return {DMPC_SOURCE_DIR, {path, lines}}; }
+Place module_that_says(const Lines& lines, const fs::path& path = "core/README.md") { return {DMPC_SOURCE_DIR, {path, lines}}; }
 
 }  // namespace
 
 TEST_CASE("a front page has two screens, a room's README 199 lines, and none lines of more than 140 columns") {
   check_all(faults_of_size);
-  CHECK(faults_of_size(room_that_says(Lines(199))).empty());
-  CHECK(faults_of_size(room_that_says(Lines(200))).size() == 1);
-  CHECK(faults_of_size(room_that_says(Lines(121), "README.md")).size() == 1);
-  CHECK(faults_of_size(room_that_says(Lines(500), "core/RESULTS.md")).empty());
-  CHECK(faults_of_size(room_that_says({std::string(141, 'x')})).size() == 1);
-  CHECK(faults_of_size(room_that_says({"|" + std::string(300, 'x')})).empty());
+  CHECK(faults_of_size(module_that_says(Lines(199))).empty());
+  CHECK(faults_of_size(module_that_says(Lines(200))).size() == 1);
+  CHECK(faults_of_size(module_that_says(Lines(121), "README.md")).size() == 1);
+  CHECK(faults_of_size(module_that_says(Lines(500), "core/RESULTS.md")).empty());
+  CHECK(faults_of_size(module_that_says({std::string(141, 'x')})).size() == 1);
+  CHECK(faults_of_size(module_that_says({"|" + std::string(300, 'x')})).empty());
 }
 
 TEST_CASE("all results together are at most 1,000 lines") {
@@ -192,29 +192,29 @@ TEST_CASE("apps/RESULTS.md has each command of the front page and of apps, but t
 
 TEST_CASE("every link of a document leads to a file, and to a heading of it") {
   check_all(faults_of_links);
-  CHECK(faults_of_links(room_that_says({"See [nodes](../nodes/README.md)."})).empty());
-  CHECK(faults_of_links(room_that_says({"See [tev](https://github.com/Tom94/tev)."})).empty());
-  CHECK(faults_of_links(room_that_says({"", "See [nodes](nodes/README.md)."})) ==
+  CHECK(faults_of_links(module_that_says({"See [nodes](../nodes/README.md)."})).empty());
+  CHECK(faults_of_links(module_that_says({"See [tev](https://github.com/Tom94/tev)."})).empty());
+  CHECK(faults_of_links(module_that_says({"", "See [nodes](nodes/README.md)."})) ==
         Faults{"core/README.md:2: a link that leads nowhere: nodes/README.md"});
-  CHECK(faults_of_links(room_that_says({"See [nodes](../nodes/README.md#astrology)."})).size() == 1);
-  CHECK(faults_of_links(room_that_says({"<img src=\"none.png\">"})).size() == 1);
+  CHECK(faults_of_links(module_that_says({"See [nodes](../nodes/README.md#astrology)."})).size() == 1);
+  CHECK(faults_of_links(module_that_says({"<img src=\"none.png\">"})).size() == 1);
   CHECK(anchor_of("## What is skipped, and why?") == "what-is-skipped-and-why");
 }
 
 TEST_CASE("documents speak of the present") {
   check_all(faults_of_tense);
-  CHECK(faults_of_tense(room_that_says({"It is what at first it was."})).size() == 1);
-  CHECK(faults_of_tense(room_that_says({"See commit 59ba5d7."})).size() == 1);
-  CHECK(faults_of_tense(room_that_says({"See commit 59ba5d7, formerly."}, "core/RESULTS.md")).empty());
-  CHECK(faults_of_tense(room_that_says({"A decade of 1234567 rays defaced nothing."})).empty());
+  CHECK(faults_of_tense(module_that_says({"It is what at first it was."})).size() == 1);
+  CHECK(faults_of_tense(module_that_says({"See commit 59ba5d7."})).size() == 1);
+  CHECK(faults_of_tense(module_that_says({"See commit 59ba5d7, formerly."}, "core/RESULTS.md")).empty());
+  CHECK(faults_of_tense(module_that_says({"A decade of 1234567 rays defaced nothing."})).empty());
 }
 
 TEST_CASE("results have a date, a commit and a command") {
   check_all(faults_of_results);
   const fs::path results = "core/RESULTS.md";
-  CHECK(faults_of_results(room_that_says({"On 2026-11-23, commit 59ba5d7.", "## Load", "    dmpc study"}, results)).empty());
-  CHECK(faults_of_results(room_that_says({"## Load", "    dmpc study"}, results)).size() == 2);
-  CHECK(faults_of_results(room_that_says({"## A", "2026-11-23, commit 59ba5d7", "    x", "## B"}, results)).size() == 3);
+  CHECK(faults_of_results(module_that_says({"On 2026-11-23, commit 59ba5d7.", "## Load", "    dmpc study"}, results)).empty());
+  CHECK(faults_of_results(module_that_says({"## Load", "    dmpc study"}, results)).size() == 2);
+  CHECK(faults_of_results(module_that_says({"## A", "2026-11-23, commit 59ba5d7", "    x", "## B"}, results)).size() == 3);
 }
 
 }  // namespace dmpc::tests::style_documents_test

@@ -144,7 +144,7 @@ bool calls(const Lines& lines, const std::string& layer, const std::string& room
 /// Words of programs in a line, alone or in a name: in `ray_setup`, not in `array`.
 Faults programs_words(const std::string& line) {
   static const std::regex words(
-      "(?:^|[^A-Za-z])((?:page|ray|pixel|triangle|film|picture|scene|shading|voxel|brick)s?)(?![A-Za-z])", std::regex::icase);
+      "(?:^|[^A-Za-z])((?:page|ray|pixel|triangle|film|picture|scene|shading|voxel|bvh)s?)(?![A-Za-z])", std::regex::icase);
   return found_in(line, words);
 }
 
@@ -179,9 +179,9 @@ Place readme_that_says(const Lines& lines) { return {DMPC_SOURCE_DIR, {"core/REA
 
 TEST_CASE("every file that a document names is there") {
   check_all_names(faults_of_names);
-  CHECK(
-      faults_of_names(readme_that_says({"`core/picture/film` and `tests/chaos --seeds=3`, in `core/picture`.", "    tests/run"}))
-          .empty());
+  CHECK(faults_of_names(
+            readme_that_says({"`core/picture/film/film` and `tests/chaos --seeds=3`, in `core/picture`.", "    tests/run"}))
+            .empty());
   CHECK(faults_of_names(readme_that_says({"`core/film.h`"})) ==
         Faults{"core/README.md:1: a file that does not exist: core/film.h"});
   CHECK(faults_of_names(readme_that_says({"    tests/gallop"})).size() == 1);
@@ -189,7 +189,7 @@ TEST_CASE("every file that a document names is there") {
 
 TEST_CASE("every type that a document names is there") {
   check_all_names(faults_of_types);
-  CHECK(faults_of_types(readme_that_says({"`LastingPieces` and `nodes::ByteSource`", "no code: TurtleDove"})).empty());
+  CHECK(faults_of_types(readme_that_says({"`ImmutablePieces` and `nodes::ByteSource`", "no code: TurtleDove"})).empty());
   CHECK(faults_of_types(readme_that_says({"`nodes::TurtleDove`"})) ==
         Faults{"core/README.md:1: a type that does not exist: TurtleDove"});
 }
@@ -204,7 +204,8 @@ TEST_CASE("every file that a comment names is there") {
     }
   }
   const auto faults_of = [&](const std::string& comment) { return faults_of_comments({root, {"svm/page.h", {"/" + comment}}}); };
-  CHECK(faults_of("/ as svm/pages/pager has it (packets.h, core/picture/film.h, <sys/absent.h>), apps/modules/NAME.cpp").empty());
+  CHECK(faults_of("/ as svm/pages/pager has it (packets.h, core/picture/film/film.h, <sys/absent.h>), apps/modules/NAME.cpp")
+            .empty());
   CHECK(faults_of("/ See usage/gone.h.") == Faults{"svm/page.h:1: a file that does not exist: usage/gone.h"});
   CHECK(faults_of("/ see svm/gone, gone.h").size() == 2);
   CHECK(faults_of("* no comment of ours: gone.h, https://svm/gone.h").empty());

@@ -33,22 +33,22 @@ const std::map<std::string, Names> stands_on = {
     {"svm", {"svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
     {"svm/forest", {"svm", "svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
     {"dataflow", {"nodes/pictures", "nodes", "core", "core/base"}},
-    {"apps/edge", {"svm/pages", "nodes", "core/base"}},
-    {"apps/policy", {"apps/edge", "svm/pages", "nodes", "core/base"}},
-    {"apps/computer", {"apps/edge", "svm/pages", "nodes", "core/base"}},
-    {"apps/computer/scenes", {"apps/computer", "apps/edge", "svm/pages", "nodes", "core", "core/base"}},
+    {"apps/frontend", {"svm/pages", "nodes", "core/base"}},
+    {"apps/policy", {"apps/frontend", "svm/pages", "nodes", "core/base"}},
+    {"apps/computer", {"apps/frontend", "svm/pages", "nodes", "core/base"}},
+    {"apps/computer/scenes", {"apps/computer", "apps/frontend", "svm/pages", "nodes", "core", "core/base"}},
     {"apps/computer/examples", {}},
-    {"apps", {"apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core", "core/base"}},
-    {"apps/modules", {"apps", "apps/edge", "nodes", "core/base"}},
-    {"apps/foreign", {"apps", "apps/edge", "core", "core/base"}},
+    {"apps", {"apps/frontend", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core", "core/base"}},
+    {"apps/modules", {"apps", "apps/frontend", "nodes", "core/base"}},
+    {"apps/foreign", {"apps", "apps/frontend", "core", "core/base"}},
     {"apps/lab",
-     {"apps", "apps/policy", "apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core",
+     {"apps", "apps/policy", "apps/frontend", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core",
       "core/base"}},
-    {"apps/main", {"apps/lab", "apps", "apps/edge", "core", "core/base"}},
-    {"apps/manual", {"apps/main", "apps", "apps/edge", "core/base"}},
+    {"apps/main", {"apps/lab", "apps", "apps/frontend", "core", "core/base"}},
+    {"apps/manual", {"apps/main", "apps", "apps/frontend", "core/base"}},
     {"tests",
      {"apps/manual", "apps/main", "apps/lab", "apps/foreign", "apps/modules", "apps", "apps/policy", "apps/computer/scenes",
-      "apps/computer", "apps/edge", "dataflow", "svm/forest", "svm", "svm/pages", "nodes/pictures", "nodes", "core",
+      "apps/computer", "apps/frontend", "dataflow", "svm/forest", "svm", "svm/pages", "nodes/pictures", "nodes", "core",
       "core/base"}},
 };
 
@@ -57,23 +57,25 @@ const std::map<std::string, Names> words_of_core = {
     {"svm/pages",
      {"core/record/record.h", "core/record/records.h", "core/trace/charge.h", "core/trace/operations.h",
       "core/trace/task_state.h", "core/picture/memory_use.h"}},
-    {"apps/edge", {"core/trace/charge.h", "core/trace/work.h"}},
+    {"apps/frontend", {"core/trace/charge.h", "core/trace/work.h"}},
     {"apps/computer", {"core/trace/charge.h"}},
 };
 
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the library itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"record", "scene", "database", "trace", "picture", "families"}},
-    {"apps/edge", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
+    {"apps/frontend", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
     {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "help", "show", "render", "view", "info", "program"}},
     {"apps/lab", {"crowd", "figures", "difference", "oracle", "check", "compare", "study", "bench"}},
 };
 
 /// Rooms of other libraries, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
-    {"nodes/threads", {"nodes/runner.cpp"}},       {"nodes/ranks", {"nodes/runner.", "nodes/gathering."}},
-    {"nodes/virtual", {"nodes/runner."}},          {"nodes/watch", {"nodes/gathering."}},
-    {"svm/pages/watch", {"svm/pages/run_tasks."}},
+    {"nodes/threads", {"nodes/runner.cpp"}},
+    {"nodes/ranks", {"nodes/runner.", "nodes/gathering."}},
+    {"nodes/virtual", {"nodes/runner."}},
+    {"nodes/observers", {"nodes/gathering."}},
+    {"svm/pages/observers", {"svm/pages/run_tasks."}},
 };
 
 /// What begins so may be included by files that begin so, and by no others.
@@ -94,22 +96,23 @@ const std::vector<Foreign> foreign = {
     {"libdeflate.h", {"apps/picture/deflater.cpp"}},
     {"zlib.h", {"apps/foreign/pbrt/unpacked.cpp", "apps/lab/study/references/gzip_text.cpp"}},
     {"httplib.h", {"apps/modules/http.cpp"}},
-    {"dlfcn.h", {"apps/edge/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
+    {"dlfcn.h", {"apps/frontend/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
     {"CLI/", {}},  // nobody wants it any more
     {"nlohmann/",
-     {"apps/edge/show/stats/", "apps/show/stats/", "apps/show/page/", "apps/edge/machine/machine_file.",
-      "apps/edge/table/table.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/", "apps/lab/oracle/places/gltf_places.cpp",
-      "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp", "apps/formats/landscape/gltf.cpp",
-      "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/", "tests/mpi/launched/"}},
+     {"apps/frontend/show/stats/", "apps/show/stats/", "apps/show/page/", "apps/frontend/machine/machine_file.",
+      "apps/frontend/table/table.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/",
+      "apps/lab/oracle/places/gltf_places.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
+      "apps/formats/landscape/gltf.cpp", "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/",
+      "tests/mpi/launched/"}},
     {"oneapi/",
-     {"apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp", "apps/lab/oracle/accurate/picture.cpp",
-      "tests/apps/lab/oracle/accurate/"}},
+     {"apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp", "apps/lab/oracle/reference/picture.cpp",
+      "tests/apps/lab/oracle/reference/"}},
     {"tbb/",
      {"core/database/parallel.cpp", "apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp",
-      "apps/lab/oracle/accurate/picture.cpp", "tests/apps/lab/oracle/accurate/"}},
+      "apps/lab/oracle/reference/picture.cpp", "tests/apps/lab/oracle/reference/"}},
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"hwy/", {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp"}},
@@ -117,23 +120,23 @@ const std::vector<Foreign> foreign = {
     // Threads are the computer's; the edge has one that waits for signals, those that answer browsers, those on which rays are
     // timed, some to see whether a library can have as many, and runs side by side that share their progress.
     {"thread",
-     {"nodes/", "tests/", "apps/edge/system/interrupt.", "apps/render/live_", "apps/edge/web/", "apps/modules/http.cpp",
-      "apps/edge/system/module.cpp"}},
+     {"nodes/", "tests/", "apps/frontend/system/interrupt.", "apps/render/live_", "apps/frontend/web/", "apps/modules/http.cpp",
+      "apps/frontend/system/module.cpp"}},
     {"atomic",
-     {"nodes/", "tests/", "apps/edge/system/interrupt.", "apps/edge/system/last_words.", "apps/render/live_", "apps/edge/web/",
-      "apps/modules/http.cpp", "apps/lab/bench/speed/plain_renderer.cpp"}},
+     {"nodes/", "tests/", "apps/frontend/system/interrupt.", "apps/frontend/system/last_words.", "apps/render/live_",
+      "apps/frontend/web/", "apps/modules/http.cpp", "apps/lab/bench/speed/plain_renderer.cpp"}},
     {"mutex",
-     {"nodes/", "tests/", "apps/edge/line/shown_text.h", "apps/render/live_", "apps/view/wishes.", "apps/edge/web/",
+     {"nodes/", "tests/", "apps/frontend/line/shown_text.h", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/",
       "apps/modules/http.cpp", "apps/lab/study/sweep/kept_runs.cpp", "apps/lab/study/runs.cpp",
       "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable",
-     {"nodes/", "tests/", "apps/render/live_", "apps/view/wishes.", "apps/edge/web/", "apps/modules/http.cpp"}},
+     {"nodes/", "tests/", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/", "apps/modules/http.cpp"}},
     {"future", {"nodes/", "tests/", "apps/lab/bench/speed/crew.h"}},
     {"semaphore", {"nodes/", "tests/"}},
-    {"latch", {"nodes/", "tests/", "apps/edge/system/module.cpp"}},
+    {"latch", {"nodes/", "tests/", "apps/frontend/system/module.cpp"}},
     {"barrier", {"nodes/", "tests/"}},
-    {"pthread.h", {"nodes/", "tests/", "apps/edge/system/interrupt."}},
+    {"pthread.h", {"nodes/", "tests/", "apps/frontend/system/interrupt."}},
 };
 
 bool begins_with(std::string_view text, std::string_view beginning) { return text.substr(0, beginning.size()) == beginning; }
@@ -152,7 +155,7 @@ bool may_include_foreign(std::string_view file, std::string_view header) {
   });
 }
 
-/// "apps/edge" of "apps/edge/line/words.h"; empty of what is not ours.
+/// "apps/frontend" of "apps/frontend/line/words.h"; empty of what is not ours.
 std::string library_of(std::string_view path) {
   std::string found;
   for (const auto& [library, unused] : stands_on) {
@@ -163,7 +166,7 @@ std::string library_of(std::string_view path) {
   return found;
 }
 
-/// "database" of "core/database/cutter.h", empty of "apps/main/main.cpp".
+/// "database" of "core/database/tree/cutter.h", empty of "apps/main/main.cpp".
 std::string room_of(std::string_view path) {
   path.remove_prefix(library_of(path).size() + 1);
   const std::size_t slash = path.find('/');
@@ -184,9 +187,9 @@ bool may_look_into(std::string_view file, std::string_view header) {
   if (rooms.contains(library)) {
     return own.empty() || (!room.empty() && height(library, room) < height(library, own));
   }
-  const auto onlookers = looked_into_by.find(library + "/" + room);
-  return !own.empty() || onlookers == looked_into_by.end() ||
-         std::any_of(onlookers->second.begin(), onlookers->second.end(),
+  const auto observers = looked_into_by.find(library + "/" + room);
+  return !own.empty() || observers == looked_into_by.end() ||
+         std::any_of(observers->second.begin(), observers->second.end(),
                      [&](const std::string& beginning) { return begins_with(file, beginning); });
 }
 
@@ -288,9 +291,9 @@ TEST_CASE("a header compiles alone, since its own source includes it before any 
       CHECK(begins_with_own_header(file, text));
     }
   }
-  std::istringstream late("// A film.\n#include <vector>\n#include \"core/picture/film.h\"\n"), never("int x;\n");
-  CHECK_FALSE(begins_with_own_header("core/picture/film.cpp", late));
-  CHECK_FALSE(begins_with_own_header("core/picture/film.cpp", never));
+  std::istringstream late("// A film.\n#include <vector>\n#include \"core/picture/film/film.h\"\n"), never("int x;\n");
+  CHECK_FALSE(begins_with_own_header("core/picture/film/film.cpp", late));
+  CHECK_FALSE(begins_with_own_header("core/picture/film/film.cpp", never));
 }
 
 TEST_CASE("an upward include is found, with file and line") {
@@ -303,32 +306,32 @@ TEST_CASE("an upward include is found, with file and line") {
 TEST_CASE("nodes uses of core nothing but its base") {
   CHECK(violations_in("nodes/charge.h", "\n#include \"core/trace/operations.h\"\n") ==
         Names{"nodes/charge.h:2: core/trace/operations.h"});
-  CHECK(violations_in("nodes/watch/heat_map.cpp", "#include \"core/picture/heat_kind.h\"").size() == 1);
+  CHECK(violations_in("nodes/observers/heat_map.cpp", "#include \"core/picture/heat_kind.h\"").size() == 1);
   CHECK(violations_in("nodes/node.h", "#include \"core/base/expect.h\"").empty());
   CHECK(violations_in("nodes/gathering.h", "#include \"nodes/pictures/host.h\"").size() == 1);
-  CHECK(violations_in("nodes/pictures/host.h", "#include \"core/picture/film.h\"\n#include \"nodes/node.h\"").empty());
+  CHECK(violations_in("nodes/pictures/host.h", "#include \"core/picture/film/film.h\"\n#include \"nodes/node.h\"").empty());
   CHECK(violations_in("nodes/pictures/host.h", "#include \"svm/packets.h\"").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/memory_use.h\"").empty());
 }
 
 TEST_CASE("a room uses only those below it") {
   CHECK(violations_in("core/base/vec.h", "#include \"core/scene/scene.h\"").size() == 1);
-  CHECK(violations_in("apps/edge/line/words.cpp", "#include \"apps/edge/table/table.h\"").size() == 1);
-  CHECK(violations_in("nodes/node.h", "#include \"nodes/watch/trace.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"svm/pages/watch/miss_curve.h\"").size() == 1);
+  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/frontend/table/table.h\"").size() == 1);
+  CHECK(violations_in("nodes/node.h", "#include \"nodes/observers/trace.h\"").size() == 1);
+  CHECK(violations_in("svm/pages/pager.h", "#include \"svm/pages/observers/miss_curve.h\"").size() == 1);
   CHECK(violations_in("apps/lab/bench/speed/part.h",
-                      "#include \"apps/edge/line/words.h\"\n#include \"apps/lab/bench/speed/table.h\"")
+                      "#include \"apps/frontend/line/words.h\"\n#include \"apps/lab/bench/speed/table.h\"")
             .empty());
   CHECK(violations_in("nodes/runner.cpp", "#include \"nodes/threads/clock.h\"").empty());
 }
 
 TEST_CASE("a library uses only those below it, and none itself by way of others") {
-  CHECK(violations_in("apps/edge/line/words.cpp", "#include \"apps/lab/study/runs.h\"").size() == 1);
-  CHECK(violations_in("apps/edge/line/words.cpp", "#include \"apps/main/commands.h\"").size() == 1);
+  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/lab/study/runs.h\"").size() == 1);
+  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/main/commands.h\"").size() == 1);
   CHECK(violations_in("apps/render/command.cpp", "#include \"apps/lab/study/runs.h\"").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include \"svm/packets.h\"").size() == 1);
   CHECK(violations_in("svm/plan.cpp", "#include \"svm/forest/forest.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/film.h\"").size() == 1);
+  CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/film/film.h\"").size() == 1);
   CHECK(violations_in("apps/computer/run.cpp", "#include \"apps/run/report.h\"").size() == 1);
   CHECK(violations_in("apps/main/main.cpp", "#include \"apps/lab/study/runs.h\"").empty());
   for (const auto& [library, unused] : stands_on) {
@@ -393,22 +396,23 @@ TEST_CASE("a foreign header outside its files is found") {
   CHECK(violations_in("apps/scene/load_scene.cpp", "#include <meshoptimizer.h>").size() == 1);
   CHECK(violations_in("apps/main/main.cpp", "#include \"nlohmann/json.hpp\"").size() == 1);
   CHECK(violations_in("core/database/database.cpp", "#include <tbb/parallel_for.h>").size() == 1);
-  CHECK(violations_in("core/trace/walk.h", "#include <hwy/highway.h>").size() == 1);
-  CHECK(violations_in("core/picture/film.h", "#include <doctest/doctest.h>").size() == 1);
+  CHECK(violations_in("core/trace/cell_traversal.h", "#include <hwy/highway.h>").size() == 1);
+  CHECK(violations_in("core/picture/film/film.h", "#include <doctest/doctest.h>").size() == 1);
 }
 
 TEST_CASE("threads and atomics outside the computer are found") {
-  CHECK(violations_in("core/picture/film.cpp", "#include <atomic>").size() == 1);
+  CHECK(violations_in("core/picture/film/film.cpp", "#include <atomic>").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include <thread>").size() == 1);
   CHECK(violations_in("apps/render/command.cpp", "#include <mutex>").size() == 1);
 }
 
 TEST_CASE("what is allowed is not found") {
-  CHECK(violations_in("svm/run.cpp", "#include \"core/picture/film.h\"\n#include <nodes/node.h>\n#include <vector>\n").empty());
+  CHECK(violations_in("svm/run.cpp", "#include \"core/picture/film/film.h\"\n#include <nodes/node.h>\n#include <vector>\n")
+            .empty());
   CHECK(violations_in("apps/oracle/embree.h", "#include <embree3/rtcore.h>\n#include <embree4/rtcore.h>").empty());
   CHECK(violations_in("nodes/mailbox.h", "#include <atomic>").empty());
   CHECK(violations_in("tests/nodes/x_test.cpp", "#include <thread>\n#include \"nodes/node.h\"").empty());
-  CHECK(violations_in("core/picture/film.cpp", "// #include of nothing\n#include <sys/stat.h>").empty());
+  CHECK(violations_in("core/picture/film/film.cpp", "// #include of nothing\n#include <sys/stat.h>").empty());
 }
 
 }  // namespace dmpc::tests::layers_test

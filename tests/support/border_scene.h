@@ -10,8 +10,8 @@
 
 namespace dmpc::tests {
 
-/// Cuts a cube into 2x2x2 top cells. Plane i of an axis lies at i * finest_cell, which single precision holds where i is half an
-/// edge of a top cell or a whole one: borders of cells and top cells, and of regions of equal size.
+/// Cuts a cube into 2x2x2 macro cells. Plane i of an axis lies at i * finest_cell, which single precision holds where i is half
+/// an edge of a macro cell or a whole one: borders of cells and macro cells, and of regions of equal size.
 class BorderScene {
  public:
   BorderScene() {
@@ -22,9 +22,9 @@ class BorderScene {
   const core::Scene& scene() const { return scene_; }
   static core::BuildOptions options() { return {.cells_per_primitive = 448}; }
   /// In finest cells, along each axis.
-  static constexpr std::int32_t size = 2 * core::finest_per_top;
+  static constexpr std::int32_t size = 2 * core::finest_per_macro;
   /// The planes with triangles; the camera sits where the first of x meets the first of z, and looks along y.
-  static constexpr std::int32_t planes[] = {core::finest_per_top / 2, core::finest_per_top};
+  static constexpr std::int32_t planes[] = {core::finest_per_macro / 2, core::finest_per_macro};
 
  private:
   void build(const core::GridFrame& frame) {

@@ -38,9 +38,9 @@ inline std::string window_around(const std::string& file, int width, const std::
 /// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`; empty if it
 /// has not by that time of its own clock. `script` is an element that puts it into the window's title; `state` follows upon the
 /// page's address.
-inline std::string told_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot,
-                                   const std::string& script = telling_script, const std::string& state = "",
-                                   std::chrono::milliseconds time = std::chrono::milliseconds(5000)) {
+inline std::string reported_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot,
+                                       const std::string& script = telling_script, const std::string& state = "",
+                                       std::chrono::milliseconds time = std::chrono::milliseconds(5000)) {
   const TemporaryFolder folder;
   write_text(folder / "page.html", page);
   write_text(folder / "window.html", window_around("page.html" + state, width, script));
@@ -60,13 +60,13 @@ inline std::string told_by_browser(const std::string& page, int width, bool is_d
 }
 
 /// Nothing sticks out of a page of that width, all its pictures show, and it asked for nothing; on a screen no table is cut.
-inline void check_shown_whole(const std::string& told, const std::string& page, int width, bool is_dark) {
-  INFO(told);
+inline void check_shown_whole(const std::string& reported, const std::string& page, int width, bool is_dark) {
+  INFO(reported);
   const std::string wide = std::to_string(width), pictures = std::to_string(count(page, "<img "));
-  CHECK(contains(told, "width " + wide + " of " + wide));
-  CHECK(contains(told, "shown " + pictures + " of " + pictures + ", asked for 0"));
-  CHECK((width < 1280 || contains(told, "tables cut 0,")));
-  CHECK(contains(told, is_dark ? "dark true" : "dark false"));
+  CHECK(contains(reported, "width " + wide + " of " + wide));
+  CHECK(contains(reported, "shown " + pictures + " of " + pictures + ", asked for 0"));
+  CHECK((width < 1280 || contains(reported, "tables cut 0,")));
+  CHECK(contains(reported, is_dark ? "dark true" : "dark false"));
 }
 
 }  // namespace dmpc::tests

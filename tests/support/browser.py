@@ -45,11 +45,11 @@ class Browser:
             sys.exit(f"{expression}: {result['exceptionDetails']['text']}")
         return result["result"].get("value")
 
-    def until(self, expression, patience_s=60):
-        end = time.monotonic() + patience_s
+    def until(self, expression, timeout_s=60):
+        end = time.monotonic() + timeout_s
         while not self.value(f"document.readyState === 'complete' && ({expression})"):
             if time.monotonic() > end:
-                sys.exit(f"after {patience_s} s not yet: {expression}")
+                sys.exit(f"after {timeout_s} s not yet: {expression}")
             time.sleep(0.02)
 
     def close(self):

@@ -5,7 +5,7 @@
 
 #include "core/database/database.h"
 #include "core/families/scenes.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 #include "tests/support/film_of.h"

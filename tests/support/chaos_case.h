@@ -118,9 +118,9 @@ class ChaosCase {
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
     options.pages.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
     options.pages.worker_count = draws_.chance(30) ? 1 + draws_.below(nodes_) : nodes_;
-    options.pages.work_giver =
-        options.pages.work_item_side != 0U && draws_.chance(25) ? svm::WorkGiver::host : svm::WorkGiver::ring;
-    if (options.pages.work_giver == svm::WorkGiver::ring && draws_.chance(30)) {
+    options.pages.work_donor =
+        options.pages.work_item_side != 0U && draws_.chance(25) ? svm::WorkDonor::host : svm::WorkDonor::ring;
+    if (options.pages.work_donor == svm::WorkDonor::ring && draws_.chance(30)) {
       options.pages.pixel_shares = svm::PixelShares::interleaved;
     }
     if (strategy == svm::svm_strategy()) {
@@ -143,7 +143,7 @@ class ChaosCase {
     options.rays.tested_objects = one_of({0U, 0U, 1U, 8U});
     if (draws_.chance(30)) {
       options.rays.ray_credits.reset();
-      options.rays.ray_places = 1 + draws_.below(4);
+      options.rays.ray_slots = 1 + draws_.below(4);
     }
     options.rays.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
     options.rays.balance = {

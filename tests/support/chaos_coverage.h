@@ -51,7 +51,7 @@ inline void cover(Coverage& covered, const ChaosCase& one, const svm::RunOptions
   covered.count("work items are single pixels", pages.work_item_side == 1);
   covered.count("no work items", pages.work_item_side == 0);
   covered.count("nodes that only serve", pages.worker_count < options.computer.node_count);
-  covered.count("the host gives work", pages.work_giver == svm::WorkGiver::host);
+  covered.count("the host gives work", pages.work_donor == svm::WorkDonor::host);
   covered.count("pixels shared out interleaved", pages.pixel_shares == svm::PixelShares::interleaved);
   if (!strategy.fetches_pages()) {
     return;
@@ -74,7 +74,7 @@ inline void cover(Coverage& covered, const ChaosCase& one, const dataflow::RunOp
   covered.count("one ray a packet", rays.ray_batch == 1);
   covered.count("no credits", rays.ray_credits == 0);
   covered.count("one credit", rays.ray_credits == 1);
-  covered.count("shared places", rays.ray_places.has_value());
+  covered.count("shared places", rays.ray_slots.has_value());
   covered.count("no queue", rays.queue_packets == 0);
   covered.count("tested objects", rays.tested_objects > 0);
   covered.count("without backpressure", rays.without_backpressure);
@@ -90,7 +90,7 @@ inline void cover(Coverage& covered, const ChaosCase& one, const dataflow::RunOp
 inline void cover(Coverage& covered, const svm::Report& report, const svm::Strategy& strategy) {
   const svm::WorkCounters work = report.work();
   covered.count("there was work taken from another node", work.items_taken > 0);
-  covered.count("there was work that the host dealt", report.items_dealt > 0);
+  covered.count("there was work that the host assigned", report.items_assigned > 0);
   if (strategy.fetches_pages()) {
     const svm::PageCounters pages = report.pages();
     covered.count("there was a page that another node served", pages.served > 0);

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "apps/lab/bench/stability/cells.h"
-#include "core/picture/transport.h"
+#include "core/picture/surfaces/transport.h"
 #include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::cycles {
 
-inline constexpr int side = 16, blocks = 4;
+inline constexpr int side = 16, leaves = 4;
 /// Red, green and blue.
 using Light = std::array<double, 3>;
 /// Of 4x4 pixels each, row by row from the top left.
-using Blocks = std::array<Light, blocks * blocks>;
+using Leaves = std::array<Light, leaves * leaves>;
 
 /// Polygons, z up, before a camera whose angle spans its pixels from side to side.
 class Model {
@@ -57,17 +57,17 @@ class Model {
 
 /// Paths aim at up to 100 of what shines.
 inline core::Film film_of(const core::Scene& scene, int samples, int bounces, const core::Transport& transport) {
-  core::BuildOptions options = apps::several_top_cells(scene);
+  core::BuildOptions options = apps::several_macro_cells(scene);
   options.emitters_max = 100;
   options.for_paths = true;
   return tests::film_of(core::build_database(scene, options), scene.view, {transport, side, side, samples, bounces});
 }
 
-inline Light block_of(const core::Film& film, std::uint32_t block) {
-  constexpr std::uint32_t edge = side / blocks;
+inline Light leaf_of(const core::Film& film, std::uint32_t leaf) {
+  constexpr std::uint32_t edge = side / leaves;
   Light sum{};
   for (std::uint32_t i = 0; i < edge * edge; ++i) {
-    const std::uint32_t x = block % blocks * edge + i % edge, y = block / blocks * edge + i / edge;
+    const std::uint32_t x = leaf % leaves * edge + i % edge, y = leaf / leaves * edge + i / edge;
     const core::Vec3d light = film.radiance(y * side + x);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       sum[channel] += light[channel] / (edge * edge);
@@ -77,18 +77,18 @@ inline Light block_of(const core::Film& film, std::uint32_t block) {
 }
 
 /// Each block to 0.006, or to that share of it, and the whole to 0.5 %, where a slow build's samples are not too few for it.
-inline void check(const core::Film& film, const Blocks& cycles) {
+inline void check(const core::Film& film, const Leaves& cycles) {
   constexpr double few = slowness == 1 ? 1 : 10;
   Light all{}, expected{};
-  for (std::uint32_t block = 0; block < cycles.size(); ++block) {
-    const Light light = block_of(film, block);
+  for (std::uint32_t leaf = 0; leaf < cycles.size(); ++leaf) {
+    const Light light = leaf_of(film, leaf);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      CAPTURE(block);
+      CAPTURE(leaf);
       CAPTURE(channel);
-      const double off = 0.006 * std::max(1.0, cycles[block][channel]) * few;
-      CHECK(std::fabs(light[channel] - cycles[block][channel]) < off);
+      const double off = 0.006 * std::max(1.0, cycles[leaf][channel]) * few;
+      CHECK(std::fabs(light[channel] - cycles[leaf][channel]) < off);
       all[channel] += light[channel];
-      expected[channel] += cycles[block][channel];
+      expected[channel] += cycles[leaf][channel];
     }
   }
   for (std::size_t channel = 0; channel < 3; ++channel) {

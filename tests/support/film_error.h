@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 
 namespace dmpc::tests {
 

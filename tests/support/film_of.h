@@ -5,7 +5,7 @@
 
 #include "core/database/database.h"
 #include "core/picture/render.h"
-#include "core/picture/transport.h"
+#include "core/picture/surfaces/transport.h"
 #include "core/record/records.h"
 #include "core/scene/scene.h"
 #include "core/trace/skips.h"

@@ -1,4 +1,4 @@
-// Ranks of one process, each on a thread of its own: for sentences, chaos and the thread sanitizer.
+// Ranks of one process, each on a thread of its own: for tests, chaos and the thread sanitizer.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ namespace dmpc::nodes {
 /// What is wrong with it.
 struct LoopbackTrouble {
   std::uint64_t seed = 0;
-  std::uint32_t late_looks_max = 0;  ///< its receiver looks for a frame in vain up to this many times
+  std::uint32_t late_polls_max = 0;  ///< its receiver looks for a frame in vain up to this many times
   /// From one rank to another the frame of this number is lost.
   struct Loss {
     std::uint32_t from = 0, to = 0;
@@ -59,7 +59,7 @@ class Loopback {
     struct Frame {
       std::vector<std::byte> bytes;
       std::size_t used_bytes = 0;
-      std::uint32_t late_looks = 0;
+      std::uint32_t late_polls = 0;
     };
     std::array<Frame, 2> frames;
     std::uint64_t lost = 0;  ///< of the frames that were to be sent; the writer's
@@ -94,7 +94,7 @@ class Loopback {
       }
       Lane::Frame& frame = lane.frames[sent % lane.frames.size()];
       frame.used_bytes = bytes;
-      frame.late_looks = lateness_.below(of_->trouble_.late_looks_max + 1);
+      frame.late_polls = lateness_.below(of_->trouble_.late_polls_max + 1);
       lane.sent.store(sent + 1, std::memory_order_release);  // partner: take()
     }
 
@@ -108,8 +108,8 @@ class Loopback {
           continue;
         }
         Lane::Frame& frame = lane.frames[taken % lane.frames.size()];
-        if (frame.late_looks > 0) {
-          --frame.late_looks;
+        if (frame.late_polls > 0) {
+          --frame.late_polls;
           continue;
         }
         held_ = &lane;

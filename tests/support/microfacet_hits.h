@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "core/database/material_records.h"
-#include "core/picture/hit_state.h"
+#include "core/database/shading/material_records.h"
+#include "core/picture/hits/hit_state.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::tests {

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "nodes/chaos.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"

@@ -13,7 +13,7 @@
 #include "apps/lab/bench/stability/cells.h"
 #include "core/database/database.h"
 #include "core/picture/render.h"
-#include "core/picture/transport.h"
+#include "core/picture/surfaces/transport.h"
 #include "core/scene/frame.h"
 #include "core/scene/scene.h"
 #include "tests/support/film_of.h"
@@ -70,7 +70,7 @@ class Studio {
 
  private:
   static core::BuildOptions options_for(const core::Scene& scene, std::uint32_t emitters_max) {
-    core::BuildOptions options = apps::several_top_cells(scene);
+    core::BuildOptions options = apps::several_macro_cells(scene);
     options.emitters_max = emitters_max;
     options.for_paths = true;
     return options;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 
 namespace dmpc::tests {
 

@@ -20,15 +20,15 @@
 
 namespace dmpc::tests {
 
-/// Builds with a page size that is neither the least nor the greatest, and with several top cells.
+/// Builds with a page size that is neither the least nor the greatest, and with several macro cells.
 inline core::Database database_of(const core::Scene& scene) {
-  return core::build_database(scene, apps::several_top_cells(scene));
+  return core::build_database(scene, apps::several_macro_cells(scene));
 }
 
-/// Two walks have looked at the same cells, bricks and primitives.
-inline void check_same_walk(const core::Operations& one, const core::Operations& other) {
+/// Two walks have looked at the same cells, BVH nodes and primitives.
+inline void check_same_traversal(const core::Operations& one, const core::Operations& other) {
   CHECK(one.cell_steps == other.cell_steps);
-  CHECK(one.brick_reads == other.brick_reads);
+  CHECK(one.bvh_node_reads == other.bvh_node_reads);
   CHECK(one.primitive_tests == other.primitive_tests);
 }
 
@@ -38,9 +38,9 @@ inline float intersect(const core::Database& database, const core::PrimitiveValu
   if (triangle.plane() == 0) {
     return core::intersect_triangle(sheared, rows, 1, 0);
   }
-  const core::KeptPlane plane =
-      triangle.needs_plane() ? database.planes()[triangle.plane() - 1] : core::KeptPlane{core::level_plane_of(rows, 1, 0)};
-  const core::BlockHeader header{.plane = plane.kept_as};
+  const core::PrimitivePlane plane =
+      triangle.needs_plane() ? database.planes()[triangle.plane() - 1] : core::PrimitivePlane{core::level_plane_of(rows, 1, 0)};
+  const core::LeafHeader header{.plane = plane.stored_as};
   const float t = core::intersect_shared_face(sheared, core::depth_of(sheared, plane), rows, 1, 0);
   return header.has_exact_plane() ? core::in_layer(t, sheared, plane, header.layer()) : t;
 }

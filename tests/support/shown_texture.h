@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/database/record_writer.h"
-#include "core/database/texture_records.h"
-#include "core/picture/texture_lookup.h"
+#include "core/database/shading/texture_records.h"
+#include "core/picture/surfaces/texture_lookup.h"
 #include "core/record/records.h"
 #include "core/record/texture_layout.h"
 #include "core/scene/texel.h"

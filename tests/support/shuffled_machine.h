@@ -143,8 +143,8 @@ class ShuffledComputer {
 /// A node of its own, without a thread, and what it sends.
 struct SingleNode {
   SingleNode(const nodes::MemoryPlan& plan, std::uint32_t index, std::uint32_t peer_count,
-             nodes::Lasting lasting = nodes::Lasting::is_copied)
-      : memory(plan, lasting), node(nodes::NodeId{index}, peer_count, memory, post) {}
+             nodes::Immutable immutable = nodes::Immutable::is_copied)
+      : memory(plan, immutable), node(nodes::NodeId{index}, peer_count, memory, post) {}
   /// The oldest packet that it has sent and that has not been taken.
   Parcel take() {
     core::expect(!post.parcels.empty(), "the node has sent a packet");

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/files.h"
+#include "apps/frontend/system/files.h"
 
 namespace dmpc::tests {
 
@@ -222,15 +222,15 @@ inline int SimulatedFiles::remove(const std::filesystem::path& path) {
 
 /// The bytes of a file that a power loss leaves.
 inline std::string SimulatedFiles::survivor(const File& file) {
-  constexpr std::size_t block = 512;
+  constexpr std::size_t leaf = 512;
   if (file.bytes == file.synced) {
     return file.synced;
   }
   std::string bytes = file.bytes.substr(0, file.synced.size() + random_() % (file.bytes.size() - file.synced.size() + 1));
-  for (std::size_t at = file.synced.size(); at < bytes.size(); at += block) {
+  for (std::size_t at = file.synced.size(); at < bytes.size(); at += leaf) {
     if (random_() % 3 == 0) {
       std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at + block, bytes.size())), '\0');
+                bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at + leaf, bytes.size())), '\0');
     }
   }
   return bytes;

@@ -34,9 +34,9 @@ Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
 
 /// Node `index` of a plan, without a thread, and what it sends.
 struct LoneNode : SingleNode {
-  LoneNode(const svm::Plan& plan, std::uint32_t index, nodes::Lasting lasting = nodes::Lasting::is_copied)
+  LoneNode(const svm::Plan& plan, std::uint32_t index, nodes::Immutable immutable = nodes::Immutable::is_copied)
       : SingleNode(index == plan.node_count() ? plan.host_memory() : plan.node_memory(index), index, plan.node_count() + 1,
-                   lasting) {}
+                   immutable) {}
 };
 
 /// Pages full of numbers that depend on their place, and the overread behind them.

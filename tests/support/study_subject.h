@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/runs.h"
 #include "apps/scene/subject.h"
 #include "tests/support/small_scenes.h"

@@ -7,7 +7,7 @@
 
 #include "apps/lab/bench/stability/cells.h"
 #include "core/database/database.h"
-#include "core/picture/background.h"
+#include "core/picture/camera/background.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 #include "core/trace/operations.h"
@@ -100,7 +100,7 @@ class Subject {
 
 /// The subjects of one scene in coarse cells and in fine ones: two grids, two films.
 inline std::array<Subject, 2> on_two_grids(const core::Scene& scene, const Subject::Size& size) {
-  core::BuildOptions coarse = apps::several_top_cells(scene), fine = coarse;
+  core::BuildOptions coarse = apps::several_macro_cells(scene), fine = coarse;
   fine.cells_per_primitive *= 3;
   return {Subject(scene, size, coarse), Subject(scene, size, fine)};
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests {

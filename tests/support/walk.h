@@ -6,8 +6,8 @@
 
 #include "core/database/database.h"
 #include "core/families/scenes.h"
-#include "core/picture/camera.h"
-#include "core/picture/frame_settings.h"
+#include "core/picture/camera/camera.h"
+#include "core/picture/camera/frame_settings.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::tests {

@@ -90,7 +90,7 @@ TEST_CASE("what a node has fetched it does not fetch again where its cache has r
 }
 
 TEST_CASE(
-    "frames that are refined choose their samples as alone, whoever deals the work, and the host that has all pages serves "
+    "frames that are refined choose their samples as alone, whoever assigns the work, and the host that has all pages serves "
     "each") {
   Walk walk(16);
   for (core::RenderSettings& settings : walk.frames) {
@@ -99,10 +99,10 @@ TEST_CASE(
   }
   const svm::Report alone = run_alone(walk, *svm::svm_strategy(), 0, {.computer = {.node_count = 2}});
   CHECK(alone.refinement.passes > 1);
-  for (const svm::WorkGiver giver : {svm::WorkGiver::ring, svm::WorkGiver::host}) {
+  for (const svm::WorkDonor donor : {svm::WorkDonor::ring, svm::WorkDonor::host}) {
     const svm::RunOptions options{
         .computer = {.node_count = 3},
-        .pages = {.cache_pages = 9, .homes = svm::PageHomes::host, .work_item_side = 2, .work_giver = giver}};
+        .pages = {.cache_pages = 9, .homes = svm::PageHomes::host, .work_item_side = 2, .work_donor = donor}};
     svm::Frames frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {});
     for (int i = 0; i < 3; ++i) {
       const svm::Report report = frames.render(walk.frames[0], {});

@@ -61,22 +61,22 @@ struct SmallHost {
 
 }  // namespace
 
-TEST_CASE("a host that deals the work gives each item once, in order, to whoever asks, and then nothing") {
+TEST_CASE("a host that assigns the work gives each item once, in order, to whoever asks, and then nothing") {
   const svm::Plan plan = svm::make_plan({.page_count = 4,
                                          .computer = {.node_count = 2},
-                                         .pages = {.work_item_side = 2, .work_giver = svm::WorkGiver::host},
+                                         .pages = {.work_item_side = 2, .work_donor = svm::WorkDonor::host},
                                          .width = 3,
                                          .height = 3});
   LoneNode lone(plan, 2);
   core::Film film(3, 3);
   svm::HostProgram host(lone.node, plan, film, {});
   const svm::PixelRectangle items[] = {{0, 0, 2, 2}, {2, 0, 1, 2}, {0, 2, 2, 1}, {2, 2, 1, 1}, {}};
-  std::uint32_t asker = 0;
+  std::uint32_t requester = 0;
   for (const svm::PixelRectangle& item : items) {
-    asker = 1 - asker;
-    host.receive(parcel_of(asker, Kind::work_request, svm::WorkRequest{asker, 1}).packet());
+    requester = 1 - requester;
+    host.receive(parcel_of(requester, Kind::work_request, svm::WorkRequest{requester, 1}).packet());
     const Parcel& parcel = lone.post.parcels.back();
-    CHECK(parcel.target == nodes::NodeId{asker});
+    CHECK(parcel.target == nodes::NodeId{requester});
     CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle() == item);
   }
   CHECK(host.items_given() == 4);
@@ -111,7 +111,7 @@ TEST_CASE("a host that is home to all pages replies with the one that is asked f
                   core::InternalError);
 }
 
-TEST_CASE("a host that does not deal the work is asked for none") {
+TEST_CASE("a host that does not assign the work is asked for none") {
   SmallHost small;
   CHECK_THROWS_AS(small.host.receive(parcel_of(0, Kind::work_request, svm::WorkRequest{0, 1}).packet()), core::InternalError);
 }

@@ -247,12 +247,12 @@ TEST_CASE("film credits are few where nodes are many, and on a modelled machine,
     request.computer.node_count = nodes;
     const svm::Plan plan = make_plan(request);
     CHECK(plan.film_credits == credits);
-    CHECK(plan.patience().packets == credits * 3 / 4);
-    CHECK(plan.patience().kinds == 1U << number_of(svm::Kind::film_sums));
+    CHECK(plan.batching().packets == credits * 3 / 4);
+    CHECK(plan.batching().kinds == 1U << number_of(svm::Kind::film_sums));
   }
   request.computer.machine = nodes::Machine();
   CHECK(make_plan(request).film_credits == 2);
-  CHECK(make_plan(request).patience().packets == 1);
+  CHECK(make_plan(request).batching().packets == 1);
 }
 
 TEST_CASE("no node plans for more pixels in flight than it ever has") {
@@ -373,18 +373,18 @@ TEST_CASE("page references are recorded only where they depend on neither cache 
   }
 }
 
-TEST_CASE("a host that deals the work has a place for each worker's request, and nodes have none for each other's") {
+TEST_CASE("a host that assigns the work has a place for each worker's request, and nodes have none for each other's") {
   svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .pages = {.worker_count = 3}, .width = 8, .height = 8};
   const svm::Plan ring = make_plan(request);
-  request.pages.work_giver = svm::WorkGiver::host;
-  const svm::Plan dealt = make_plan(request);
-  CHECK(dealt.host_mailbox.small_slots == ring.host_mailbox.small_slots + 3);
-  CHECK(dealt.node_mailbox.small_slots == ring.node_mailbox.small_slots - 3);
+  request.pages.work_donor = svm::WorkDonor::host;
+  const svm::Plan assigned = make_plan(request);
+  CHECK(assigned.host_mailbox.small_slots == ring.host_mailbox.small_slots + 3);
+  CHECK(assigned.node_mailbox.small_slots == ring.node_mailbox.small_slots - 3);
   request.pages.work_item_side = 0;
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 
-TEST_CASE("pixels are interleaved where they are the nodes' own, not where the host deals them") {
+TEST_CASE("pixels are interleaved where they are the nodes' own, not where the host assigns them") {
   svm::PlanRequest request{.page_count = 4,
                            .computer = {.node_count = 4},
                            .pages = {.in_flight = 4096, .work_item_side = 0, .pixel_shares = svm::PixelShares::interleaved},
@@ -393,9 +393,9 @@ TEST_CASE("pixels are interleaved where they are the nodes' own, not where the h
   CHECK(make_plan(request).in_flight == 25);  // of five columns in five rows, the largest share
   request.pages.work_item_side = 3;
   CHECK(make_plan(request).in_flight == 81);
-  request.pages.work_giver = svm::WorkGiver::host;
+  request.pages.work_donor = svm::WorkDonor::host;
   CHECK_THROWS_WITH_AS(make_plan(request),
-                       "pixel_shares=interleaved does not go with work_giver=host: where the host deals items, no pixel is a "
+                       "pixel_shares=interleaved does not go with work_donor=host: where the host assigns items, no pixel is a "
                        "node's own",
                        core::UsageError);
 }
@@ -425,7 +425,7 @@ TEST_CASE("where the host is home, the least memory does not grow with the scene
   request.computer.node_memory_bytes = smallest_node_memory_bytes(request);
   CHECK(make_plan(request).frames >= 1);
   request.computer.node_memory_bytes = *request.computer.node_memory_bytes - 1;
-  CHECK_THROWS_AS(make_plan(request), core::RoomError);
+  CHECK_THROWS_AS(make_plan(request), core::CapacityError);
 }
 
 TEST_CASE("where the host is home, one node fetches pages, too, and a cache may hold all of them") {

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "svm/local_copy.h"
+#include "svm/pages/observers/observed_pagers.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/watched_pagers.h"
 #include "svm/run.h"
 #include "tests/support/small_machine.h"
 

@@ -7,8 +7,8 @@
 #include <stop_token>
 
 #include "core/picture/heat_kind.h"
-#include "svm/pages/watch/miss_curve.h"
-#include "svm/pages/watch/optimum.h"
+#include "svm/pages/observers/miss_curve.h"
+#include "svm/pages/observers/optimum.h"
 #include "tests/support/built_scene.h"
 #include "tests/support/priced_machine.h"
 
@@ -36,16 +36,16 @@ svm::Report recorded_run(const BuiltScene& small, std::uint32_t node_count) {
 
 }  // namespace
 
-TEST_CASE("a host that deals the work gives every item, and no node another, on threads and on a modelled machine") {
+TEST_CASE("a host that assigns the work gives every item, and no node another, on threads and on a modelled machine") {
   const BuiltScene small("teapot-4", 1024, 30);
   const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
   for (const bool is_modelled : {false, true}) {
     svm::RunOptions options{.computer = {.node_count = 4},
-                            .pages = {.in_flight = 1, .work_item_side = 3, .work_giver = svm::WorkGiver::host}};
+                            .pages = {.in_flight = 1, .work_item_side = 3, .work_donor = svm::WorkDonor::host}};
     options.computer.machine = is_modelled ? std::optional(nodes::Machine{}) : std::nullopt;
     const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
     CHECK(report.film.hash() == film);
-    CHECK(report.items_dealt == 100);
+    CHECK(report.items_assigned == 100);
     CHECK(report.work().items_given == 0);
     CHECK(report.work().items_taken == 100);
     CHECK(report.work().items_asked == 104);
@@ -355,7 +355,7 @@ TEST_CASE(
   const svm::Report again = run({.computer = {.node_count = 1}, .pages = {.in_flight = 16}}, true);
   CHECK(again.pages().references == one.pages().references);
   CHECK(again.operations().skipped.bundles == expected.skipped.bundles);
-  CHECK(again.operations().brick_reads == expected.brick_reads);
+  CHECK(again.operations().bvh_node_reads == expected.bvh_node_reads);
 
   const svm::Report alone = run({.computer = {.node_count = 1}}, false);
   CHECK(alone.film.hash() == one.film.hash());

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/picture/background.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/background.h"
+#include "core/picture/camera/camera.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
@@ -24,11 +24,11 @@ namespace {
 
 /// Node `index` of `nodes`, each with 3x3 pixels: one item, or with side 1 nine.
 struct SmallSource {
-  SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side, svm::WorkGiver giver = svm::WorkGiver::ring,
+  SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side, svm::WorkDonor donor = svm::WorkDonor::ring,
               std::optional<std::uint32_t> workers = std::nullopt, bool passes_over_idle = true)
       : plan(svm::make_plan({.page_count = 4,
                              .computer = {.node_count = nodes},
-                             .pages = {.work_item_side = side, .work_giver = giver, .worker_count = workers},
+                             .pages = {.work_item_side = side, .work_donor = donor, .worker_count = workers},
                              .width = 3 * nodes,
                              .height = 3})),
         lone(plan, index),
@@ -43,11 +43,11 @@ struct SmallSource {
     work.take_reply(parcel_of(0, svm::Kind::work_reply, reply).packet());
   }
   void take_reply(const svm::WorkReply& reply) { take_reply<svm::WorkReply>(reply); }
-  /// Has asked, and been given one pixel by node `giver`, which it has rendered.
-  void take_from(std::uint32_t giver) {
+  /// Has asked, and been given one pixel by node `donor`, which it has rendered.
+  void take_from(std::uint32_t donor) {
     work.ask();
     CHECK(sent().kind == svm::number_of(Kind::work_request));
-    take_reply({svm::SentItem(PixelRectangle{9, 1, 1, 1}), giver});
+    take_reply({svm::SentItem(PixelRectangle{9, 1, 1, 1}), donor});
     use_up();
   }
   /// Has asked, and been told that there is no more work.
@@ -98,22 +98,22 @@ TEST_CASE("a node without pixels asks the next one, once") {
   small.work.ask();
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{2});
-  CHECK(parcel.packet().as<svm::WorkRequest>().asker == 1);
+  CHECK(parcel.packet().as<svm::WorkRequest>().requester == 1);
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 3);
 }
 
-TEST_CASE("a node with items left answers the asker directly with its last one") {
+TEST_CASE("a node with items left answers the requester directly with its last one") {
   SmallSource small(2, 4, 1);
   small.work.answer({0, 2});
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{0});
   CHECK(parcel.kind == svm::number_of(Kind::work_reply));
   CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle() == PixelRectangle{8, 2, 1, 1});
-  CHECK(parcel.packet().as<svm::WorkReply>().giver == 2);
+  CHECK(parcel.packet().as<svm::WorkReply>().donor == 2);
   CHECK(small.work.counters().items_given == 1);
 }
 
-TEST_CASE("a node without items passes a request on along the ring, over the asker") {
+TEST_CASE("a node without items passes a request on along the ring, over the requester") {
   SmallSource small(3, 4, 3);
   small.use_up();
   small.work.answer({1, 3});
@@ -134,18 +134,18 @@ TEST_CASE("a node without items passes a request on to the node that gave it one
   CHECK(parcel.target == nodes::NodeId{5});
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
   CHECK(small.work.nodes_passed_over() == 3);
-  small.work.answer({3, 6});  // the asker is one of those between, and no visit
+  small.work.answer({3, 6});  // the requester is one of those between, and no visit
   parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{5});
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 3);
-  small.work.answer({5, 6});  // the giver has run out and asks itself
+  small.work.answer({5, 6});  // the donor has run out and asks itself
   parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{6});
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
   CHECK(small.work.nodes_passed_over() == 3 + 2 + 3);
 }
 
-TEST_CASE("where all that are left to be asked are passed over, the asker is told that there is no more work") {
+TEST_CASE("where all that are left to be asked are passed over, the requester is told that there is no more work") {
   SmallSource small(1, 8, 3);
   small.use_up();
   small.take_from(5);
@@ -168,7 +168,7 @@ TEST_CASE("a node that knows of no more work says so to all") {
 
 TEST_CASE("with the skip off, and in a later pass than it knows of, a node passes requests to the next one") {
   for (const bool is_later : {false, true}) {
-    SmallSource small(1, 8, 3, svm::WorkGiver::ring, std::nullopt, is_later);
+    SmallSource small(1, 8, 3, svm::WorkDonor::ring, std::nullopt, is_later);
     small.use_up();
     small.take_from(5);
     small.work.answer({7, 6, is_later ? 1U : 0U});
@@ -181,21 +181,21 @@ TEST_CASE("with the skip off, and in a later pass than it knows of, a node passe
 }
 
 TEST_CASE("of two nodes that wait for answers one keeps the other's request until it has its own, and not more than its room") {
-  const auto keeps = [](std::uint32_t self, std::uint32_t asker) {
+  const auto keeps = [](std::uint32_t self, std::uint32_t requester) {
     SmallSource small(self, 40, 3);
     small.use_up();
     small.work.ask();
     small.sent();
-    small.work.answer({asker, 39});
+    small.work.answer({requester, 39});
     return small.lone.post.parcels.empty();
   };
   std::uint32_t most = 0, first = 0;
   for (std::uint32_t self = 0; self < 40; ++self) {
     std::uint32_t kept = 0;
-    for (std::uint32_t asker = 0; asker < 40; ++asker) {
-      if (asker != self) {
-        CHECK(keeps(self, asker) != keeps(asker, self));
-        kept += keeps(self, asker) ? 1 : 0;
+    for (std::uint32_t requester = 0; requester < 40; ++requester) {
+      if (requester != self) {
+        CHECK(keeps(self, requester) != keeps(requester, self));
+        kept += keeps(self, requester) ? 1 : 0;
       }
     }
     first = kept == 39 ? self : first;
@@ -207,8 +207,8 @@ TEST_CASE("of two nodes that wait for answers one keeps the other's request unti
     small.use_up();
     small.work.ask();
     small.sent();
-    for (std::uint32_t asker = 0; asker < 17; ++asker) {
-      small.work.answer({(first + 20 + asker) % 40, 39});
+    for (std::uint32_t requester = 0; requester < 17; ++requester) {
+      small.work.answer({(first + 20 + requester) % 40, 39});
     }
     CHECK(small.lone.post.parcels.size() == 1);
     small.lone.post.parcels.clear();
@@ -221,7 +221,7 @@ TEST_CASE("of two nodes that wait for answers one keeps the other's request unti
   }
 }
 
-TEST_CASE("the last node to be asked tells the asker that there is no more work") {
+TEST_CASE("the last node to be asked tells the requester that there is no more work") {
   SmallSource small(3, 4, 3);
   small.use_up();
   small.work.answer({1, 1});
@@ -230,7 +230,7 @@ TEST_CASE("the last node to be asked tells the asker that there is no more work"
   CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle().pixel_count() == 0);
 }
 
-TEST_CASE("an item that was given becomes the asker's pixels, and the giver is asked first the next time") {
+TEST_CASE("an item that was given becomes the requester's pixels, and the donor is asked first the next time") {
   SmallSource small(1, 4, 3);
   small.use_up();
   small.work.ask();
@@ -245,8 +245,8 @@ TEST_CASE("an item that was given becomes the asker's pixels, and the giver is a
   CHECK(small.sent().target == nodes::NodeId{3});
 }
 
-TEST_CASE("where the host deals the work a node starts with nothing and asks the host for every item") {
-  SmallSource small(1, 4, 3, svm::WorkGiver::host);
+TEST_CASE("where the host assigns the work a node starts with nothing and asks the host for every item") {
+  SmallSource small(1, 4, 3, svm::WorkDonor::host);
   for (int item = 0; item < 2; ++item) {
     CHECK_FALSE(small.work.has_pixel());
     CHECK_FALSE(small.work.exhausted());
@@ -257,9 +257,9 @@ TEST_CASE("where the host deals the work a node starts with nothing and asks the
   }
 }
 
-TEST_CASE("a lone node asks the host where that deals the work, one that only lends its memory does not") {
-  CHECK_FALSE(SmallSource(0, 1, 3, svm::WorkGiver::host).work.exhausted());
-  CHECK(SmallSource(1, 2, 3, svm::WorkGiver::host, 1).work.exhausted());
+TEST_CASE("a lone node asks the host where that assigns the work, one that only lends its memory does not") {
+  CHECK_FALSE(SmallSource(0, 1, 3, svm::WorkDonor::host).work.exhausted());
+  CHECK(SmallSource(1, 2, 3, svm::WorkDonor::host, 1).work.exhausted());
 }
 
 TEST_CASE("an empty item ends the asking") {
@@ -314,34 +314,34 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
                                          .height = 2,
                                          .first_samples = 2,
                                          .refinement = {.error = 1}});
-  LoneNode giver_node(plan, 0), taker_node(plan, 1);
-  svm::WorkSource giver(giver_node.node, plan.work()), taker(taker_node.node, plan.work());
-  for (svm::WorkSource* work : {&giver, &taker}) {
+  LoneNode donor_node(plan, 0), recipient_node(plan, 1);
+  svm::WorkSource donor(donor_node.node, plan.work()), recipient(recipient_node.node, plan.work());
+  for (svm::WorkSource* work : {&donor, &recipient}) {
     while (work->has_pixel()) {
       work->next_pixel();
     }
     work->ask();
   }
-  giver.take_reply(parcel_of(1, Kind::work_reply, svm::MaskedWorkReply{}).packet());
-  taker.take_reply(parcel_of(0, Kind::work_reply, svm::MaskedWorkReply{}).packet());
+  donor.take_reply(parcel_of(1, Kind::work_reply, svm::MaskedWorkReply{}).packet());
+  recipient.take_reply(parcel_of(0, Kind::work_reply, svm::MaskedWorkReply{}).packet());
   svm::MaskPart mask;
   mask.steps[0] = {1, 2};  // of a submap of 4x2: the first item's first pixel and its last one
   mask.steps[5] = {1, 3};
-  giver.take_mask(mask);
-  giver.begin_pass();
-  taker.take_mask({});
-  taker.begin_pass();
-  giver_node.post.parcels.clear();
-  giver.answer({1, 1});
-  REQUIRE(giver_node.post.parcels.size() == 1);
-  CHECK_FALSE(giver.has_pixel());
-  taker.ask();
-  taker.take_reply(giver_node.post.parcels.front().packet());
-  CHECK(taker.next_step().samples(2) == core::SampleRange{2, 2});
-  CHECK(taker.next_pixel() == 0);
-  CHECK(taker.next_step().samples(2) == core::SampleRange{2, 6});
-  CHECK(taker.next_pixel() == 8 + 1);
-  CHECK_FALSE(taker.has_pixel());
+  donor.take_mask(mask);
+  donor.begin_pass();
+  recipient.take_mask({});
+  recipient.begin_pass();
+  donor_node.post.parcels.clear();
+  donor.answer({1, 1});
+  REQUIRE(donor_node.post.parcels.size() == 1);
+  CHECK_FALSE(donor.has_pixel());
+  recipient.ask();
+  recipient.take_reply(donor_node.post.parcels.front().packet());
+  CHECK(recipient.next_step().samples(2) == core::SampleRange{2, 2});
+  CHECK(recipient.next_pixel() == 0);
+  CHECK(recipient.next_step().samples(2) == core::SampleRange{2, 6});
+  CHECK(recipient.next_pixel() == 8 + 1);
+  CHECK_FALSE(recipient.has_pixel());
 }
 
 TEST_CASE("interleaved, a later pass has the pixels of the mask, and an item that is given away takes its part along") {

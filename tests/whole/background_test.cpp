@@ -26,7 +26,7 @@ std::uint64_t background_rays(const core::RenderSettings& settings) {
 }
 
 /// Far fewer than the reference's.
-std::uint64_t steps(const core::Operations& operations) { return operations.cell_steps + operations.brick_reads; }
+std::uint64_t steps(const core::Operations& operations) { return operations.cell_steps + operations.bvh_node_reads; }
 
 template <class Report>
 void check_skip(const Report& skipping, const Report& tracing, const Subject& subject, std::uint64_t least_rays) {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "dataflow/ranks.h"
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
@@ -81,30 +81,30 @@ dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions
 
 std::uint32_t credits_of(const svm::Plan& plan) { return plan.request_credits + plan.film_credits; }
 std::uint32_t credits_of(const dataflow::Plan& plan) {
-  return plan.ray_credits + plan.ray_places + plan.host_credits + plan.film_credits;
+  return plan.ray_credits + plan.ray_slots + plan.host_credits + plan.film_credits;
 }
 
 /// What chaos did in a run.
 template <class Report>
 void cover_damage(Coverage& covered, const Report& report) {
-  std::uint64_t packets_held = report.host.held, quanta_sat_out = 0;
+  std::uint64_t packets_delayed = report.host.held, quanta_sat_out = 0;
   for (const auto& node : report.nodes) {
-    packets_held += node.counters.held;
+    packets_delayed += node.counters.held;
     quanta_sat_out += node.counters.sat_out;
   }
   auto calm = report.plan.request;
   calm.computer.chaos.reset();
   calm.computer.ranks = nullptr;
-  covered.count("there was a packet held back", packets_held > 0);
+  covered.count("there was a packet held back", packets_delayed > 0);
   covered.count("there was a node that sat out", quanta_sat_out > 0);
   covered.count("there was a credit taken away", credits_of(report.plan) < credits_of(make_plan(calm)));
 }
 
 /// What another rank does while rank 0 runs with such options.
 void follow(const svm::RunOptions& /*options*/, nodes::RankLinks& links) {
-  svm::Following following;
-  following.strategies.push_back(svm::forest_strategy());
-  svm::follow(links, {}, following);
+  svm::WorkerCallbacks callbacks;
+  callbacks.strategies.push_back(svm::forest_strategy());
+  svm::follow(links, {}, callbacks);
 }
 void follow(const dataflow::RunOptions& /*options*/, nodes::RankLinks& links) { dataflow::follow(links, {}); }
 
@@ -116,7 +116,7 @@ auto run_on_ranks(const ChaosCase& one, Options options, const Run& run, const s
     return run(one.subject(), options, stop);
   }
   const Subject& subject = one.subject();  // made before there are threads
-  const nodes::LoopbackTrouble trouble{.seed = one.seed(), .late_looks_max = static_cast<std::uint32_t>(one.seed() % 8)};
+  const nodes::LoopbackTrouble trouble{.seed = one.seed(), .late_polls_max = static_cast<std::uint32_t>(one.seed() % 8)};
   const auto run_here = [&](nodes::Fabric& fabric) {
     nodes::RankLinks links(fabric);
     std::optional<decltype(run(subject, options, stop))> report;

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"

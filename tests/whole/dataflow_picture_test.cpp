@@ -104,7 +104,7 @@ TEST_CASE("dataflow: places that are shared and asked for, however few, give the
     for (const std::uint32_t places : {1U, 2U, 64U}) {
       for (const Wish& queue : queues) {
         CAPTURE(places);
-        const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_places = places, .queue_packets = queue}};
+        const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_slots = places, .queue_packets = queue}};
         check(subject, options, {.bundles = places == 2});
       }
     }
@@ -160,7 +160,7 @@ TEST_CASE("dataflow: shared places, and several regions a node, give the picture
     CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
   };
   for (const std::uint32_t places : {1U, 3U, 64U}) {
-    check_twice({.computer = {.node_count = 8}, .rays = {.ray_batch = 2, .ray_places = places}});
+    check_twice({.computer = {.node_count = 8}, .rays = {.ray_batch = 2, .ray_slots = places}});
   }
   for (const std::uint32_t nodes : {1U, 2U, 5U}) {
     for (const std::uint32_t regions : {1U, 4U, 16U}) {
@@ -182,7 +182,7 @@ TEST_CASE("dataflow: with the least memory that is named several regions a node 
     CHECK(node.memory_used.total() <= least);
   }
   options.computer.node_memory_bytes = least - 1;
-  CHECK_THROWS_AS(run(subject, options), core::RoomError);
+  CHECK_THROWS_AS(run(subject, options), core::CapacityError);
 }
 
 TEST_CASE("dataflow: regions that move give the picture of samples that are refined, and with empty regions asked") {
@@ -210,7 +210,7 @@ TEST_CASE("dataflow: the parts of many regions a node take less than those of as
 
 TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is off, and the picture is the same") {
   const core::Scene hat = built_in("sombrero-1");
-  const Subject subject(hat, {24, 24}, apps::several_top_cells(hat));
+  const Subject subject(hat, {24, 24}, apps::several_macro_cells(hat));
   for (const bool skips : {true, false}) {
     const RunOptions options{.computer = {.node_count = 24}, .rays = {.balance = {.balance = Balance::equal_size}}};
     const dataflow::Report report = check(subject, options, {.empty_regions = skips});

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/picture/heat_kind.h"
-#include "nodes/watch/done_watch.h"
-#include "nodes/watch/observer_group.h"
-#include "nodes/watch/trace.h"
+#include "nodes/observers/done_observer.h"
+#include "nodes/observers/observer_group.h"
+#include "nodes/observers/trace.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -38,9 +38,9 @@ struct Run {
   explicit Run(nodes::TraceChoice choice = {}) : recorder(node_count + 1, choice) {}
 
   nodes::HeatMap map{side * side, std::array{HeatKind::done}};
-  nodes::DoneWatch watch{node_count + 1, map};
+  nodes::DoneObserver observer{node_count + 1, map};
   nodes::TraceRecorder recorder;
-  nodes::ObserverGroup both{{&watch, &recorder}};
+  nodes::ObserverGroup both{{&observer, &recorder}};
 
   std::span<const std::uint64_t> done() const { return map.values(HeatKind::done); }
 

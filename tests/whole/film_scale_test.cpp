@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/picture/film_scale.h"
+#include "core/picture/film/film_scale.h"
 #include "core/picture/render.h"
 #include "core/picture/shade.h"
 #include "dataflow/run.h"

@@ -95,9 +95,9 @@ std::vector<Seen> pages_on_ranks(std::uint32_t rank_count, const svm::Strategy& 
   return on_ranks(
       rank_count, [&](nodes::RankLinks& links) { return by_pages(strategy, walk, &links); },
       [](nodes::RankLinks& links) {
-        svm::Following following;
-        following.strategies.push_back(svm::forest_strategy());
-        svm::follow(links, {}, following);
+        svm::WorkerCallbacks callbacks;
+        callbacks.strategies.push_back(svm::forest_strategy());
+        svm::follow(links, {}, callbacks);
       });
 }
 

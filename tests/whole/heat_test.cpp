@@ -10,7 +10,7 @@
 
 #include "core/picture/heat_kind.h"
 #include "core/trace/charge.h"
-#include "nodes/watch/heat_map.h"
+#include "nodes/observers/heat_map.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "tests/support/kept_scenes.h"
+#include "tests/support/base_mesh_scenes.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -41,13 +41,13 @@ std::uint64_t beyond_one(std::uint64_t count) { return count > 1 ? count - 1 : 0
 
 Features features_of(const core::Database& database) {
   const core::RecordCounts& records = database.records();
-  const auto blocks = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
+  const auto leaves = [&](core::PrimitiveKind kind) { return records.leaves[static_cast<std::size_t>(kind)]; };
   return {{"primitives dropped", database.dropped()},
           {"copies of primitives", database.references() - database.header().primitive_count},
-          {"bricks beyond one", beyond_one(records.bricks)},
-          {"triangle blocks beyond one", beyond_one(blocks(core::PrimitiveKind::triangle))},
-          {"sphere blocks", blocks(core::PrimitiveKind::sphere)},
-          {"cone blocks", blocks(core::PrimitiveKind::cone)},
+          {"BVH nodes beyond one", beyond_one(records.bvh_nodes)},
+          {"triangle blocks beyond one", beyond_one(leaves(core::PrimitiveKind::triangle))},
+          {"sphere blocks", leaves(core::PrimitiveKind::sphere)},
+          {"cone blocks", leaves(core::PrimitiveKind::cone)},
           {"normals", records.normals},
           {"textured triangles", records.textured},
           {"tiles of textures", records.texture_tiles},
@@ -75,8 +75,8 @@ Features features_of(const core::Operations& operations) {
 }
 
 /// Those of scenes whose meshes are kept once.
-Features kept_features_of(const core::Operations& operations) {
-  return {{"ways into kept meshes", operations.instance_entries}, {"triangles placed", operations.placed_triangles}};
+Features instancing_features_of(const core::Operations& operations) {
+  return {{"ways into base meshes", operations.instance_entries}, {"triangles placed", operations.placed_triangles}};
 }
 
 /// Those that also several nodes can do without.
@@ -137,7 +137,7 @@ TEST_CASE("one triangle under one light does nothing that it does not need, on o
     check_zero(features_of(run_svm(subject, {.computer = {.node_count = nodes}})));
     check_zero(features_of(run_replicated(subject, {.computer = {.node_count = nodes}})));
     check_zero(features_of(run_dataflow(subject, {.computer = {.node_count = nodes}})));
-    check_zero(kept_features_of(run_svm(subject, {.computer = {.node_count = nodes}}).operations()));
+    check_zero(instancing_features_of(run_svm(subject, {.computer = {.node_count = nodes}}).operations()));
   }
 }
 
@@ -168,8 +168,8 @@ TEST_CASE("what one triangle does not need other scenes do") {
 
 TEST_CASE("meshes that are kept take what their copies do not") {
   const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 2);
-  check_used(kept_features_of(run_svm(Subject(scene, {16, 16}, with_instances()), {}).operations()));
-  check_zero(kept_features_of(run_svm(Subject(scene, {16, 16}, with_copies()), {}).operations()));
+  check_used(instancing_features_of(run_svm(Subject(scene, {16, 16}, with_instances()), {}).operations()));
+  check_zero(instancing_features_of(run_svm(Subject(scene, {16, 16}, with_copies()), {}).operations()));
 }
 
 }  // namespace dmpc::tests::needless_scene_test

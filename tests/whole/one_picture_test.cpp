@@ -45,7 +45,7 @@ using tests::Subject;
 class Subjects {
  public:
   Subjects(const core::Scene& scene, const Subject::Size& size) {
-    core::BuildOptions options = apps::several_top_cells(scene);
+    core::BuildOptions options = apps::several_macro_cells(scene);
     for (const core::Structure structure : {core::Structure::grid, core::Structure::extents}) {
       for (const std::size_t page_size : page_sizes) {
         options.structure = structure;
@@ -82,7 +82,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     options.computer.node_count = node_counts[row[0]];
     options.pages.in_flight = in_flights[row[3]];
     options.pages.work_item_side = item_sides[row[4]];
-    options.pages.work_giver = row[8] == 1 && item_sides[row[4]] > 0 ? svm::WorkGiver::host : svm::WorkGiver::ring;
+    options.pages.work_donor = row[8] == 1 && item_sides[row[4]] > 0 ? svm::WorkDonor::host : svm::WorkDonor::ring;
     options.pages.pixel_shares = row[8] == 2 ? svm::PixelShares::interleaved : svm::PixelShares::submaps;
     options.pages.worker_count = core::ceil_divide(node_counts[row[0]], nodes_a_worker[row[6]]);
     if (row[5] == 0) {
@@ -96,7 +96,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(*options.pages.in_flight);
     CAPTURE(options.pages.work_item_side);
     CAPTURE(*options.pages.worker_count);
-    CAPTURE(name_of(options.pages.work_giver));
+    CAPTURE(name_of(options.pages.work_donor));
     CAPTURE(name_of(options.pages.pixel_shares));
     CAPTURE(name_of(options.pages.homes));
     CAPTURE(options.pages.cache_pages.value_or(0));
@@ -183,7 +183,7 @@ TEST_CASE("one tree of extents gives the film of the grid, wherever the eye is, 
                                    from_far_away(tests::built_in("teapot-4")), from_far_away(tests::built_in("balls-3"))}) {
     CAPTURE(scene.name);
     const Subject::Size size{.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2};
-    core::BuildOptions options = apps::several_top_cells(scene);
+    core::BuildOptions options = apps::several_macro_cells(scene);
     const Subject grid(scene, size, options);
     options.structure = core::Structure::extents;
     const Subject extents(scene, size, options);
@@ -203,8 +203,8 @@ TEST_CASE("refined samples give one picture, whoever renders it on any number of
   for (const std::uint32_t side : {0U, 1U, 8U, 20U}) {
     CAPTURE(side);
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = {.work_item_side = side}})) == subject.outcome());
-    const svm::PageOptions dealt{.work_item_side = std::max(side, 1U), .work_giver = svm::WorkGiver::host};
-    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = dealt})) == subject.outcome());
+    const svm::PageOptions assigned{.work_item_side = std::max(side, 1U), .work_donor = svm::WorkDonor::host};
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = assigned})) == subject.outcome());
     const svm::PageOptions interleaved{.work_item_side = side, .pixel_shares = svm::PixelShares::interleaved};
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 8}, .pages = interleaved})) == subject.outcome());
   }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "nodes/chaos.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/mesh_surfaces.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/picture/partial_picture.h"
+#include "core/picture/film/partial_picture.h"
 #include "dataflow/ranks.h"
 #include "nodes/byte_source.h"
 #include "nodes/ranks/dismissal.h"
@@ -19,7 +19,7 @@
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "svm/ranks.h"
-#include "tests/support/kept_scenes.h"
+#include "tests/support/base_mesh_scenes.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -71,9 +71,9 @@ auto on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& 
 }
 
 constexpr auto follow_pages = [](nodes::RankLinks& links, std::stop_token stop) {
-  svm::Following following;
-  following.strategies.push_back(svm::forest_strategy());
-  return svm::follow(links, std::move(stop), following);
+  svm::WorkerCallbacks callbacks;
+  callbacks.strategies.push_back(svm::forest_strategy());
+  return svm::follow(links, std::move(stop), callbacks);
 };
 constexpr auto follow_rays = [](nodes::RankLinks& links, std::stop_token stop) {
   return dataflow::follow(links, std::move(stop));
@@ -204,17 +204,17 @@ TEST_CASE("a rank is sent the parts of its nodes' regions, and with strategy rep
       ranks, nodes, [&](const nodes::ComputerRequest& computer) { return run_replicated(subject, {.computer = computer}); });
   for (std::uint32_t rank = 1; rank < ranks; ++rank) {
     CAPTURE(rank);
-    std::size_t part_bytes = 0, node_count = 0, dealt_bytes = 0;
+    std::size_t part_bytes = 0, node_count = 0, assigned_bytes = 0;
     for (std::uint32_t node = 0; node < nodes; ++node) {
       if (nodes::rank_of(node, nodes, ranks) == rank) {
         ++node_count;
         part_bytes += rays.report.nodes[node].part_bytes + core::overread_bytes;
-        dealt_bytes += rays.report.plan.request.shares[node].primary_runs * sizeof(dataflow::PrimaryRun);
+        assigned_bytes += rays.report.plan.request.shares[node].primary_runs * sizeof(dataflow::PrimaryRun);
       }
     }
-    const std::size_t outline_bytes = rays.report.plan.request.shares.front().outline_bytes;
-    CHECK(rays.bytes_received[rank] >= part_bytes + dealt_bytes + outline_bytes);
-    CHECK(rays.bytes_received[rank] < part_bytes + dealt_bytes + outline_bytes + std::size_t{64 << 10U});
+    const std::size_t proxy_bytes = rays.report.plan.request.shares.front().proxy_bytes;
+    CHECK(rays.bytes_received[rank] >= part_bytes + assigned_bytes + proxy_bytes);
+    CHECK(rays.bytes_received[rank] < part_bytes + assigned_bytes + proxy_bytes + std::size_t{64 << 10U});
     CHECK(whole.bytes_received[rank] >= node_count * subject.database().bytes().size());
     CHECK(whole.bytes_received[rank] < node_count * subject.database().bytes().size() + std::size_t{16 << 10U});
   }
@@ -259,18 +259,18 @@ TEST_CASE("a rank that has no room ends all before anything is rendered, and is 
       nodes::RankLinks links(fabric);
       if (fabric.rank() == 0) {
         CHECK_THROWS_WITH_AS(render(nodes::ComputerRequest{.node_count = 7, .ranks = &links}), "rank 2: no room for 2 nodes",
-                             core::RoomError);
+                             core::CapacityError);
         nodes::dismiss(links, 4);
         return 4;
       }
-      svm::Following following;
-      following.check_room = [&](const nodes::RankMemory& memory) {
+      svm::WorkerCallbacks callbacks;
+      callbacks.check_room = [&](const nodes::RankMemory& memory) {
         if (fabric.rank() == 2) {
-          throw core::RoomError("no room for " + std::to_string(memory.node_count) + " nodes");
+          throw core::CapacityError("no room for " + std::to_string(memory.node_count) + " nodes");
         }
       };
       try {
-        follow(links, {}, following);
+        follow(links, {}, callbacks);
       } catch (const nodes::Dismissed& dismissed) {
         return dismissed.status;
       } catch (...) {

@@ -34,7 +34,7 @@ std::vector<Skips> switched_off() {
   return all;
 }
 
-/// Many top cells, most of them empty, and a background that is known, so that every skip acts.
+/// Many macro cells, most of them empty, and a background that is known, so that every skip acts.
 Subject subject_of(const core::Scene& scene, Subject::Size size = {16, 12}) {
   size.knows_background = true;
   return Subject(scene, size, {.page_size_bytes = 512, .cells_per_primitive = 2048});
@@ -137,11 +137,12 @@ TEST_CASE("skips: rays and hits are as many with empty regions and hits behind t
   CHECK(outcome_of(run_dataflow(subject, many_regions(), skips)) == subject.outcome());
 }
 
-TEST_CASE("skips: shadow rays that look for the nearest hit read more bricks or test more primitives") {
+TEST_CASE("skips: shadow rays that look for the nearest hit read more BVH nodes or test more primitives") {
   const Subject subject = subject_of(everything());
   const Operations on = reference(subject, subject.settings()), off = reference(subject, subject.settings({.any_hit = false}));
   const auto work = [](const Operations& operations) {
-    return operations.brick_reads + operations.primitive_tests[0] + operations.primitive_tests[1] + operations.primitive_tests[2];
+    return operations.bvh_node_reads + operations.primitive_tests[0] + operations.primitive_tests[1] +
+           operations.primitive_tests[2];
   };
   CHECK(work(off) > work(on));
 }

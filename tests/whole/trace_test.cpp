@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "nodes/watch/trace.h"
+#include "nodes/observers/trace.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -58,8 +58,8 @@ Counted counted(const Report& report) {
       sum.times.computing_ns += times.computing_ns;
       sum.times.sending_ns += times.sending_ns;
       sum.times.receiving_ns += times.receiving_ns;
-      sum.times.stolen_ns += times.stolen_ns;
-      sum.times.lent_ns += times.lent_ns;
+      sum.times.service_busy_ns += times.service_busy_ns;
+      sum.times.service_idle_ns += times.service_idle_ns;
     }
   }
   return sum;
@@ -186,10 +186,10 @@ TEST_CASE("in virtual time what the nodes did takes as long as the run says") {
     const nodes::VirtualTimes& times = counted.times;
     CHECK(sum(trace, {Activity::work, Activity::receive}).own_ns == times.computing_ns);
     CHECK(sum(trace, {Activity::send}).own_ns == times.sending_ns);
-    CHECK(sum(trace, {Activity::serve}).total_ns == times.stolen_ns + times.lent_ns);
+    CHECK(sum(trace, {Activity::serve}).total_ns == times.service_busy_ns + times.service_idle_ns);
     CHECK(sum(trace, {Activity::serve}).count == counted.pages_served);
     CHECK(sum(trace, {Activity::work, Activity::receive, Activity::send, Activity::take_over}).total_ns ==
-          times.computing_ns + times.sending_ns + times.receiving_ns + times.stolen_ns);
+          times.computing_ns + times.sending_ns + times.receiving_ns + times.service_busy_ns);
   }
 }
 

@@ -49,7 +49,7 @@ void check(const Subject& subject, const Report& report) {
 std::uint64_t interrupted_ns_of(const svm::Report& report) {
   std::uint64_t sum_ns = 0;
   for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
-    sum_ns += times.stolen_ns + times.lent_ns;
+    sum_ns += times.service_busy_ns + times.service_idle_ns;
   }
   return sum_ns;
 }
@@ -166,10 +166,10 @@ TEST_CASE("virtual time: only homes are interrupted, by as many requests as ther
   const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
   const nodes::Machine machine = slow_network();
   const svm::Report report = run_svm(subject, {.computer = {.node_count = 8, .machine = machine}, .pages = {.cache_pages = 4}});
-  const std::uint64_t stolen_ns = interrupted_ns_of(report);
+  const std::uint64_t service_busy_ns = interrupted_ns_of(report);
   const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
-  CHECK(stolen_ns == report.pages().faults * service_ns);
-  CHECK(report.virtual_time->nodes.back().stolen_ns + report.virtual_time->nodes.back().lent_ns == 0);
+  CHECK(service_busy_ns == report.pages().faults * service_ns);
+  CHECK(report.virtual_time->nodes.back().service_busy_ns + report.virtual_time->nodes.back().service_idle_ns == 0);
 }
 
 TEST_CASE("virtual time: where the host is home it alone is interrupted, and a page costs it what it would cost a node") {
@@ -184,7 +184,7 @@ TEST_CASE("virtual time: where the host is home it alone is interrupted, and a p
     const nodes::VirtualTimes& host = report.virtual_time->nodes.back();
     CHECK(report.pages().faults > 100);
     CHECK(interrupted_ns == report.pages().faults * service_ns);
-    CHECK(host.stolen_ns + host.lent_ns == interrupted_ns);
+    CHECK(host.service_busy_ns + host.service_idle_ns == interrupted_ns);
   }
 }
 

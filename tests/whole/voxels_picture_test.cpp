@@ -118,7 +118,7 @@ TEST_CASE("runs of empty voxels are left in one step, which counts what it avoid
   CHECK(with.cell_steps < without.cell_steps);
   CHECK(with.cell_steps + with.empty_cells <= without.cell_steps);
   CHECK(with.primitive_tests == without.primitive_tests);
-  CHECK(with.brick_reads == 0);
+  CHECK(with.bvh_node_reads == 0);
   CHECK(plain.outcome() == subject.outcome());
 }
 

@@ -1,4 +1,4 @@
-// Onlookers beside svm's nodes see what the nodes count, by either clock, and with messages late and out of order.
+// Observers beside svm's nodes see what the nodes count, by either clock, and with messages late and out of order.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "nodes/watch/activity_profile.h"
-#include "nodes/watch/observer_group.h"
-#include "svm/pages/watch/fetch_watch.h"
+#include "nodes/observers/activity_profile.h"
+#include "nodes/observers/observer_group.h"
+#include "svm/pages/observers/fetch_observer.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -30,13 +30,13 @@ std::uint64_t sum_over(const std::vector<std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-/// Runs with all onlookers, and holds what they saw against what was counted.
+/// Runs with all observers, and holds what they saw against what was counted.
 void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHomes homes) {
   const auto page_count = static_cast<std::uint32_t>(subject.database().page_count());
   nodes::ActivityProfile profile(watchers_nodes + 1,
                                  [](const nodes::Span& span) { return static_cast<std::size_t>(span.activity); });
-  svm::FetchWatch watch(watchers_nodes, page_count, svm::fetch_sample_max, homes);
-  nodes::ObserverGroup group({&profile, &watch});
+  svm::FetchObserver observer(watchers_nodes, page_count, svm::fetch_sample_max, homes);
+  nodes::ObserverGroup group({&profile, &observer});
   std::vector<svm::ReferenceLog> logs(watchers_nodes, svm::ReferenceLog(1000));
   options.computer.node_count = watchers_nodes;
   options.pages.cache_pages = 2;
@@ -45,7 +45,7 @@ void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHom
   options.pages.reference_logs = &logs;
   const svm::Report report = run_svm(subject, options);
   CHECK(outcome_of(report) == subject.outcome());
-  const svm::Fetches fetches = watch.take();
+  const svm::Fetches fetches = observer.take();
   CHECK(report.pages().faults > 20);
   CHECK(sum_over(fetches.by_pair) == report.pages().faults);
   CHECK(sum_over(fetches.by_page) == report.pages().faults);
@@ -56,7 +56,7 @@ void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHom
 
 }  // namespace
 
-TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chaos") {
+TEST_CASE("observers see every fetch, by threads, in virtual time and under chaos") {
   const Subject small = subject_to_watch();
   for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {
     check_watched(small, {}, homes);

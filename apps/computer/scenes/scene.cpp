@@ -6,14 +6,14 @@
 #include <new>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/machine/machines.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/database.h"
 #include "core/families/scenes.h"
-#include "core/picture/background.h"
-#include "core/picture/film.h"
+#include "core/picture/camera/background.h"
+#include "core/picture/film/film.h"
 #include "core/picture/pixel_task.h"
 #include "core/record/records.h"
 #include "core/trace/charge.h"
@@ -26,8 +26,8 @@ namespace {
 using core::Charge;
 
 constexpr std::array<Charge, scene_operation_count> scene_charges = {
-    Charge::ray_setup,   Charge::cell_step, Charge::brick_read, Charge::triangle_test,
-    Charge::sphere_test, Charge::cone_test, Charge::shading,    Charge::tile_read};
+    Charge::ray_setup,   Charge::cell_step, Charge::bvh_node_read, Charge::triangle_test,
+    Charge::sphere_test, Charge::cone_test, Charge::shading,       Charge::tile_read};
 
 static_assert(overread_bytes == core::overread_bytes);
 

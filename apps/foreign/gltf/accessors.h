@@ -21,7 +21,7 @@ struct Values {
 };
 
 /// Reads accessors, plain, interleaved, sparse or without a view (zeros). Throws core::InputError, by its place in the document,
-/// for what reaches beyond its view or is not of the expected kind; core::RoomError for zeros that there is no room for.
+/// for what reaches beyond its view or is not of the expected kind; core::CapacityError for zeros that there is no room for.
 class Accessors {
  public:
   Accessors(const Document& document, Buffers& buffers, SceneTotals& totals)

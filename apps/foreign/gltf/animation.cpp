@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "apps/edge/system/base64.h"
 #include "apps/foreign/gltf/meshopt.h"
+#include "apps/frontend/system/base64.h"
 
 namespace dmpc::apps::gltf {
 

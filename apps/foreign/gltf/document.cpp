@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "apps/edge/line/words.h"
 #include "apps/foreign/mesh/count_note.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -136,7 +136,7 @@ Influences influences_of(const Part& primitive, Primitive& source) {
 void check_size(const Part& primitive, const Primitive& source) {
   constexpr std::size_t most = std::numeric_limits<unsigned>::max() / 3;  // each index of a strip may be in three triangles
   if (source.indices.size() > most || (!source.attributes.empty() && source.attributes.at("POSITION").count() > most)) {
-    throw core::RoomError(primitive.where() + ": has more than " + grouped(most) + " vertices or corners: divide it");
+    throw core::CapacityError(primitive.where() + ": has more than " + grouped(most) + " vertices or corners: divide it");
   }
 }
 

@@ -33,7 +33,7 @@ struct Meshes {
 };
 
 /// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by
-/// its place in the document; core::RoomError if they take more than there is room for.
+/// its place in the document; core::CapacityError if they take more than there is room for.
 Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
                    SceneTotals& totals);
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::gltf {
@@ -186,8 +186,8 @@ FileView view_of(const Part& source, const Standing& at, const std::optional<Res
   if (source.get("type").as_text() != "perspective" || !perspective) {
     return result;
   }
-  const double angle = perspective->get("yfov").as_number(), told = perspective->number("aspectRatio", 0);
-  const double aspect = told > 0 ? std::clamp(told, 1 / aspect_max, aspect_max) : 1;
+  const double angle = perspective->get("yfov").as_number(), reported = perspective->number("aspectRatio", 0);
+  const double aspect = reported > 0 ? std::clamp(reported, 1 / aspect_max, aspect_max) : 1;
   if (!(angle > 0)) {
     return result;
   }

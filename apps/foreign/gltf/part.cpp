@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/words.h"
 
 namespace dmpc::apps {
 

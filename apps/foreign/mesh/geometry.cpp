@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/smooth.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 #include "core/scene/face_normals.h"
 

@@ -1,9 +1,9 @@
 #include "apps/foreign/mesh/scene_totals.h"
 
-#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/formats/reading_memory.h"
-#include "core/scene/kept_meshes.h"
+#include "apps/frontend/line/number_text.h"
+#include "core/scene/base_meshes.h"
 
 namespace dmpc::apps {
 
@@ -43,15 +43,15 @@ void SceneTotals::check(const GeometrySize& size) const {
   if (size.bytes > memory_bytes_max_) {
     const std::string places = size.places == 0 ? "" : ", with " + grouped(size.places) + " further places of meshes";
     const bool may_keep = size.places > 0 && copies_ == core::Copies::put;
-    throw core::RoomError("its " + grouped(size.triangles) + " triangles so far take at least " + bytes_text(size.bytes) +
-                          " of memory" + places + ", and a file's scene may take " + bytes_text(memory_bytes_max_) +
-                          ": make the scene smaller, or divide it" +
-                          (may_keep ? ", or have dmpc render keep each mesh once (--instances=keep)" : ""));
+    throw core::CapacityError("its " + grouped(size.triangles) + " triangles so far take at least " + bytes_text(size.bytes) +
+                              " of memory" + places + ", and a file's scene may take " + bytes_text(memory_bytes_max_) +
+                              ": make the scene smaller, or divide it" +
+                              (may_keep ? ", or have dmpc render keep each mesh once (--instances=keep)" : ""));
   }
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
   if (size.corners > most) {
-    throw core::RoomError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
-                          grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
+    throw core::CapacityError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
+                              grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
   }
 }
 

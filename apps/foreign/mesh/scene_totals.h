@@ -34,8 +34,8 @@ class SceneTotals {
                        core::Copies copies = core::Copies::put)
       : memory_bytes_max_(memory_bytes_max), copies_(copies) {}
 
-  /// Throws core::RoomError if a database, the indices of a scene, or memory does not reach so far, with what where() says before
-  /// it: "a.pbrt:3:1: ". Cheap.
+  /// Throws core::CapacityError if a database, the indices of a scene, or memory does not reach so far, with what where() says
+  /// before it: "a.pbrt:3:1: ". Cheap.
   template <class Where>
   void add(const GeometrySize& more, const Where& where) {
     ask(more, where);
@@ -46,8 +46,8 @@ class SceneTotals {
   void ask(const GeometrySize& more, const Where& where) const {
     try {
       ask(more);
-    } catch (const core::RoomError& error) {
-      throw core::RoomError(where() + error.what());
+    } catch (const core::CapacityError& error) {
+      throw core::CapacityError(where() + error.what());
     }
   }
   void ask(const GeometrySize& more) const { check(GeometrySize(size_) += more); }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/edge/line/parsed_number.h"
 #include "apps/foreign/obj/geometry.h"
+#include "apps/frontend/line/parsed_number.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::obj {

@@ -3,10 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/formats/named_file.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::obj {

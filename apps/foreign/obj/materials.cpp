@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 
 namespace dmpc::apps::obj {
 namespace {

@@ -6,13 +6,13 @@
 #include <map>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/obj/unknown_words.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/foreign/text/text_lines.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/small_letters.h"
 
 namespace dmpc::apps::obj {
 namespace {

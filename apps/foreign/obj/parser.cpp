@@ -8,8 +8,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/obj/corner.h"
 #include "apps/foreign/obj/unknown_words.h"
@@ -17,6 +15,8 @@
 #include "apps/foreign/text/text_lines.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/small_letters.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 
@@ -236,7 +236,7 @@ void Parser::vertex(LineWords& words) {
     result_.colors.resize(result_.vertices.size(), {1, 1, 1});
   }
   if (result_.vertices.size() >= none) {
-    throw core::RoomError("there are more than " + grouped(none - 1) + " vertices; divide the file");
+    throw core::CapacityError("there are more than " + grouped(none - 1) + " vertices; divide the file");
   }
 }
 

@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 
 /// All faces, with materials from the files that it names. Throws core::InputError, with the line, for what it may not say,
-/// core::RoomError for more than indices reach.
+/// core::CapacityError for more than indices reach.
 PlacedFile read_obj(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/small_letters.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps::obj {

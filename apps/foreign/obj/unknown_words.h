@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 
 namespace dmpc::apps::obj {
 

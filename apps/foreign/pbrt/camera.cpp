@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/lights.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {

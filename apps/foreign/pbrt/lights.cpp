@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <limits>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/spectra.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 
 namespace dmpc::apps::pbrt {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/loop.h"
 #include "apps/foreign/polygon/ply.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::pbrt {
@@ -296,8 +296,8 @@ PolygonMesh file_mesh(const Parameters& parameters, const Tokens& tokens, SceneF
   try {
     const SourceText source(tokens.path_of(name), files);
     mesh = read_ply_shape(source.text(), files, found);
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(tokens.text_of(parameters.place()) + ": " + name + ": " + error.what());
+  } catch (const core::CapacityError& error) {
+    throw core::CapacityError(tokens.text_of(parameters.place()) + ": " + name + ": " + error.what());
   } catch (const core::InputError& error) {
     const std::string text = error.what();
     parameters.fail(text.starts_with(tokens.path_of(name)) ? text : name + ": " + text);

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra_tables.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/parameter_table.h"
 #include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::pbrt {

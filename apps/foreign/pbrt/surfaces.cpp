@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/line/shown_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::pbrt {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "apps/edge/line/shown_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "apps/picture/png_file.h"
 #include "core/scene/texel.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/unpacked.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::pbrt {

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -100,7 +100,7 @@ void add_face(std::span<const std::uint32_t> corners, PolygonMesh& mesh) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   FaceList& faces = mesh.faces;
   if (corners.size() >= most - faces.corners.size()) {
-    throw core::RoomError(mesh.name + " has more corners than there can be, " + grouped(most) + ": divide it");
+    throw core::CapacityError(mesh.name + " has more corners than there can be, " + grouped(most) + ": divide it");
   }
   faces.corners.insert(faces.corners.end(), corners.begin(), corners.end());
   faces.ends.push_back(static_cast<std::uint32_t>(faces.corners.size()));

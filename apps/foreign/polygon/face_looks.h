@@ -20,7 +20,7 @@ struct FaceLooks {
   void give_way_to(const PolygonMesh& mesh, std::vector<std::string>& notes);
 };
 
-/// Throws core::RoomError if there are more corners than indices reach.
+/// Throws core::CapacityError if there are more corners than indices reach.
 void add_face(std::span<const std::uint32_t> corners, PolygonMesh& mesh);
 
 /// Adds a mesh that has faces, those of one material together, in their order. Where faces have at most face_colors_max colours,

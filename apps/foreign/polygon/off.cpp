@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/face_looks.h"
 #include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/face_looks.h"
 #include "apps/foreign/polygon/ply_header.h"
@@ -13,6 +11,8 @@
 #include "apps/foreign/polygon/ply_surfaces.h"
 #include "apps/foreign/polygon/ply_values.h"
 #include "apps/foreign/polygon/reading_progress.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -77,7 +77,7 @@ class PlyReader {
   void skip(const PlyElement& element);
   /// Of number `number` of what is called `what`, for errors.
   std::uint32_t vertex_of(double index, const char* what, std::uint64_t number) const;
-  void finish_colors();
+  void extension_colors();
   void add_to(PlacedFile& file);
   bool is_textured() const;
   void note_all();
@@ -324,7 +324,7 @@ void PlyReader::read_element(const PlyElement& element) {
 bool PlyReader::is_textured() const { return surfaces_.texture_count() > 0 && !(mesh_.places.empty() && corner_places_.empty()); }
 
 /// One kind of colours is shown: a texture's, else the vertices', else the faces'.
-void PlyReader::finish_colors() {
+void PlyReader::extension_colors() {
   if (!looks_.colors.empty()) {
     looks_.colors.resize(mesh_.faces.ends.size(), not_yet);
   }
@@ -393,7 +393,7 @@ PolygonMesh PlyReader::read_shape(std::vector<std::string>& notes) {
 PlacedFile PlyReader::read() {
   read_elements();
   note_all();
-  finish_colors();
+  extension_colors();
   PlacedFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !looks_.colors.empty()),
                   .notes = std::move(header_.notes),
                   .coordinate_rounding = coordinate_rounding_};

@@ -4,11 +4,11 @@
 #include <limits>
 #include <map>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <limits>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/small_letters.h"
-#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/face_looks.h"
 #include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/polygon/stl_binary.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/small_letters.h"
+#include "apps/frontend/system/byte_order_mark.h"
 
 namespace dmpc::apps {
 namespace {

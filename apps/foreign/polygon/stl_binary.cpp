@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/face_looks.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

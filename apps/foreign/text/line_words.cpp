@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/line/small_letters.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/line/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

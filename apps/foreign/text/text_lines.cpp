@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/edge/system/byte_order_mark.h"
+#include "apps/frontend/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

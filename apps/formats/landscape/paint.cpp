@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t rows_together = 16;
 /// Painted by all cores before word of it is given.
-constexpr std::size_t rows_told = 256;
+constexpr std::size_t rows_reported = 256;
 
 /// Paints some rows of a picture.
 class Painter {
@@ -66,8 +66,8 @@ Image ground_picture(int side, const RowsDone& rows_done) {
   Image image(side, side);
   const Painter painter(image);
   const auto rows = static_cast<std::size_t>(side);
-  for (std::size_t first = 0; first < rows; first += rows_told) {
-    const std::size_t end = std::min(rows, first + rows_told);
+  for (std::size_t first = 0; first < rows; first += rows_reported) {
+    const std::size_t end = std::min(rows, first + rows_reported);
     core::Parallel(0).for_each(core::ceil_divide(end - first, rows_together), [&](std::size_t band) {
       const std::size_t begin = first + band * rows_together;
       painter.paint(begin, std::min(end, begin + rows_together));

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/input_memory.h"
 #include "apps/formats/bounding_sphere.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/grove.h"
@@ -17,6 +15,8 @@
 #include "apps/formats/landscape/paint.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/input_memory.h"
 #include "core/base/expect.h"
 #include "core/database/parallel.h"
 #include "core/scene/texel.h"
@@ -120,7 +120,7 @@ void check_room(const core::Scene& scene, const core::Instances& instances, core
   const core::ExpandedSize size = core::settled_size(scene, instances, copies);
   check_database(size.objects);
   if (const std::uint64_t room = reader_memory_bytes_max(); size.bytes() > room) {
-    throw core::RoomError(
+    throw core::CapacityError(
         "with every tree it takes " + bytes_text(size.bytes()) + " of memory, and there are " + bytes_text(room) +
         " for it: take a smaller size" +
         (copies == core::Copies::put ? ", or have dmpc render keep each kind of tree once (--instances=keep)" : ""));
@@ -165,8 +165,8 @@ core::Scene landscape_scene(std::string_view name, core::Copies copies, const Ro
     instances = add_trees(grove(*trees), scene);
     try {
       check_room(scene, instances, copies);
-    } catch (const core::RoomError& error) {
-      throw core::RoomError(scene.name + ": " + error.what());
+    } catch (const core::CapacityError& error) {
+      throw core::CapacityError(scene.name + ": " + error.what());
     }
   }
   add_ground(scene, size, rows_done);

@@ -15,7 +15,7 @@ bool is_landscape_name(std::string_view name);
 
 /// What write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same place, but for what files
 /// round; the sun stands high on the right. Each kind of tree is one mesh, which `copies` says what becomes of. Requires a name
-/// that is_landscape_name(). Throws core::RoomError if the trees' copies are more than a database or memory hold.
+/// that is_landscape_name(). Throws core::CapacityError if the trees' copies are more than a database or memory hold.
 core::Scene landscape_scene(std::string_view name, core::Copies copies, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

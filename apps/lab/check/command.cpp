@@ -8,10 +8,10 @@
 #include <ostream>
 #include <string>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/lab/check/inspection.h"
 #include "apps/lab/oracle/places/place_judge.h"
 #include "apps/lab/oracle/trial_line.h"
@@ -68,14 +68,14 @@ void print_named(std::ostream& output, const Referee& referee, const core::Ray& 
   if (!answer.hit || answer.primitive == core::no_primitive) {
     return;
   }
-  const Encounter seen = referee.examine(ray, answer.primitive);
+  const ExactIntersection seen = referee.examine(ray, answer.primitive);
   output << "    " << who << " #" << answer.primitive << ": t " << std::setprecision(9) << answer.t << ", referee's t "
          << std::setprecision(17) << seen.t << " +- " << std::setprecision(3) << seen.t_error << ", margin " << seen.margin[0]
          << " (grid's roundings), " << seen.margin[1] << " (Embree's)\n";
 }
 
 void print_doubtful(std::ostream& output, const Referee& referee, const core::Ray& ray) {
-  for (const Encounter& seen : referee.encounters(ray)) {
+  for (const ExactIntersection& seen : referee.exact_intersections(ray)) {
     output << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- "
            << std::setprecision(3) << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin "
            << std::setprecision(3) << seen.margin[0] << ", " << seen.margin[1] << '\n';
@@ -234,7 +234,7 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
          << " pixels, our " << name_of(subject.built.structure)
-         << (database.header().has_instances != 0 ? " with kept meshes" : "") << " against Embree " << embree_version()
+         << (database.header().has_instances != 0 ? " with base meshes" : "") << " against Embree " << embree_version()
          << " (robust)\n";
   const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
@@ -258,8 +258,8 @@ void add_options(OptionSet options, CheckOptions& check) {
   add_instance_option(options, check.database);
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);
-    settle_instances(options, {}, check.database, check.picture.staging.mesh);
-    check.picture.staging.mesh.copies = core::Copies::put;  // for Embree and the referee, whatever rays go into
+    settle_instances(options, {}, check.database, check.picture.scene_setup.mesh);
+    check.picture.scene_setup.mesh.copies = core::Copies::put;  // for Embree and the referee, whatever rays go into
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");

@@ -6,8 +6,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
 

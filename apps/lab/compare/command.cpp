@@ -10,12 +10,12 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/json_format.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/system/distinct_files.h"
-#include "apps/edge/system/output_file.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/line/json_format.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/shown_text.h"
+#include "apps/frontend/system/distinct_files.h"
+#include "apps/frontend/system/output_file.h"
 #include "apps/lab/compare/pages.h"
 #include "apps/lab/difference/picture_error.h"
 #include "apps/picture/image_file.h"
@@ -195,7 +195,7 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
 }
 
 /// What `compared` says is printed.
-int tell_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
+int report_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
   if (options.format == CompareFormat::json) {
     print_json(output, options, comparison);
   } else {
@@ -210,8 +210,8 @@ int tell_counters(const CompareOptions& options, const FigureComparison& compari
 }
 
 int compare_counters(const CompareOptions& options, std::ostream& output) {
-  return tell_counters(options, compare_figures(read_figures(options.a), read_figures(options.reference), options.figures),
-                       output);
+  return report_counters(options, compare_figures(read_figures(options.a), read_figures(options.reference), options.figures),
+                         output);
 }
 
 int compare_pages(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
@@ -224,7 +224,7 @@ int compare_pages(const CompareOptions& options, Interrupt& interrupt, std::ostr
     file.commit();
   }
   if (counters) {
-    return tell_counters(options, *counters, output);
+    return report_counters(options, *counters, output);
   }
   std::cerr << "dmpc: " << without_counters(pages) << '\n';
   return 0;

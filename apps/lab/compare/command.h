@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/compare/differences.h"
 #include "apps/lab/compare/limit.h"
 #include "apps/reader/confinement.h"

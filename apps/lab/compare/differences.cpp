@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/option_values.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 

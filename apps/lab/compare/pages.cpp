@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <fstream>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/bounded_text.h"
-#include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/bounded_text.h"
+#include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/difference/picture_error.h"
 #include "apps/lab/figures/figures_file.h"
 #include "apps/picture/image_file.h"

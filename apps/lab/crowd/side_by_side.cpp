@@ -21,7 +21,7 @@ constexpr std::size_t pieces_per_core = 2;
 
 void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& work) {
   std::size_t next = 0;
-  const auto deal = [&](tbb::flow_control& control) -> std::size_t {
+  const auto assign = [&](tbb::flow_control& control) -> std::size_t {
     if (next == count) {
       control.stop();
       return count;
@@ -32,7 +32,7 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
   // Pieces begin and end in order, so no two that are under way at once share a place. What lies here when a piece throws goes
   // with the vector; oneTBB would lose it.
   std::vector<Finish> finishes(most);
-  tbb::parallel_pipeline(most, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, deal) &
+  tbb::parallel_pipeline(most, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, assign) &
                                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
                                                                               [&](std::size_t piece) {
                                                                                 core::use_usual_arithmetic();

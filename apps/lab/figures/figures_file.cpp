@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/edge/line/json_format.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/bounded_text.h"
+#include "apps/frontend/line/json_format.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/bounded_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

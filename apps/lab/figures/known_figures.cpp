@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/words.h"
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"

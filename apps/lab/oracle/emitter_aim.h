@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/base/vec.h"
-#include "core/picture/sample_pair.h"
+#include "core/picture/sampling/sample_pair.h"
 
 namespace dmpc::apps {
 

@@ -213,7 +213,7 @@ CertificateFault fault_of(const Ray& ray, const core::PrimitiveValues& values, f
 
 CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t) {
   if (values.needs_plane()) {
-    return {};  // hit where the plane is that others share or doubles say (core/database/coplanar.h), not its own corners
+    return {};  // hit where the plane is that others share or doubles say (core/database/faces/coplanar.h), not its own corners
   }
   const core::Certificate certificate = core::certify(ray, values.kind, values.value.data(), 1, 0);
   if (!certificate.is_decided()) {

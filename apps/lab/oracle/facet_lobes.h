@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "core/base/vec.h"
-#include "core/picture/microfacet.h"
-#include "core/picture/path_step.h"
-#include "core/picture/sample_pair.h"
+#include "core/picture/sampling/sample_pair.h"
+#include "core/picture/surfaces/microfacet.h"
+#include "core/picture/surfaces/path_step.h"
 #include "core/record/ray.h"
 
 namespace dmpc::apps {

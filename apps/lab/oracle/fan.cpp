@@ -55,7 +55,7 @@ struct Feature {
 };
 
 /// How far float rounding may move a ray beside a triangle: the shear moves a vertex by less than 7, the edge function by less
-/// than 1 rounding of the reach (encounter.cpp).
+/// than 1 rounding of the reach (exact_intersection.cpp).
 double rounding_of(const Ray& ray, const std::array<Vec3f, 3>& corner) {
   double reach = 0;
   for (const Vec3f& at : corner) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/lab/oracle/encounter.h"
+#include "apps/lab/oracle/exact_intersection.h"
 #include "core/database/database.h"
 #include "core/record/ray.h"
 
@@ -46,12 +46,12 @@ struct Ruling {
 /// costs some 10 ns a primitive.
 class Referee {
  public:
-  explicit Referee(std::span<const core::PrimitiveValues> primitives, std::span<const core::KeptPlane> planes = {})
+  explicit Referee(std::span<const core::PrimitiveValues> primitives, std::span<const core::PrimitivePlane> planes = {})
       : primitives_(primitives), planes_(planes) {}
   explicit Referee(const core::Database& database) : Referee(database.primitives(), database.planes()) {}
 
   /// Every primitive that rounding may let `ray` hit (its ignored triangle left out), by distance and then id.
-  std::vector<Encounter> encounters(const core::Ray& ray) const;
+  std::vector<ExactIntersection> exact_intersections(const core::Ray& ray) const;
   /// The exact answer; for a shadow ray only `hit` is meant. NaN or infinite rays miss.
   Answer exact(const core::Ray& ray) const;
   /// Whether `answer` is what `renderer` may have found after rounding, no matter what the other one said.
@@ -59,20 +59,20 @@ class Referee {
   /// Judges two answers; meant for different ones, but equal ones are judged as well.
   Ruling settle(const core::Ray& ray, const Answer& grid, const Answer& oracle) const;
   /// How near `ray` is to hitting primitive `id`, whether it does or not.
-  Encounter examine(const core::Ray& ray, std::uint32_t id) const {
+  ExactIntersection examine(const core::Ray& ray, std::uint32_t id) const {
     return apps::examine(ray, primitives_[id], id, plane_of(id));
   }
 
  private:
-  bool leaks(const core::Ray& ray, const std::vector<Encounter>& met, const Encounter& passed, const Answer& answer,
-             const Encounter* hit, Renderer renderer) const;
-  bool admissible(const core::Ray& ray, const std::vector<Encounter>& met, const Answer& answer, Renderer renderer) const;
+  bool leaks(const core::Ray& ray, const std::vector<ExactIntersection>& met, const ExactIntersection& passed,
+             const Answer& answer, const ExactIntersection* hit, Renderer renderer) const;
+  bool admissible(const core::Ray& ray, const std::vector<ExactIntersection>& met, const Answer& answer, Renderer renderer) const;
 
   /// None of a triangle that doubles do not tell from others.
   const core::FacePlane* plane_of(std::uint32_t id) const;
 
   std::span<const core::PrimitiveValues> primitives_;
-  std::span<const core::KeptPlane> planes_;
+  std::span<const core::PrimitivePlane> planes_;
 };
 
 }  // namespace dmpc::apps

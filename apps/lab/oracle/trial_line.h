@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 
 namespace dmpc::apps {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/option_words.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/option_words.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "apps/run/ray_hops.h"
 #include "core/families/scenes.h"
 #include "dataflow/regions/bsp.h"
@@ -157,7 +157,7 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
       "longer sides.",
       "Scattered: a lattice of regions of equal size, neighbours on different nodes.",
       "Moves: how often a ray goes on to another node.",
-      "Duplication: copies of primitives in all regions over those in the database's bricks.",
+      "Duplication: copies of primitives in all regions over those in the database's BVH nodes.",
       "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +
           ", by counted rays, with the regions where they are put and as the mean of random mappings."};
   if (is_rings_3(scene)) {

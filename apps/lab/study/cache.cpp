@@ -3,12 +3,12 @@
 
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/table/filled_columns.h"
-#include "apps/edge/table/geometric_sizes.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/table/filled_columns.h"
+#include "apps/frontend/table/geometric_sizes.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"

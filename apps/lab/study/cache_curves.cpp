@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
 #include "apps/lab/crowd/side_by_side.h"
+#include "svm/pages/observers/optimum.h"
 #include "svm/pages/replacement.h"
-#include "svm/pages/watch/optimum.h"
 
 namespace dmpc::apps {
 namespace {

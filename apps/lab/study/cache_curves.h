@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/policy/foreign_policy.h"
+#include "svm/pages/observers/miss_curve.h"
 #include "svm/pages/page.h"
-#include "svm/pages/watch/miss_curve.h"
 
 namespace dmpc::apps {
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "dataflow/run.h"
 #include "svm/packets.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 

@@ -6,18 +6,18 @@
 #include <set>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/frame_rows.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/camera_path.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
-#include "core/picture/frame_settings.h"
+#include "core/picture/camera/frame_settings.h"
 
 namespace dmpc::apps {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "nodes/size_text.h"

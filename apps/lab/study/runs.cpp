@@ -3,10 +3,10 @@
 #include <mutex>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/system/memory_room.h"
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/system/available_memory.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
@@ -87,7 +87,7 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
   ReadyRun ready;
   try {
     ready = make_ready(run.options, *run.database, *run.settings, interrupt_.token());
-  } catch (const ComputerRoomError&) {
+  } catch (const ComputerCapacityError&) {
     throw;
   } catch (const core::InputError& error) {
     outcome.misfit = error.what();

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table.h"
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 #include "core/base/expect.h"
 #include "core/database/database.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
@@ -55,8 +55,8 @@ std::string machine_text(const nodes::Machine& machine);
 std::string in_flight_text(Strategy strategy);
 
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
-struct NothingFits : core::RoomError {
-  using core::RoomError::RoomError;
+struct NothingFits : core::CapacityError {
+  using core::CapacityError::CapacityError;
 };
 
 /// Not thread-safe. What it is made from outlives it.

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/run/run_strategy.h"
 #include "nodes/size_text.h"
@@ -138,13 +138,14 @@ void SpeedupStudy::measure(StudyRuns& runs, Table& table) const {
 
 std::vector<std::string> SpeedupStudy::notes(const std::string&) const {
   const std::string what = run.strategy == Strategy::dataflow ? rays_text(run.rays) : pages_text(run);
-  return {
-      machine_text(*run.computer.machine) + ", " + computer_text(run) + ", " + what + ".",
-      "Speedup and efficiency: against the first row with figures, in node-seconds, as if its own efficiency were 100 %.",
-      "Parts of the nodes' time, summed over them: they add up to 100 %. data_wait is for pages or rays, work_wait for pixels of "
-      "other nodes, token_wait for the token that finds out whether all rays have ended, stolen and lent serve page requests "
-      "while there is something else to do and while there is not.",
-      "Link wait: that messages stood before links that others held, summed. Node memory: of the fullest node."};
+  return {machine_text(*run.computer.machine) + ", " + computer_text(run) + ", " + what + ".",
+          "Speedup and efficiency: against the first row with figures, in node-seconds, as if its own efficiency were 100 %.",
+          "Parts of the nodes' time, summed over them: they add up to 100 %. data_wait is for pages or rays, starvation for "
+          "pixels of "
+          "other nodes, token_wait for the token that finds out whether all rays have ended, service_busy and service_idle serve "
+          "page requests "
+          "while there is something else to do and while there is not.",
+          "Link wait: that messages stood before links that others held, summed. Node memory: of the fullest node."};
 }
 
 std::string SpeedupStudy::conclusion(const Table& table) const {

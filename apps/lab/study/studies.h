@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/table/plot.h"
+#include "apps/frontend/table/plot.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/memory_rule.h"

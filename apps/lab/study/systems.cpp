@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/lab/study/systems_plan.h"
 #include "apps/run/run_strategy.h"

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/studies.h"
 
 namespace dmpc::apps {

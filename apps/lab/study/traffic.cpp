@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "dataflow/regions/balance.h"
 #include "svm/packets.h"
 

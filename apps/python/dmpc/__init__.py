@@ -16,8 +16,8 @@ from . import study
 from .calls import compare, references, render, sweep, trace
 from .pages import Page, page
 from .policies import PolicyError, simulate
-from .program import Error, InputError, InternalError, RoomError, UsageError
+from .program import Error, InputError, InternalError, CapacityError, UsageError
 from .rendering import Render
 
-__all__ = ["Error", "InputError", "InternalError", "Page", "PolicyError", "Render", "RoomError", "UsageError", "compare", "page",
+__all__ = ["Error", "InputError", "InternalError", "Page", "PolicyError", "Render", "CapacityError", "UsageError", "compare", "page",
            "references", "render", "simulate", "study", "sweep", "trace"]

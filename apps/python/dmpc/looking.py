@@ -51,7 +51,7 @@ def _fields(message):
 
 
 class _Trace:
-    """The packets of a Perfetto trace as dmpc writes it (apps/edge/show/trace/perfetto.h), taken one after the other."""
+    """The packets of a Perfetto trace as dmpc writes it (apps/frontend/show/trace/perfetto.h), taken one after the other."""
 
     def __init__(self):
         self.texts, self.tracks, self.open, self.rows, self.about = {}, {}, {}, [], {}

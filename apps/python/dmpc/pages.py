@@ -9,7 +9,7 @@ import numpy
 
 from .program import Error, InputError
 
-FORMAT = 2  # of the data in a page
+FORMAT = 3  # of the data in a page
 _TYPES = {"u1": numpy.dtype("<u1"), "u2": numpy.dtype("<u2"), "u4": numpy.dtype("<u4"), "f8": numpy.dtype("<f8")}
 
 

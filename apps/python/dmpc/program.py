@@ -8,7 +8,7 @@ import subprocess
 
 from .commas import WITH_COMMAS
 
-FORMAT = 1  # of its JSON files
+FORMAT = 2  # of its JSON files
 Text = str | int | float | os.PathLike  # what is typed as it is
 
 
@@ -28,11 +28,11 @@ class InternalError(Error):
     """An error of dmpc's own."""
 
 
-class RoomError(Error):
+class CapacityError(Error):
     """There is no room, on this computer or in the nodes' memory: the message says what would do."""
 
 
-_ERRORS = {1: InputError, 2: UsageError, 3: InternalError, 4: RoomError}
+_ERRORS = {1: InputError, 2: UsageError, 3: InternalError, 4: CapacityError}
 
 
 def path():
@@ -102,14 +102,14 @@ def _end_with(parent):
     return end_with_parent
 
 
-_PATIENCE_SECONDS = 10  # for dmpc to end on an interruption; it cleans up what it has begun
+_TIMEOUT_SECONDS = 10  # for dmpc to end on an interruption; it cleans up what it has begun
 
 
 def _interrupt(process):
     """Ends dmpc as Ctrl-C does, so that it takes its own children and scratch files with it; a second Ctrl-C ends it at once."""
     process.send_signal(signal.SIGINT)
     try:
-        process.communicate(timeout=_PATIENCE_SECONDS)
+        process.communicate(timeout=_TIMEOUT_SECONDS)
     finally:
         if process.poll() is None:
             process.kill()

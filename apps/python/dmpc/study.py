@@ -73,10 +73,10 @@ def speedup(
     scene: Text, *, nodes: Text | Sequence[Text] | None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None,
     node_memory: Text | None = None, machine: Text | None = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] |
     None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None,
-    in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_giver: Literal["ring", "host"] | None = None,
+    in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
     pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, balance: Literal["subsampled", "equal-size",
     "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch:
-    int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int |
+    int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int |
     None = None, no_backpressure: bool = False, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None =
     None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up:
     Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]

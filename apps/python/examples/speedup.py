@@ -10,7 +10,7 @@ import sys
 
 import dmpc
 
-PARTS = ["computing", "data_wait", "work_wait", "token_wait", "credit_wait", "film_wait", "other_wait", "stolen", "lent", "messages",
+PARTS = ["computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle", "messages",
          "idle_at_end"]
 
 

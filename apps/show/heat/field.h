@@ -6,7 +6,7 @@
 
 #include "apps/run/render_record.h"
 #include "core/picture/heat_kind.h"
-#include "nodes/watch/heat_map.h"
+#include "nodes/observers/heat_map.h"
 
 namespace dmpc::apps {
 

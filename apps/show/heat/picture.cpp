@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/scale.h"
-#include "apps/edge/picture/color_map.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/scale.h"
+#include "apps/frontend/picture/color_map.h"
 #include "apps/picture/glyphs.h"
 #include "apps/picture/image_file.h"
 #include "apps/run/heat_options.h"

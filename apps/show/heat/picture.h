@@ -13,7 +13,7 @@ namespace dmpc::apps {
 /// All bytes of the file that is asked for; record.heat has its kind. Throws core::InputError if its format cannot hold it.
 std::string heat_file(const HeatRequest& request, const RenderRecord& record);
 
-/// Black: 0 on a logarithmic scale. The legend says what is shown, the scale (apps/edge/line/scale.h: linear or logarithmic)
+/// Black: 0 on a logarithmic scale. The legend says what is shown, the scale (apps/frontend/line/scale.h: linear or logarithmic)
 /// with round numbers, least, largest and mean, and `source`, such as scene and strategy, on a line of its own. A picture too
 /// narrow for its legend gets a white margin on the right; in a wide one each dot of a letter is several pixels wide.
 Image heat_picture(const HeatField& field, const std::string& source);

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/show/page/shares.h"
-#include "apps/edge/table/plot.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/show/page/shares.h"
+#include "apps/frontend/table/plot.h"
 #include "apps/show/page/pictures.h"
 #include "apps/show/page/player.h"
 #include "apps/show/page/typed_array.h"

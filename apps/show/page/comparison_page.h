@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/table/table.h"
 #include "apps/picture/image_file.h"
 #include "apps/show/page/played_run.h"
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/page/shares.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/page/shares.h"
 #include "apps/run/memory_categories.h"
 #include "core/picture/heat_kind.h"
 

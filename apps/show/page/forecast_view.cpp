@@ -6,12 +6,12 @@
 #include <set>
 #include <variant>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/run_view.h"
-#include "apps/edge/show/page/shares.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/run_view.h"
+#include "apps/frontend/show/page/shares.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/run/report.h"
 #include "apps/show/page/page_data.h"
 #include "apps/show/page/typed_array.h"
@@ -22,15 +22,15 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t sizes_max = 4096;     ///< that are read back
-constexpr double told_error_least = 0.001;  ///< less is not worth a sentence
+constexpr std::size_t sizes_max = 4096;         ///< that are read back
+constexpr double reported_error_least = 0.001;  ///< less is not worth a sentence
 
 std::string why_wide(const CacheForecast& forecast) {
   std::string text =
       "The band lies between two readings of that run: that all of its time but for computing grows with the faults, or page "
       "wait, "
       "service of interrupts and messages alone.";
-  if (forecast.curve_error >= told_error_least) {
+  if (forecast.curve_error >= reported_error_least) {
     text += " It is wider by " + share_text(forecast.curve_error) +
             ", by which the curve misses that run's own faults, as where several pixels wait for one page, lru is not what "
             "replaces, or it is from a sample.";

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/run/cache_forecast.h"
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/show/page/web_part.h"
+#include "apps/frontend/run/cache_forecast.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/show/page/web_part.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps::html {

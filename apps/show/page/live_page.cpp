@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "apps/edge/show/page/escaped.h"
+#include "apps/frontend/show/page/escaped.h"
 
 namespace dmpc::apps::html {
 

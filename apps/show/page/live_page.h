@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "apps/edge/show/page/web_part.h"
-#include "apps/edge/web/page_server.h"
+#include "apps/frontend/show/page/web_part.h"
+#include "apps/frontend/web/page_server.h"
 
 namespace dmpc::apps::html {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "nodes/observer.h"
 
 namespace dmpc::apps::html {

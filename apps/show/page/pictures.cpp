@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "apps/edge/show/page/data_url.h"
-#include "apps/edge/show/page/table.h"
+#include "apps/frontend/show/page/data_url.h"
+#include "apps/frontend/show/page/table.h"
 #include "apps/picture/shrunk.h"
 
 namespace dmpc::apps::html {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/edge/show/page/page.h"
+#include "apps/frontend/show/page/page.h"
 #include "apps/picture/image_file.h"
 
 namespace dmpc::apps::html {

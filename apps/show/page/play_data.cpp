@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/run/run_view.h"
-#include "apps/edge/run/work.h"
+#include "apps/frontend/run/run_view.h"
+#include "apps/frontend/run/work.h"
 #include "apps/run/report.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/page/forecast_view.h"

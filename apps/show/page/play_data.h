@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/edge/show/page/origin.h"
+#include "apps/frontend/show/page/origin.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps::html {
 
 /// Of the text: counted up when a key goes or comes to mean something else.
-inline constexpr int play_format = 2;
+inline constexpr int play_format = 3;
 
 /// Pictures of more pixels are played in cells of 2x2, 4x4, ... pixels.
 inline constexpr std::size_t play_cells_max = std::size_t{1} << 17U;
@@ -35,7 +35,7 @@ inline constexpr std::uint64_t done_parts = 65'535;
 ///   from that node at so long before the end
 /// - path (modelled machines): {messages, node, from_ns, parts, kinds: [{name, ns}]} of the critical path, which goes back from
 /// that
-///   moment of the node; parts add up to total_ns, kinds but for computing and stolen
+///   moment of the node; parts add up to total_ns, kinds but for computing and service while busy
 /// - topology (modelled machines): {kind, columns (of a mesh or torus, else 1), uplinks}
 /// - pairs: {what, row, column, side, counts} or, where that takes less, {..., places, counts}: of row * side + column
 /// - over (modelled machines): what passed over time, each {step_ns, steps, most, values} by row and step; with `most` in 255ths

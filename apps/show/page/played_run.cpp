@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/system/base64.h"
+#include "apps/frontend/system/base64.h"
 #include "apps/show/page/page_data.h"
 #include "apps/show/page/play_data.h"
 #include "apps/show/page/player.h"

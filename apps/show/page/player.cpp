@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/edge/show/page/web_part.h"
+#include "apps/frontend/show/page/web_part.h"
 
 namespace dmpc::apps::html {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/edge/show/page/page.h"
+#include "apps/frontend/show/page/page.h"
 
 namespace dmpc::apps::html {
 

@@ -7,13 +7,13 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/line/amount.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/work.h"
-#include "apps/edge/show/page/node_bands.h"
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/show/page/view_conclusions.h"
-#include "apps/edge/show/page/view_tables.h"
+#include "apps/frontend/line/amount.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/work.h"
+#include "apps/frontend/show/page/node_bands.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/show/page/view_conclusions.h"
+#include "apps/frontend/show/page/view_tables.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/heat_options.h"
 #include "apps/run/render_record.h"

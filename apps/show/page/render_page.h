@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/edge/show/page/origin.h"
+#include "apps/frontend/show/page/origin.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps::html {

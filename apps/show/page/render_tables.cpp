@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "apps/edge/show/page/node_table.h"
+#include "apps/frontend/show/page/node_table.h"
 #include "apps/run/memory_categories.h"
 #include "apps/show/counters.h"
 #include "apps/show/page/path_table.h"

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "apps/edge/show/page/losses.h"
-#include "apps/edge/show/page/traffic.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/show/page/losses.h"
+#include "apps/frontend/show/page/traffic.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/run/render_record.h"
 #include "apps/run/report.h"
 

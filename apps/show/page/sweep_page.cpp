@@ -1,6 +1,6 @@
 #include "apps/show/page/sweep_page.h"
 
-#include "apps/edge/show/page/page.h"
+#include "apps/frontend/show/page/page.h"
 
 namespace dmpc::apps::html {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/show/page/forecast_view.h"
 
 namespace dmpc::apps::html {

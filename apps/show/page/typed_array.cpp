@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-#include "apps/edge/system/base64.h"
+#include "apps/frontend/system/base64.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::html {

@@ -2,7 +2,7 @@
 #include <numeric>
 #include <string>
 
-#include "apps/edge/show/stats/counters_json.h"
+#include "apps/frontend/show/stats/counters_json.h"
 #include "apps/run/ray_hops.h"
 #include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
@@ -120,7 +120,9 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
 }
 
 Json host_json(const dataflow::HostCounters& host) {
-  return {{"rays_kept_max", host.rays_kept_max}, {"kept_bytes_max", host.kept_bytes_max}, {"token_rounds", host.token_rounds}};
+  return {{"rays_buffered_max", host.rays_buffered_max},
+          {"buffered_bytes_max", host.buffered_bytes_max},
+          {"token_rounds", host.token_rounds}};
 }
 
 }  // namespace

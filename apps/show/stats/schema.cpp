@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/show/stats/counters_json.h"
+#include "apps/frontend/show/stats/counters_json.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"
 #include "apps/show/counters.h"
@@ -59,8 +59,8 @@ Json strategy_options() {
                                       : Json{{"type", {kind == OptionKind::flag ? "boolean" : "string", "null"}}};
   };
   Json all;
-  for (const ToldKey& told : told_keys()) {
-    all[std::string(told.key)] = with_description(type_of(told.kind), told.meaning);
+  for (const ReportedKey& reported : reported_keys()) {
+    all[std::string(reported.key)] = with_description(type_of(reported.kind), reported.meaning);
   }
   return all;
 }

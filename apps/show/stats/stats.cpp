@@ -8,10 +8,10 @@
 #include <string>
 #include <variant>
 
-#include "apps/edge/line/json_format.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/show/stats/counters_json.h"
+#include "apps/frontend/line/json_format.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/show/stats/counters_json.h"
 #include "apps/reader/confinement.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"
@@ -20,7 +20,7 @@
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"
-#include "core/database/material_records.h"
+#include "core/database/shading/material_records.h"
 
 namespace dmpc::apps {
 
@@ -129,7 +129,7 @@ Json chaos_json(const Account& account, const Json& credits) {
     held += node.counters.held;
     sat_out += node.counters.sat_out;
   }
-  Json result = {{"seed", account.chaos->seed}, {"packets_held", held}, {"quanta_sat_out", sat_out}};
+  Json result = {{"seed", account.chaos->seed}, {"packets_delayed", held}, {"quanta_sat_out", sat_out}};
   result.update(filled({"request_credits", "ray_credits", "host_credits", "film_credits"}, credits));
   return result;
 }
@@ -173,21 +173,21 @@ Json host_json(const RenderRecord& record, const Account& account, const Json& s
                  {"seconds", timed.empty() ? node_seconds_json(account.host) : Json()},
                  {"sleeps", account.host.sleeps}};
   result.update(filled({"virtual_seconds"}, timed));
-  result.update(filled({"pages_served", "rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
+  result.update(filled({"pages_served", "rays_buffered_max", "buffered_bytes_max", "token_rounds"}, special));
   return result;
 }
 
 /// How the scene is placed, seen and lit, as the command line would say it; null where it says nothing.
-void add_staging(Json& options, const Staging& staging) {
-  const MeshOptions& mesh = staging.mesh;
-  options["camera"] = staging.camera ? Json(text_of(*staging.camera)) : Json();
+void add_scene_setup(Json& options, const SceneSetup& scene_setup) {
+  const MeshOptions& mesh = scene_setup.mesh;
+  options["camera"] = scene_setup.camera ? Json(text_of(*scene_setup.camera)) : Json();
   options["light"] = nullptr;
-  for (const core::PointLight& light : staging.lights) {
+  for (const core::PointLight& light : scene_setup.lights) {
     options["light"].push_back(text_of(light));
   }
-  options["fill"] = staging.fill ? Json(*staging.fill) : Json();
-  options["ambient"] = staging.ambient ? Json(text_of(*staging.ambient)) : Json();
-  options["background"] = staging.background ? Json(text_of(*staging.background)) : Json();
+  options["fill"] = scene_setup.fill ? Json(*scene_setup.fill) : Json();
+  options["ambient"] = scene_setup.ambient ? Json(text_of(*scene_setup.ambient)) : Json();
+  options["background"] = scene_setup.background ? Json(text_of(*scene_setup.background)) : Json();
   options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
   options["up"] = mesh.up ? Json(text_of(*mesh.up)) : Json();
   options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
@@ -232,9 +232,10 @@ Json options_json(const RenderRecord& record, const Account& account) {
       {"pool_threads", options.computer.pool_threads ? Json(*options.computer.pool_threads) : Json()},
       {"node_memory", account.node_memory_max_bytes},
       {"page_size", record.database.page_size()}};
-  add_staging(result, options.picture.staging);
-  const auto told = std::visit([&](const auto& report) { return told_options(options.strategy, report.plan); }, record.report);
-  for (const auto& [key, value] : told) {
+  add_scene_setup(result, options.picture.scene_setup);
+  const auto reported =
+      std::visit([&](const auto& report) { return reported_options(options.strategy, report.plan); }, record.report);
+  for (const auto& [key, value] : reported) {
     result[std::string(key)] = std::visit(JsonOf(), value);
   }
   return result;
@@ -281,7 +282,7 @@ Json sandbox_json() {
 
 Json database_json(const core::Database& database) {
   const core::RecordCounts& records = database.records();
-  const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
+  const auto leaf_count = [&](core::PrimitiveKind kind) { return records.leaves[static_cast<std::size_t>(kind)]; };
   return {{"bytes", database.page_count() * database.page_size()},
           {"pages", database.page_count()},
           {"page_size", database.page_size()},
@@ -290,11 +291,11 @@ Json database_json(const core::Database& database) {
           {"references", database.references()},
           {"dropped", database.dropped()},
           {"collapsed", database.collapsed().size()},
-          {"bricks", records.bricks},
+          {"bvh_nodes", records.bvh_nodes},
           {"voxel_references", records.voxel_references},
-          {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
-          {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
-          {"cone_blocks", block_count(core::PrimitiveKind::cone)},
+          {"triangle_leaves", leaf_count(core::PrimitiveKind::triangle)},
+          {"sphere_leaves", leaf_count(core::PrimitiveKind::sphere)},
+          {"cone_leaves", leaf_count(core::PrimitiveKind::cone)},
           {"normals", records.normals},
           {"textured", records.textured},
           {"texture_tiles", records.texture_tiles},
@@ -302,10 +303,10 @@ Json database_json(const core::Database& database) {
           {"lights", database.header().light_count},
           {"emitters", database.header().emitter_count},
           {"sky_tiles", records.sky_tiles},
-          {"kept",
-           {{"meshes", records.kept_meshes},
+          {"instancing",
+           {{"meshes", records.base_meshes},
             {"instances", records.instances},
-            {"triangles", records.kept_triangles},
+            {"triangles", records.base_mesh_triangles},
             {"placed_triangles", records.triangles_in_places}}}};
 }
 

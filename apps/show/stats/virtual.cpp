@@ -1,7 +1,7 @@
 #include "apps/show/stats/virtual.h"
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/run/time_parts.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/time_parts.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps {
@@ -20,8 +20,8 @@ Json times_json(std::uint64_t total_ns, const nodes::VirtualTimes& times, std::s
           {"computing", seconds(times.computing_ns)},
           {"sending", seconds(times.sending_ns)},
           {"receiving", seconds(times.receiving_ns)},
-          {"stolen", seconds(times.stolen_ns)},
-          {"lent", seconds(times.lent_ns)},
+          {"service_busy", seconds(times.service_busy_ns)},
+          {"service_idle", seconds(times.service_idle_ns)},
           {"waiting", waiting},
           {"end", seconds(times.end_ns)}};
 }

@@ -4,11 +4,11 @@
 #include <ostream>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/trace/perfetto.h"
-#include "apps/edge/show/trace/view.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/trace/perfetto.h"
+#include "apps/frontend/show/trace/view.h"
 #include "core/base/expect.h"
-#include "nodes/watch/trace.h"
+#include "nodes/observers/trace.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tests/apps/computer/adder.h"
-#include "tests/apps/computer/asker.h"
+#include "tests/apps/computer/requester.h"
 #include "tests/support/browser.h"
 
 namespace dmpc::tests::computer_browser_test {
@@ -17,7 +17,7 @@ void check_in_browser(const std::string& page) {
     for (const bool is_dark : {false, true}) {
       CAPTURE(width);
       CAPTURE(is_dark);
-      check_shown_whole(told_by_browser(page, width, is_dark, folder / "shot.png"), page, width, is_dark);
+      check_shown_whole(reported_by_browser(page, width, is_dark, folder / "shot.png"), page, width, is_dark);
     }
   }
 }
@@ -28,7 +28,7 @@ TEST_CASE("a browser shows the pages of programs whole, on a screen and on a tel
           doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string file = folder / "page.html", report = "--report=" + file;
-  REQUIRE(run_with(asker(10), {"--nodes=8", "--runner=virtual", "--machine=hdr", report}).status == 0);
+  REQUIRE(run_with(requester(10), {"--nodes=8", "--runner=virtual", "--machine=hdr", report}).status == 0);
   check_in_browser(file_text(file));
   REQUIRE(run_adding(adding(2), {"--nodes=8", "--runner=virtual", "--cache-pages=2", report}).status == 0);
   check_in_browser(file_text(file));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps::computer_options_test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/show/references/reference_file.h"
-#include "svm/pages/watch/miss_curve.h"
+#include "apps/frontend/show/references/reference_file.h"
+#include "svm/pages/observers/miss_curve.h"
 #include "tests/apps/computer/adder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -68,7 +68,7 @@ TEST_CASE("a program's operations have their price beside those of pages, and a 
 TEST_CASE("counters add up over nodes and runs") {
   const Lines words = {"--nodes=3", "--cache-pages=2", "--runner=virtual"};
   const nlohmann::json once = adding_stats(adding(), words), twice = adding_stats(adding(2), words);
-  CHECK(once["format"] == 1);
+  CHECK(once["format"] == 2);
   CHECK(once["page_count"] == 16);
   CHECK(once["cache_pages"] == 2);
   CHECK(twice["runs"] == 2);

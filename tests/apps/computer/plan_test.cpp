@@ -78,7 +78,7 @@ TEST_CASE("a node's memory is the sum of its parts, and one that is too small is
   CHECK_NOTHROW(ProgramPlan(ring_needs(), computer));
   computer.node_memory_bytes = needed - 1;
   CHECK_THROWS_WITH_AS(ProgramPlan(ring_needs(), computer),
-                       doctest::Contains(("a node takes " + std::to_string(needed) + " bytes").c_str()), core::RoomError);
+                       doctest::Contains(("a node takes " + std::to_string(needed) + " bytes").c_str()), core::CapacityError);
 }
 
 TEST_CASE("what is declared beyond the memory of any computer is refused by its name, and no sum of it wraps") {
@@ -95,7 +95,7 @@ TEST_CASE("what is declared beyond the memory of any computer is refused by its 
   Needs needs = ring_needs();
   needs.packets[0].bytes_max = std::size_t{1} << 30;
   needs.packets[0].senders = from_each_other(16'000);
-  CHECK_THROWS_AS(ProgramPlan(needs, computer_of(1024)), core::RoomError);
+  CHECK_THROWS_AS(ProgramPlan(needs, computer_of(1024)), core::CapacityError);
 }
 
 TEST_CASE("bytes of more values than can be addressed are the most that can") {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/computer/asker.h"
 #include "tests/apps/computer/reported.h"
+#include "tests/apps/computer/requester.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -14,15 +14,15 @@ namespace dmpc::tests::program_page_test {
 
 namespace {
 
-std::string asker_page(const Application<Asker>& application, const std::vector<std::string>& words) {
+std::string requester_page(const Application<Requester>& application, const std::vector<std::string>& words) {
   return reported([&](const std::vector<std::string>& all) { return run_with(application, all); }, words);
 }
 
 }  // namespace
 
 TEST_CASE("the page of a modelled run says what it was, came to, took and lost, in the program's words") {
-  const std::string page = asker_page(asker(10), {"--nodes=3", "--runner=virtual", "--machine=hdr"});
-  check_has(page, {"<title>Run of asker</title>", "<pre class=\"copy\">sum 855</pre>", "<dd>3 nodes of hdr</dd>",
+  const std::string page = requester_page(requester(10), {"--nodes=3", "--runner=virtual", "--machine=hdr"});
+  check_has(page, {"<title>Run of requester</title>", "<pre class=\"copy\">sum 855</pre>", "<dd>3 nodes of hdr</dd>",
                    "virtual, in the time of a modelled hdr", "Where the time went</h2>", "waiting for square", "Over time</h2>",
                    "Who sent packets to whom", "Who sent bytes to whom", "The busiest links", "multiplication",
                    "each on this machine", "What each node did", "Memory of each node", "sums", "<dt>Run</dt>"});
@@ -31,33 +31,33 @@ TEST_CASE("the page of a modelled run says what it was, came to, took and lost, 
 }
 
 TEST_CASE("the page of a run on threads is of the wall clock, and says by what it was disturbed") {
-  const std::string page = asker_page(asker(10), {"--nodes=2", "--chaos=7"});
+  const std::string page = requester_page(requester(10), {"--nodes=2", "--chaos=7"});
   check_has(page, {"<dd>2 nodes on threads</dd>", "disturbed by seed 7", "waiting for a core", "Wall clock. Asleep: "});
   CHECK_FALSE(contains(page, "The busiest links"));
   CHECK_FALSE(contains(page, "each on this machine"));
 }
 
 TEST_CASE("the page says how to make it again") {
-  const std::string page = asker_page(asker(1), {"--nodes=2"});
-  check_has(page, {"To make it again, and to cite it</h2>", "asker on dmpc ", "Run of asker. asker on dmpc "});
+  const std::string page = requester_page(requester(1), {"--nodes=2"});
+  check_has(page, {"To make it again, and to cite it</h2>", "requester on dmpc ", "Run of requester. requester on dmpc "});
 }
 
 // On the page stands the command line, too: with this name, where a test is called by it.
 TEST_CASE("a page speaks the words of programs alone") {
-  const std::string page = asker_page(asker(10), {"--nodes=3", "--runner=virtual"});
+  const std::string page = requester_page(requester(10), {"--nodes=3", "--runner=virtual"});
   check_knows_no_rays(page);
 }
 
 TEST_CASE("a node alone sends to itself, and has a page, too") {
-  const std::string page = asker_page(asker(10), {"--nodes=1", "--runner=virtual"});
+  const std::string page = requester_page(requester(10), {"--nodes=1", "--runner=virtual"});
   check_has(page, {"20 packets", "<dd>1 node of"});
   CHECK_FALSE(contains(page, "Who sent packets to whom"));
 }
 
 TEST_CASE("of more nodes than can be told apart a page does not show who sends to whom, and says so; bars become bands") {
-  const std::string many = asker_page(asker(1), {"--nodes=257", "--runner=virtual"});
+  const std::string many = requester_page(requester(1), {"--nodes=257", "--runner=virtual"});
   check_has(many, {"Who sends whom how much is shown of up to 256 nodes", "What each node did"});
-  const std::string few = asker_page(asker(1), {"--nodes=256", "--runner=virtual"});
+  const std::string few = requester_page(requester(1), {"--nodes=256", "--runner=virtual"});
   CHECK_FALSE(contains(many, "Who sent packets to whom"));
   CHECK(contains(few, "Who sent packets to whom"));
   for (const std::string& page : {few, many}) {
@@ -66,7 +66,7 @@ TEST_CASE("of more nodes than can be told apart a page does not show who sends t
 }
 
 TEST_CASE("names and results are shown as they are, whatever they contain") {
-  Application<Asker> program = asker(10);
+  Application<Requester> program = requester(10);
   program.needs = [needs = program.needs](std::uint32_t nodes) {
     Needs hostile = needs(nodes);
     hostile.packets[0].name = "<b>'quest\"ion', & co";
@@ -78,7 +78,7 @@ TEST_CASE("names and results are shown as they are, whatever they contain") {
     return hostile;
   };
   program.result = [](const std::vector<std::uint64_t>&) { return std::string("<script>alert(1)</script>\n\xff"); };
-  const std::string page = asker_page(program, {"--nodes=3", "--runner=virtual"});
+  const std::string page = requester_page(program, {"--nodes=3", "--runner=virtual"});
   CHECK(count(page, "<script") == 1);  // the page's own
   for (const std::string plot : {"Plot: Where each node", "Plot: Memory of each node"}) {
     CHECK_MESSAGE(contains(page, plot), plot);
@@ -88,14 +88,14 @@ TEST_CASE("names and results are shown as they are, whatever they contain") {
 }
 
 TEST_CASE("a program that declares no operations and no memory has a page without them") {
-  Application<Asker> program = asker(0);
+  Application<Requester> program = requester(0);
   program.needs = [needs = program.needs](std::uint32_t nodes) {
     Needs few = needs(nodes);
     few.operations.clear();
     return few;
   };
   program.result = {};
-  const std::string page = asker_page(program, {"--nodes=2"});
+  const std::string page = requester_page(program, {"--nodes=2"});
   check_has(page, {"No packet was sent.", "Memory of each node"});
   CHECK_FALSE(contains(page, "Operations</h2>"));
   CHECK_FALSE(contains(page, "What it came to"));
@@ -105,7 +105,7 @@ TEST_CASE("a report changes nothing of the run, and goes with a trace") {
   const TemporaryFolder folder;
   const auto hash = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"--nodes=3", "--runner=virtual", "--stats=" + (folder / "stats.json").string()});
-    REQUIRE(run_with(asker(10), words).status == 0);
+    REQUIRE(run_with(requester(10), words).status == 0);
     return nlohmann::json::parse(file_text(folder / "stats.json"))["run_hash"].get<std::string>();
   };
   const std::string page = "--report=" + (folder / "page.html").string(), trace = "--trace=" + (folder / "t.pftrace").string();
@@ -116,9 +116,9 @@ TEST_CASE("a report changes nothing of the run, and goes with a trace") {
 }
 
 TEST_CASE("a report that is no page, or cannot be written, is refused before the run") {
-  CHECK(run_with(asker(1), {"--report=page.txt"}).complains("--report=page.txt: expected a file with the ending .html"));
-  CHECK(run_with(asker(1), {"--report=/none/page.html"}).status == 1);
-  CHECK(run_with(asker(1), {"--report=a.html", "--stats=a.html"}).status == 2);
+  CHECK(run_with(requester(1), {"--report=page.txt"}).complains("--report=page.txt: expected a file with the ending .html"));
+  CHECK(run_with(requester(1), {"--report=/none/page.html"}).status == 1);
+  CHECK(run_with(requester(1), {"--report=a.html", "--stats=a.html"}).status == 2);
 }
 
 }  // namespace dmpc::tests::program_page_test

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/edge/ranks/parts.h"
+#include "apps/frontend/ranks/parts.h"
 #include "tests/support/loopback_ranks.h"
 
 namespace dmpc::tests::rank_rounds_test {
@@ -19,7 +19,7 @@ namespace {
 
 using apps::RankRounds;
 
-constexpr nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
+constexpr nodes::RankSilence impatient{.heartbeat = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
 
 /// A rank plays its part; the status with which it ends.
 template <class Act>
@@ -36,9 +36,9 @@ int play(nodes::Fabric& fabric, const Act& act, const nodes::RankSilence& silenc
 }  // namespace
 
 TEST_CASE("all ranks have rank 0's bytes, round after round, few or more than there is room for, whoever is ahead") {
-  for (const std::uint32_t late_looks : {0U, 20U}) {
+  for (const std::uint32_t late_polls : {0U, 20U}) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{3}, std::size_t{700'000}}) {
-      const auto results = on_ranks(3, {.seed = 3, .late_looks_max = late_looks}, [&](nodes::Fabric& fabric) {
+      const auto results = on_ranks(3, {.seed = 3, .late_polls_max = late_polls}, [&](nodes::Fabric& fabric) {
         return play(fabric, [&](RankRounds& rounds) {
           for (std::uint8_t round = 0; round < 4; ++round) {
             std::vector<std::byte> bytes(count, std::byte(rounds.is_first() ? round : 0xff));
@@ -72,7 +72,7 @@ TEST_CASE("a rank that comes to something else than rank 0 is named, and all end
   CHECK(results[2].value == 3);
 }
 
-TEST_CASE("a rank that works apart for longer than silence may last is not taken for lost, and its errands are done") {
+TEST_CASE("a rank that works apart for longer than silence may last is not taken for lost, and its forwarded calls are done") {
   const auto results = on_ranks(3, {}, [&](nodes::Fabric& fabric) {
     return play(
         fabric,
@@ -93,7 +93,7 @@ TEST_CASE("a rank that works apart for longer than silence may last is not taken
   }
 }
 
-TEST_CASE("an errand that fails on one rank ends all, though its work goes on as if nothing was") {
+TEST_CASE("a forwarded call that fails on one rank ends all, though its work goes on as if nothing was") {
   const auto results = on_ranks(2, {}, [&](nodes::Fabric& fabric) {
     return play(fabric, [&](RankRounds& rounds) {
       rounds.apart([&] {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/computer/asker.h"
+#include "tests/apps/computer/requester.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 bool says(const Ran& ran, const std::string& part) { return ran.complains(part); }
 
-nlohmann::json stats_of(const Application<Asker>& application, Words words) {
+nlohmann::json stats_of(const Application<Requester>& application, Words words) {
   const TemporaryFolder folder;
   const std::string file = folder / "stats.json";
   words.push_back("--stats=" + file);
@@ -29,7 +29,7 @@ nlohmann::json stats_of(const Application<Asker>& application, Words words) {
 }  // namespace
 
 TEST_CASE("a program comes to the same on threads, on a pool, on modelled machines, with any number of nodes, and disturbed") {
-  const Application<Asker> program = asker(10);
+  const Application<Requester> program = requester(10);
   for (const Words& words : std::vector<Words>{{"--nodes=4"},
                                                {"--nodes=4", "--runner=pool"},
                                                {"--nodes=4", "--runner=pool", "--pool-threads=1"},
@@ -66,9 +66,9 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
       {Fault::throws_a_number, "what it threw is no std::exception"}};
   for (const auto& [fault, message] : faults) {
     for (const std::string runner : {"threads", "pool", "virtual"}) {
-      const Ran ran = run_with(asker(10, fault), {"--nodes=2", "--runner=" + runner});
+      const Ran ran = run_with(requester(10, fault), {"--nodes=2", "--runner=" + runner});
       CHECK(ran.status == 3);
-      CHECK(says(ran, "asker: the program: "));
+      CHECK(says(ran, "requester: the program: "));
       CHECK_MESSAGE(says(ran, message), ran.errors);
       CHECK(ran.output.empty());
     }
@@ -76,16 +76,16 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
 }
 
 TEST_CASE("a program without needs is told to declare them, and its name stands before what it says") {
-  Application<Asker> program = asker(1);
+  Application<Requester> program = requester(1);
   program.needs = {};
   const Ran ran = run_with(program, {"--nodes=2"});
   CHECK(ran.status == 3);
-  CHECK(says(ran, "asker: the program: it declares no needs"));
+  CHECK(says(ran, "requester: the program: it declares no needs"));
 }
 
 TEST_CASE("nodes that stand still are found out, with what each says of itself, who waits for whom, and in which circle") {
   for (const std::string runner : {"threads", "pool", "virtual"}) {
-    const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=3", "--runner=" + runner});
+    const Ran ran = run_with(requester(10, Fault::answers_nothing, 3), {"--nodes=3", "--runner=" + runner});
     CHECK(ran.status == 3);
     for (const std::string line : {"node 0: 3 asked; waits for 3 'square' of node 1; owes 3 'square' to node 2\n",
                                    "node 1: 3 asked; waits for 3 'square' of node 2; owes 3 'square' to node 0\n",
@@ -97,20 +97,20 @@ TEST_CASE("nodes that stand still are found out, with what each says of itself, 
 
 TEST_CASE("a modelled run is repeated to the last event, and its operations have their price") {
   const Words words = {"--nodes=4", "--runner=virtual", "--machine=hdr"};
-  const nlohmann::json first = stats_of(asker(10), words), again = stats_of(asker(10), words);
+  const nlohmann::json first = stats_of(requester(10), words), again = stats_of(requester(10), words);
   CHECK(first["run_hash"].is_string());
   CHECK(first["run_hash"] == again["run_hash"]);
   CHECK(first["virtual_seconds"] == again["virtual_seconds"]);
-  CHECK(first["run_hash"] != stats_of(asker(11), words)["run_hash"]);
+  CHECK(first["run_hash"] != stats_of(requester(11), words)["run_hash"]);
   // 10 of 100 ns each, on a core of today.
   CHECK(first["per_node"][2]["virtual_time"]["computing_ns"] == 1000);
   CHECK(first["per_node"][2]["operations"]["multiplication"] == 10);
 }
 
 TEST_CASE("counters add up: by packet, by node and by piece of memory") {
-  const nlohmann::json stats = stats_of(asker(10), {"--nodes=3", "--node-memory=1MiB"});
-  CHECK(stats["format"] == 1);
-  CHECK(stats["program"] == "asker");
+  const nlohmann::json stats = stats_of(requester(10), {"--nodes=3", "--node-memory=1MiB"});
+  CHECK(stats["format"] == 2);
+  CHECK(stats["program"] == "requester");
   CHECK(stats["result"] == "sum 855");
   CHECK(stats["runner"] == "threads");
   CHECK(stats["machine"].is_null());
@@ -134,7 +134,7 @@ TEST_CASE("counters add up: by packet, by node and by piece of memory") {
 TEST_CASE("a trace calls packets and operations as the program does, and what has none computing") {
   const TemporaryFolder folder;
   const std::string file = folder / "trace.pftrace";
-  REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
+  REQUIRE(run_with(requester(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
   const std::string text = file_text(file);
   for (const char* const name : {"question", "multiplication", "compute"}) {
     CHECK_MESSAGE(count(text, name) >= 1, name);
@@ -144,7 +144,7 @@ TEST_CASE("a trace calls packets and operations as the program does, and what ha
 
 TEST_CASE("options that do not go together, or are none, are refused with a hint at the program's own help") {
   const auto complaint = [](const Words& words) {
-    const Ran ran = run_with(asker(1), words);
+    const Ran ran = run_with(requester(1), words);
     CHECK(ran.status == 2);
     return ran.errors;
   };
@@ -156,16 +156,16 @@ TEST_CASE("options that do not go together, or are none, are refused with a hint
   CHECK(complaint({"--chaos=1", "--runner=virtual"}).find("chaos disturbs threads only") != std::string::npos);
   CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .pftrace") != std::string::npos);
   CHECK(complaint({"--trace=a.json"}).find("traceconv json a.pftrace a.json") != std::string::npos);
-  CHECK(complaint({"--node=3"}).find("Try: asker --help") != std::string::npos);
-  CHECK(complaint({"word"}).find("expected asker") != std::string::npos);
-  CHECK(run_with(asker(1), {"--runner=virtual", "--machine=none"}).status == 1);
-  CHECK(run_with(asker(1), {"--stats=/none/stats.json"}).status == 1);
-  CHECK(run_with(asker(1), {"--node-memory=1KiB"}).status == 4);
+  CHECK(complaint({"--node=3"}).find("Try: requester --help") != std::string::npos);
+  CHECK(complaint({"word"}).find("expected requester") != std::string::npos);
+  CHECK(run_with(requester(1), {"--runner=virtual", "--machine=none"}).status == 1);
+  CHECK(run_with(requester(1), {"--stats=/none/stats.json"}).status == 1);
+  CHECK(run_with(requester(1), {"--node-memory=1KiB"}).status == 4);
 }
 
 TEST_CASE("a program has options of its own, which its needs may refuse") {
   std::uint32_t size = 12;
-  Application<Asker> program = asker(1);
+  Application<Requester> program = requester(1);
   program.options = {{"--size", &size, 1, 100, "How large"}};
   program.needs = [&size, needs = program.needs](std::uint32_t nodes) {
     if (size % nodes != 0) {
@@ -176,10 +176,10 @@ TEST_CASE("a program has options of its own, which its needs may refuse") {
   CHECK(run_with(program, {"--nodes=3"}).status == 0);
   const Ran refused = run_with(program, {"--nodes=3", "--size=20"});
   CHECK(refused.status == 2);
-  CHECK(refused.errors == "asker: --size=20 is no multiple\n");
+  CHECK(refused.errors == "requester: --size=20 is no multiple\n");
   CHECK(run_with(program, {"--size=101"}).status == 2);
   const std::string help = run_with(program, {"--help"}).output;
-  for (const char* part : {"Usage: asker [options]", "--size 1..100 [20]", "--runner", "--stats", "Ask for squares"}) {
+  for (const char* part : {"Usage: requester [options]", "--size 1..100 [20]", "--runner", "--stats", "Ask for squares"}) {
     CHECK_MESSAGE(help.find(part) != std::string::npos, part);
   }
 }

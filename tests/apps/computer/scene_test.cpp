@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/computer/dmpc/scene.h"
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "core/families/scenes.h"
 #include "tests/support/subject.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/read_mesh.h"

@@ -146,7 +146,7 @@ fuzz::InputFiles bounded_file(const std::string& name, const std::string& text, 
 
 std::string refusal(const std::string& name, const std::string& text, std::uint64_t memory_bytes) {
   fuzz::InputFiles file = bounded_file(name, text, memory_bytes);
-  return complaint_of<core::RoomError>([&] { read_mesh(name, {}, file); });
+  return complaint_of<core::CapacityError>([&] { read_mesh(name, {}, file); });
 }
 
 std::string times(int count, const std::string& text) {
@@ -163,7 +163,7 @@ void make_sparse(const std::filesystem::path& path, const std::string& head, std
 }
 
 std::string refusal_of(const std::string& path) {
-  return complaint_of<core::RoomError>([&] { read_mesh_file(path); });
+  return complaint_of<core::CapacityError>([&] { read_mesh_file(path); });
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ TEST_CASE("a file whose triangles take more memory than a scene may is refused b
     const auto read = readers.at(name.substr(name.size() - 3));
     fuzz::InputFiles enough = bounded_file(name, text, 1U << 20U), little = bounded_file(name, text, 10'000);
     CHECK_NOTHROW(read(name, enough));
-    CHECK_THROWS_WITH_AS(read(name, little), doctest::Contains("triangles so far take at least"), core::RoomError);
+    CHECK_THROWS_WITH_AS(read(name, little), doctest::Contains("triangles so far take at least"), core::CapacityError);
   }
   const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
   const std::string text = "solid\n" + facet + facet + "endsolid\n";
@@ -280,7 +280,7 @@ TEST_CASE("a file that has no room for what it says is cut short, and not too la
 TEST_CASE("a database has room for as many triangles as its blocks can hold, and for no more") {
   constexpr std::uint64_t most = (std::uint64_t{16} << 30U) / 44;
   CHECK_NOTHROW(check_database(most));
-  CHECK_THROWS_AS(check_database(most + 1), core::RoomError);
+  CHECK_THROWS_AS(check_database(most + 1), core::CapacityError);
 }
 
 }  // namespace dmpc::apps::reading_memory_test

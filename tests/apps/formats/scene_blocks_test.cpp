@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 #include "tests/support/complaint.h"
 
 namespace dmpc::apps::scene_blocks_test {
@@ -199,7 +199,7 @@ TEST_CASE("instances that cannot be are refused, and so is what they would take 
   const std::uint64_t bytes = core::expanded_size(scene, thousand).bytes();
   CHECK(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes}).objects.size() == 3000);
   CHECK_THROWS_WITH_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes - 1}),
-                       doctest::Contains("with every instance it takes"), core::RoomError);
+                       doctest::Contains("with every instance it takes"), core::CapacityError);
 }
 
 TEST_CASE("copies of what is large and stands in several places are left out if that is asked for, and take no memory") {
@@ -215,7 +215,7 @@ TEST_CASE("copies of what is large and stands in several places are left out if 
   CHECK(after.objects.empty());
   REQUIRE(after.kept);
   CHECK(after.kept->places.size() == 1000);
-  CHECK_THROWS_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = 0}), core::RoomError);
+  CHECK_THROWS_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = 0}), core::CapacityError);
   const core::Instances once{.meshes = {{0, 100}}, .places = {{{}, 0, 100}}};
   CHECK(left_out(once, 1 << 20U).objects.size() == 100);
   const core::Transform far{.shift = {1.1e30, 0, 0}}, nowhere{.shift = {std::numeric_limits<double>::quiet_NaN(), 0, 0}};

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/help/choices.h"
 #include "apps/main/commands.h"
 #include "apps/scene/load_scene.h"

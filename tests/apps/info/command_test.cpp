@@ -92,8 +92,8 @@ TEST_CASE(
   CHECK(about(copies) == doctest::Approx(static_cast<double>(kept.database.bytes)).epsilon(0.3).scale(0));
   const Json json = Json::parse(info_json(kept));
   CHECK(keys_of(json["meshes"]) ==
-        Keys{"count", "places", "triangles", "placed_triangles", "kept_places", "kept_bytes", "expanded_bytes"});
-  CHECK(json["meshes"]["kept_bytes"] == kept.database.bytes);
+        Keys{"count", "places", "triangles", "placed_triangles", "instances", "instanced_bytes", "expanded_bytes"});
+  CHECK(json["meshes"]["instanced_bytes"] == kept.database.bytes);
   CHECK(
       contains(info_text(kept), "; kept once in " + std::to_string(meshes.places) + " places, with a copy in each place about "));
   CHECK(contains(info_text(copies), "; a copy in each place, kept once (--instances=keep) about "));
@@ -118,7 +118,7 @@ TEST_CASE("the keys of a forecast are an interface") {
   CHECK(keys_of(json["textures"][0]) ==
         Keys{"name", "width", "height", "levels", "format", "tiles", "tile_bytes", "table_bytes"});
   CHECK(keys_of(json["database"]) == Keys{"bytes", "pages", "page_size", "bytes_per_primitive", "copies_per_primitive",
-                                          "primitives_per_block", "cells", "top_cells", "occupied_top_cells", "levels_max",
+                                          "primitives_per_leaf", "cells", "macro_cells", "occupied_macro_cells", "levels_max",
                                           "records", "unused_bytes"});
   CHECK(keys_of(json["database"]["records"][0]) == Keys{"kind", "count", "bytes"});
   CHECK(keys_of(json["computers"][0]) == Keys{"nodes", "svm", "replicated", "dataflow", "dataflow_copies", "forest"});

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "apps/scene/load_scene.h"
-#include "tests/support/kept_scenes.h"
+#include "tests/support/base_mesh_scenes.h"
 #include "tests/support/painted_square.h"
 
 namespace dmpc::apps::database_figures_test {
@@ -41,38 +41,38 @@ TEST_CASE("a database of nothing is a page with a directory") {
   CHECK(found.figures.pages == 1);
   CHECK(found.figures.primitives == 0);
   CHECK(found.figures.levels_max == 0);
-  CHECK(found.figures.occupied_top_cells == 0);
+  CHECK(found.figures.occupied_macro_cells == 0);
   CHECK(found.figures.bytes_each() == 0);
   CHECK(found.figures.copies_each() == 0);
-  CHECK(found.figures.primitives_a_block() == 0);
+  CHECK(found.figures.primitives_a_leaf() == 0);
   CHECK(found.record_bytes() + found.figures.unused_bytes == 1024);
 }
 
 TEST_CASE("trees are looked through: what is counted is what the builder counted") {
   const Found found(load_scene("rings-2"));
   const core::RecordCounts& counts = found.database.records();
-  CHECK(found.records("bricks").count == counts.bricks);
-  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
-  CHECK(found.records("blocks of spheres").count == counts.blocks[1]);
-  CHECK(found.records("blocks of cones").count == counts.blocks[2]);
-  CHECK(found.records("blocks of cones").count > 0);
+  CHECK(found.records("bvh_nodes").count == counts.bvh_nodes);
+  CHECK(found.records("leaves of triangles").count == counts.leaves[0]);
+  CHECK(found.records("leaves of spheres").count == counts.leaves[1]);
+  CHECK(found.records("leaves of cones").count == counts.leaves[2]);
+  CHECK(found.records("leaves of cones").count > 0);
   CHECK(found.figures.levels_max >= 1);
-  CHECK(found.figures.levels_max <= core::brick_levels_max);
-  CHECK(found.figures.occupied_top_cells >= 1);
+  CHECK(found.figures.levels_max <= core::bvh_levels_max);
+  CHECK(found.figures.occupied_macro_cells >= 1);
   CHECK(found.figures.copies >= found.figures.primitives);
-  CHECK(found.figures.primitives_a_block() > 1);
-  CHECK(found.figures.primitives_a_block() <= 8);
+  CHECK(found.figures.primitives_a_leaf() > 1);
+  CHECK(found.figures.primitives_a_leaf() <= 8);
 }
 
-TEST_CASE("of voxels the lists are looked through: each block is counted once, and no byte is missing") {
+TEST_CASE("of voxels the lists are looked through: each leaf is counted once, and no byte is missing") {
   const Found found(load_scene("rings-2"), {.structure = core::Structure::voxels});
   const core::RecordCounts& counts = found.database.records();
   CHECK(found.records("references of voxels").count == counts.voxel_references);
   CHECK(found.figures.references == counts.voxel_references);
-  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
-  CHECK(found.records("blocks of spheres").count == counts.blocks[1]);
-  CHECK(found.records("blocks of cones").count == counts.blocks[2]);
-  CHECK(found.records("bricks").count == 0);
+  CHECK(found.records("leaves of triangles").count == counts.leaves[0]);
+  CHECK(found.records("leaves of spheres").count == counts.leaves[1]);
+  CHECK(found.records("leaves of cones").count == counts.leaves[2]);
+  CHECK(found.records("bvh_nodes").count == 0);
   CHECK(found.figures.levels_max == 0);
   CHECK(found.figures.copies == found.figures.primitives);
   CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
@@ -86,10 +86,10 @@ TEST_CASE("of meshes that are kept trees are looked through once, and places are
   CHECK(found.figures.instances == 12);
   CHECK(found.records("places of meshes").count == 12);
   CHECK(found.records("places of meshes").bytes == 12 * 128);
-  CHECK(found.records("blocks of places").count == counts.instance_blocks);
-  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
-  CHECK(found.records("bricks").count == counts.bricks);
-  CHECK(found.figures.copies == found.database.references() - 12 + counts.kept_triangles);
+  CHECK(found.records("leaves of places").count == counts.instance_leaves);
+  CHECK(found.records("leaves of triangles").count == counts.leaves[0]);
+  CHECK(found.records("bvh_nodes").count == counts.bvh_nodes);
+  CHECK(found.figures.copies == found.database.references() - 12 + counts.base_mesh_triangles);
   CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
   CHECK(found.figures.unused_bytes < found.figures.bytes / 3);
 }

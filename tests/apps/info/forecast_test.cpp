@@ -29,7 +29,7 @@ const MemoryForecast& part_of(const ComputerForecast& forecast, Strategy strateg
 /// Why a render is refused, if it is for want of room.
 std::string refusal(RenderOptions options, std::size_t node_memory_bytes) {
   options.computer.node_memory_bytes = node_memory_bytes;
-  return tests::complaint_of<core::RoomError>([&] { const Rendered rendered(options); });
+  return tests::complaint_of<core::CapacityError>([&] { const Rendered rendered(options); });
 }
 
 constexpr Strategy all_strategies[] = {Strategy::svm, Strategy::replicated, Strategy::dataflow};
@@ -72,7 +72,7 @@ TEST_CASE("without a bound a render takes what is forecast") {
   }
 }
 
-TEST_CASE("primary rays of many nodes are forecast as they are dealt, in squares of pixels") {
+TEST_CASE("primary rays of many nodes are forecast as they are assigned, in squares of pixels") {
   RenderOptions options = small(Strategy::dataflow);
   options.picture.scene = "tetra-6";
   options.picture.resolution = Resolution{128, 128};
@@ -124,12 +124,12 @@ TEST_CASE("what two pixels take is forecast to the byte") {
 TEST_CASE("every computer is forecast, up to the largest") {
   const RenderOptions options = small();
   const Subject subject = build_subject(load_scene(options.picture), options.picture);
-  std::vector<std::uint64_t> told;
+  std::vector<std::uint64_t> reported;
   const Forecast found =
       forecast(subject.database, subject.settings, {1, 4, nodes::node_count_max}, {.balance = Balance::equal_size},
-               [&](std::uint64_t done, std::uint64_t) { told.push_back(done); });
+               [&](std::uint64_t done, std::uint64_t) { reported.push_back(done); });
   REQUIRE(found.computers.size() == 3);
-  CHECK(told == std::vector<std::uint64_t>{1, 2, 3});
+  CHECK(reported == std::vector<std::uint64_t>{1, 2, 3});
   CHECK(found.computers[0].dataflow_copies == 1);
   CHECK(found.computers[1].dataflow_copies > 1);
   CHECK(found.computers[2].dataflow_copies > found.computers[1].dataflow_copies);

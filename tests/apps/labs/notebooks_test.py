@@ -97,7 +97,7 @@ class PageTest(unittest.TestCase):
         self.assertIn("<pre>a = 1\n\nb = `2`  # **x**\n</pre>", self.page("# L\n\n```python\na = 1\n\nb = `2`  # **x**\n```\n\n1. x\n"))
 
     def test_links_lead_to_labs_and_others_are_words(self):
-        page = self.page("# L\n\nSee [the lab](balance.md) and [words](../../WORDS.md#work).\n", {"balance.md": "balance.html"})
+        page = self.page("# L\n\nSee [the lab](balance.md) and [words](../../README.md#work).\n", {"balance.md": "balance.html"})
         self.assertIn('See <a href="balance.html">the lab</a> and words.', page)
 
     def test_pictures_are_within_the_page(self):

@@ -1,4 +1,4 @@
-#include "apps/edge/manual/completion.h"
+#include "apps/frontend/manual/completion.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/edge/manual/leaves.h"
+#include "apps/frontend/manual/leaves.h"
 #include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"

@@ -1,4 +1,4 @@
-#include "apps/edge/line/command_description.h"
+#include "apps/frontend/line/command_description.h"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
-#include "apps/edge/manual/man_page.h"
+#include "apps/frontend/manual/man_page.h"
 
 #include <doctest/doctest.h>
 
-#include "apps/edge/manual/leaves.h"
-#include "apps/edge/manual/roff.h"
+#include "apps/frontend/manual/leaves.h"
+#include "apps/frontend/manual/roff.h"
 #include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 
 namespace dmpc::tests {
 

@@ -1,4 +1,4 @@
-#include "apps/edge/picture/color_map.h"
+#include "apps/frontend/picture/color_map.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,5 +1,5 @@
 // Filtered look-ups in textures against OpenImageIO's texture system, which is given the very levels of ours.
-#include "core/picture/texture_lookup.h"
+#include "core/picture/surfaces/texture_lookup.h"
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>

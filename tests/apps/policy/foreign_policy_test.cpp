@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "core/base/expect.h"
+#include "svm/pages/observers/optimum.h"
 #include "svm/pages/replacement.h"
-#include "svm/pages/watch/optimum.h"
 #include "tests/support/child_process.h"
 #include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include "apps/main/commands.h"
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/machine/machine_command.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/machine/machine_command.h"
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
 #include "apps/scene/scene_command.h"
@@ -44,7 +44,7 @@ TEST_CASE("scene, check and compare take their own options") {
   const auto kept = parse({"check", "grove-2", "--instances=keep"}).options<CheckOptions>();
   CHECK(kept.database.build.keeps_instances);
   CHECK(kept.database.build.structure == core::Structure::extents);
-  CHECK(kept.picture.staging.mesh.copies == core::Copies::put);  // for the oracle
+  CHECK(kept.picture.scene_setup.mesh.copies == core::Copies::put);  // for the oracle
   const auto check = parse({"check", "tetra-6", "--list=3", "--brute-force=100", "--resolution=8x8"}).options<CheckOptions>();
   CHECK(check.picture.scene == "tetra-6");
   CHECK(check.list == 3);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/words.h"
 #include "apps/main/commands.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
@@ -38,8 +38,8 @@ const Refusal values[] = {
     {"render --tracer=magic", "--tracer"},
     {"render --samples=0|32769|automatic|-1|1.5|AUTO|4x", "--samples={}: expected a whole number"},
     {"render --depth=0|256", "--depth={}: expected"},
-    {"render --patience=60", "--patience goes with --runner=mpi"},
-    {"render --patience=0|90000 --runner=mpi", "--patience"},
+    {"render --rank-timeout=60", "--rank-timeout goes with --runner=mpi"},
+    {"render --rank-timeout=0|90000 --runner=mpi", "--rank-timeout"},
     {"render --convention=mine", "--convention"},
     {"render --cache-pages=0", "--cache-pages={}: expected"},
     {"render --in-flight=0|4097", "--in-flight={}: expected"},
@@ -49,7 +49,7 @@ const Refusal values[] = {
     {"dataflow --ray-batch=0|683", "--ray-batch={}: expected"},
     {"dataflow --ray-credits=-1|65", "--ray-credits={}: expected"},
     {"dataflow --ray-queue=-1|16385", "--ray-queue={}: expected"},
-    {"dataflow --ray-places=0|4097", "--ray-places={}: expected"},
+    {"dataflow --ray-slots=0|4097", "--ray-slots={}: expected"},
     {"dataflow --tested-objects=9", "--tested-objects={}: expected"},
     {"dataflow --regions=0|1.5", "--regions={}: expected"},
     {"render --resident=101|-1", "--resident={}: expected"},
@@ -186,7 +186,7 @@ const Refusal pairs[] = {
     {"dataflow --homes=spread", "--homes goes with --strategy=svm: "},
     {"dataflow --in-flight=16", "--in-flight goes with --strategy=svm or --strategy=replicated or --strategy=forest: "},
     {"dataflow --work-item=3", "--work-item goes with --strategy=svm or --strategy=replicated or --strategy=forest: "},
-    {"dataflow --work-giver=host", "--work-giver goes with --strategy=svm or --strategy=replicated or --strategy=forest: "},
+    {"dataflow --work-donor=host", "--work-donor goes with --strategy=svm or --strategy=replicated or --strategy=forest: "},
     {"dataflow --pixels=interleaved", "--pixels goes with --strategy=svm or --strategy=replicated or --strategy=forest: "},
     {"render --strategy=forest --cache-pages=5", "--cache-pages goes with --strategy=svm: "},
     {"render --strategy=forest --ray-batch=5", "--ray-batch goes with --strategy=dataflow: "},
@@ -194,7 +194,7 @@ const Refusal pairs[] = {
     {"render --strategy=forest --resident=50", "--resident goes with --strategy=svm: "},
     {"render --balance=subsampled", "--balance goes with --strategy=dataflow: "},
     {"render --ray-credits=4", "--ray-credits goes with --strategy=dataflow: "},
-    {"render --ray-places=4", "--ray-places goes with --strategy=dataflow: "},
+    {"render --ray-slots=4", "--ray-slots goes with --strategy=dataflow: "},
     {"render --tested-objects=4", "--tested-objects goes with --strategy=dataflow: "},
     {"render --no-backpressure", "--no-backpressure goes with --strategy=dataflow: "},
     {"render --strategy=replicated --ray-queue=5 --tested-objects=2", "--ray-queue goes with"},  // the first of them in help
@@ -210,7 +210,7 @@ const Refusal pairs[] = {
     {"render --system=pixel-machine --homes=spread", "--homes=spread does not go with --system=pixel-machine, which is"},
     {"render --system=subsampled --balance=equal-size", "--balance=equal-size does not go with"},
     {"render --system=forest --homes=host", "--homes goes with --strategy=svm"},
-    {"render --system=pixel-machine --work-giver=ring --ray-batch=5", "--ray-batch goes with"},
+    {"render --system=pixel-machine --work-donor=ring --ray-batch=5", "--ray-batch goes with"},
     {"render --pool-threads=2", "--pool-threads does not go with --runner=threads: each node has a thread of its own"},
     {"virtual --pool-threads=2", "--pool-threads does not go with --runner=virtual: a model has no threads"},
     {"render --runner=pool --machine=hdr", "--machine does not go with --runner=pool: threads model no machine"},

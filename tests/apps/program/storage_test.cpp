@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machine_file.h"
-#include "apps/edge/machine/machines.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/frontend/machine/machine_file.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"

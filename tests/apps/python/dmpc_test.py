@@ -36,7 +36,7 @@ SMALL = {"resolution": "16x12", "nodes": 3}
 class RenderTest(unittest.TestCase):
     def test_a_render_has_counters_nodes_film_and_heat_maps_that_agree(self):
         render = dmpc.render("balls-1", **SMALL, cache_pages=4, heat=["faults", "rays"])
-        self.assertEqual(render.stats["format"], 1)
+        self.assertEqual(render.stats["format"], 2)
         self.assertEqual(render.film.shape, (12, 16, 3))
         self.assertGreater(render.film.max(), 0)
         self.assertEqual(render.heat["rays"].shape, (12, 16))
@@ -89,11 +89,11 @@ class FailureTest(unittest.TestCase):
             dmpc.render("balls-1", strategy="svn")
         with self.assertRaisesRegex(dmpc.InputError, "^none.nff: "):
             dmpc.render("none.nff", nodes=3)
-        with self.assertRaisesRegex(dmpc.RoomError, "node-memory"):
+        with self.assertRaisesRegex(dmpc.CapacityError, "node-memory"):
             dmpc.render("balls-1", **SMALL, node_memory="1KiB")
         with self.assertRaisesRegex(dmpc.UsageError, "Did you mean faults"):
             dmpc.sweep("balls-1", nodes=[1, 2], columns=["fautls"])
-        self.assertTrue(issubclass(dmpc.RoomError, dmpc.Error))
+        self.assertTrue(issubclass(dmpc.CapacityError, dmpc.Error))
 
     def test_what_would_render_nothing_is_refused(self):
         for call in (dmpc.render, dmpc.sweep, dmpc.references, dmpc.trace, dmpc.study.cache, dmpc.study.traffic):
@@ -120,8 +120,8 @@ class FailureTest(unittest.TestCase):
             os.environ["DMPC"] = PROGRAM
 
     def test_counters_of_another_format_are_refused(self):
-        with self.assertRaisesRegex(dmpc.Error, "format 2, expected 1"):
-            program.check_format({"format": 2}, "--stats")
+        with self.assertRaisesRegex(dmpc.Error, "format 3, expected 2"):
+            program.check_format({"format": 3}, "--stats")
 
     def test_a_picture_that_cannot_be_read_is_an_error_with_its_name(self):
         with self.assertRaisesRegex(dmpc.Error, "none.exr"):
@@ -345,7 +345,7 @@ class PageTest(unittest.TestCase):
 
     def test_a_page_that_was_changed_or_is_of_another_version_is_an_error_of_dmpcs(self):
         whole = self.path.read_text()
-        for wrong, other in {'"format":2': '"format":3', '"type":"u1"': '"type":"x9"', '"steps":': '"stops":', '"high":': '"high":1',
+        for wrong, other in {'"format":3': '"format":4', '"type":"u1"': '"type":"x9"', '"steps":': '"stops":', '"high":': '"high":1',
                              '"data":"': '"data":"*'}.items():
             self.assertIn(wrong, whole)
             self.path.write_text(whole.replace(wrong, other))

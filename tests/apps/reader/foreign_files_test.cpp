@@ -19,9 +19,9 @@
 #include <sstream>
 #include <string>
 
-#include "apps/edge/system/text_input.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/frontend/system/text_input.h"
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
@@ -458,7 +458,7 @@ TEST_CASE("textures have a budget of memory that is all of theirs, and the one t
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),
-                       doctest::Contains("a.png: with its 100x10 texels the scene's textures take"), core::RoomError);
+                       doctest::Contains("a.png: with its 100x10 texels the scene's textures take"), core::CapacityError);
 }
 
 TEST_CASE("textures are weighed by what stands before their pixels, before the first of them is unpacked") {

@@ -13,7 +13,7 @@
 #include "apps/main/commands.h"
 #include "apps/render/command.h"
 #include "tests/support/child_process.h"
-#include "tests/support/lasting_files.h"
+#include "tests/support/immutable_files.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -229,7 +229,7 @@ TEST_CASE("frames of an animation that are killed again and again are those of o
 void render_and_leave(const TemporaryFolder& folder, const std::vector<std::string>& words) {
   std::vector<std::string> typed = line(folder, words);
   typed.erase(typed.begin());
-  LastingFiles files;
+  ImmutableFiles files;
   apps::Interrupt interrupt;
   std::ostringstream output;
   REQUIRE(apps::render_command(apps::parse_command_line(typed).options<apps::RenderOptions>(), interrupt, output, files) == 0);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/base_meshes.h"
 #include "core/scene/instances.h"
-#include "core/scene/kept_meshes.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/instanced_scene.h"
 #include "tests/support/small_scenes.h"

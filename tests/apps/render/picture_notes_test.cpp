@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/line/words.h"
 #include "apps/main/commands.h"
 #include "apps/render/command.h"
 #include "apps/render/ranks.h"
 #include "core/base/expect.h"
-#include "tests/support/lasting_files.h"
+#include "tests/support/immutable_files.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -178,7 +178,7 @@ TEST_CASE("heat maps, a trace and a page are written by the first rank, and the 
         line.end(),
         {"--heatmap=rays:" + (folder.path() / "heat.exr").string(), "--trace=" + (folder.path() / "trace.pftrace").string(),
          "--report=" + (folder.path() / "page.html").string(), "--stats=" + (folder.path() / "stats.json").string()});
-    CHECK((picture_over(3, line, {.seed = 1, .late_looks_max = 5}) == picture));
+    CHECK((picture_over(3, line, {.seed = 1, .late_polls_max = 5}) == picture));
     CHECK(folder.entry_count() == 4);
     const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
     CHECK(stats["heat_maps"][0]["sum"] == stats["rays"]["total"]);
@@ -193,8 +193,8 @@ TEST_CASE("frames that are late change no picture") {
   const std::string picture = picture_of(small);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     CAPTURE(seed);
-    CHECK((picture_over(3, small_with({"--strategy=svm"}), {.seed = seed, .late_looks_max = 30}) == picture));
-    CHECK((picture_over(3, small_with({"--strategy=dataflow"}), {.seed = seed, .late_looks_max = 30}) == picture));
+    CHECK((picture_over(3, small_with({"--strategy=svm"}), {.seed = seed, .late_polls_max = 30}) == picture));
+    CHECK((picture_over(3, small_with({"--strategy=dataflow"}), {.seed = seed, .late_polls_max = 30}) == picture));
   }
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("what was kept on some ranks is gone on with on others, by another str
   const tests::TemporaryFolder folder;
   const std::string kept = "--checkpoint=" + (folder.path() / "kept").string();
   const std::string picture = picture_of(small);
-  tests::LastingFiles files;
+  tests::ImmutableFiles files;
   auto first = small_with({"--checkpoint-every=0.000001", "--strategy=svm"});
   first.push_back(kept);
   CHECK((picture_over(2, first, {}, files) == picture));
@@ -238,7 +238,8 @@ TEST_CASE("what is wrong before a run is said by the first rank, and the others 
   };
   check({"/there/is/no.nff", "--runner=mpi", "-o", image}, "no.nff", apps::input_status);
   check({"balls-1", "--runner=mpi", "-o", "/there/is/none/picture.png"}, "/there/is/none", apps::input_status);
-  check({"balls-2", "--runner=mpi", "--node-memory=1KiB", "-o", image}, "--node-memory=1KiB is too small", apps::no_room_status);
+  check({"balls-2", "--runner=mpi", "--node-memory=1KiB", "-o", image}, "--node-memory=1KiB is too small",
+        apps::no_capacity_status);
   CHECK(!fs::exists(image));
 }
 

@@ -146,7 +146,7 @@ TEST_CASE("a trace over ranks has every quantum and every packet, and none is re
   for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
     for (const std::uint32_t ranks : rank_counts) {
       watch_over(ranks, traced(strategy), [&](const Watched& watched) {
-        const nodes::Trace& trace = *watched.sights.trace;
+        const nodes::Trace& trace = *watched.run_profile.trace;
         const Account account = account_of(*watched.report);
         REQUIRE(trace.nodes.size() == 6);
         CHECK(trace.events_lost == 0);
@@ -168,7 +168,7 @@ TEST_CASE("a trace over ranks has every quantum and every packet, and none is re
 TEST_CASE("a trace over ranks says how far its clocks may be compared, one of a single process does not") {
   const auto text = [](const Watched& watched) {
     RenderRecord record = watched.record();
-    record.trace = &*watched.sights.trace;
+    record.trace = &*watched.run_profile.trace;
     std::ostringstream stream;
     write_trace(record, stream);
     return stream.str();
@@ -207,8 +207,8 @@ TEST_CASE("over ranks a file of references has those of every node, and all of t
   options.references = "references.csv";
   for (const std::uint32_t rank_count : rank_counts) {
     watch_over(rank_count, options, [&](const Watched& watched) {
-      REQUIRE(watched.sights.references.size() == 5);
-      for (const svm::ReferenceLog& log : watched.sights.references) {
+      REQUIRE(watched.run_profile.references.size() == 5);
+      for (const svm::ReferenceLog& log : watched.run_profile.references) {
         CHECK(log.every() == 1);
         CHECK_FALSE(log.pages().empty());
       }

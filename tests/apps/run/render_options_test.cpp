@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
@@ -140,14 +140,14 @@ TEST_CASE("a mesh file that nobody has lit is shown by paths under a sky, refine
   CHECK(usual.transport.is_by_paths());
   CHECK(usual.is_by_paths_unasked);
   CHECK(text_of(*usual.transport.sky) == text_of(mesh_sky()));
-  CHECK(usual.staging.background == mesh_sky().horizon);
+  CHECK(usual.scene_setup.background == mesh_sky().horizon);
   CHECK(usual.is_refined);
   CHECK(usual.is_refined_unasked);
   CHECK(usual.refinement.kind == core::ErrorKind::noise);
   CHECK(usual.refinement.error == 0.01);
   CHECK(usual.cutoff == 0);
   CHECK(usual.depth == 9);
-  CHECK(mesh({"--sky=0.5"}).staging.background == Vec3d{0.5, 0.5, 0.5});
+  CHECK(mesh({"--sky=0.5"}).scene_setup.background == Vec3d{0.5, 0.5, 0.5});
   CHECK(mesh({"--bounces=2"}).depth == 3);
   CHECK(mesh({"--error=0.5"}).refinement.error == 0.5);
   CHECK_FALSE(mesh({"--error=0.5"}).is_refined_unasked);
@@ -225,7 +225,7 @@ TEST_CASE("the smallest and largest values are taken") {
   }
   for (const std::string option :
        {"--nodes=1024", "--ray-batch=1", "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0",
-        "--ray-queue=16384", "--ray-places=1", "--ray-places=4096", "--tested-objects=0", "--tested-objects=8"}) {
+        "--ray-queue=16384", "--ray-slots=1", "--ray-slots=4096", "--tested-objects=0", "--tested-objects=8"}) {
     CAPTURE(option);
     CHECK_NOTHROW(render({"--strategy=dataflow", option}));
   }
@@ -263,8 +263,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.ray_batch == 3);
   CHECK(options.rays.ray_credits == 0);
   CHECK(options.rays.queue_packets == 5);
-  CHECK(options.pages.work_giver == svm::WorkGiver::ring);
-  CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
+  CHECK(options.pages.work_donor == svm::WorkDonor::ring);
+  CHECK(render({"--work-donor=host"}).pages.work_donor == svm::WorkDonor::host);
   CHECK(options.pages.homes == svm::PageHomes::spread);
   CHECK(render({"--homes=host"}).pages.homes == svm::PageHomes::host);
   CHECK(render({"--homes=tree"}).pages.homes == svm::PageHomes::tree);
@@ -294,8 +294,8 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(machine.pages.work_item_side == 0U);
   CHECK(options_of(System::pixel_machine) ==
         "--strategy=svm --structure=extents --work-item=0 --pixels=interleaved --homes=host");
-  CHECK(options_of(System::green_paddon) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=tree");
-  CHECK(options_of(System::svm_resident) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=spread");
+  CHECK(options_of(System::green_paddon) == "--strategy=svm --structure=grid --work-donor=host --resident=50 --homes=tree");
+  CHECK(options_of(System::svm_resident) == "--strategy=svm --structure=grid --work-donor=host --resident=50 --homes=spread");
   CHECK(options_of(System::forest_static) == "--strategy=forest --structure=extents --work-item=0 --pixels=interleaved");
   const RenderOptions forest = render({"--system=forest"});
   CHECK(forest.strategy == Strategy::forest);
@@ -363,9 +363,9 @@ TEST_CASE("the help of render names the values and the defaults of options") {
        {"svm|replicated|dataflow|forest [svm]", "SIZE [1KiB, forest 4KiB]", "grid|extents|voxels [grid]", "usual|article [usual]",
         "ring|host [ring]", "spread|host|tree [spread]", "submaps|interleaved [submaps]",
         "subsampled|equal-size|scattered|moving [subsampled]", "longer-side|alternating [longer-side]",
-        "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
+        "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-slots, modelled machines 1 KiB]",
         "0..64 [4; up to 64 of few nodes whose rays walk together]", "1..4096 [64 of more than 128 nodes; else credits]",
-        "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]", "threads|pool|virtual|mpi [threads]",
+        "0..16384 [256; 512 if rays walk alone; 128 with --ray-slots]", "threads|pool|virtual|mpi [threads]",
         "MACHINE|FILE.json [ipsc2]", "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
         "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to 256", "4, or 3 if rays walk alone"}) {
     CHECK_MESSAGE(contains(text, word), word);
@@ -395,14 +395,14 @@ TEST_CASE("paths have bounces in place of a depth, and a sky in place of a backg
   CHECK(usual.transport.is_by_paths());
   CHECK(usual.depth == 9);
   CHECK(usual.samples == 1);
-  CHECK_FALSE(usual.staging.background);
+  CHECK_FALSE(usual.scene_setup.background);
   CHECK(render({"--transport=paths", "--bounces=254"}).picture.depth == 255);
   const PictureOptions sky = render({"--transport=paths", "--sky=1,0.5,0.25/0.5", "--samples=64"}).picture;
-  CHECK(sky.staging.background == Vec3d{1, 0.5, 0.25});
+  CHECK(sky.scene_setup.background == Vec3d{1, 0.5, 0.25});
   CHECK(sky.transport.sky->zenith == Vec3d{0.5, 0.5, 0.5});
   const PictureOptions picture = render({"--transport=paths", "--sky=skies/noon.exr", "--bounces=253"}).picture;
   CHECK(picture.transport.sky->file == "skies/noon.exr");
-  CHECK(picture.staging.background == Vec3d{});
+  CHECK(picture.scene_setup.background == Vec3d{});
 }
 
 TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality has no cutoff") {
@@ -420,8 +420,8 @@ TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality
 TEST_CASE("instances are kept in one tree of extents, where rays go into them, and elsewhere refused with what to do") {
   CHECK_FALSE(render().database.build.keeps_instances);
   CHECK_FALSE(render({"--instances=expand"}).database.build.keeps_instances);
-  CHECK(render({"--instances=expand"}).picture.staging.mesh.copies == core::Copies::put);
-  CHECK(render({"--instances=keep"}).picture.staging.mesh.copies == core::Copies::left_out);
+  CHECK(render({"--instances=expand"}).picture.scene_setup.mesh.copies == core::Copies::put);
+  CHECK(render({"--instances=keep"}).picture.scene_setup.mesh.copies == core::Copies::left_out);
   for (const char* const strategy :
        {"--strategy=svm", "--strategy=replicated", "--strategy=forest", "--strategy=dataflow", "--system=forest"}) {
     const RenderOptions options = render({"--instances=keep", strategy});
@@ -439,14 +439,14 @@ TEST_CASE("whether instances are kept the scene decides where that is open, unle
     CHECK(options.database.instances == InstancesChoice::automatic);
     CHECK(options.database.why_copied.empty());
     CHECK_FALSE(options.database.build.keeps_instances);
-    CHECK(options.picture.staging.mesh.copies == core::Copies::left_out);
+    CHECK(options.picture.scene_setup.mesh.copies == core::Copies::left_out);
   }
   CHECK(render({"--instances=auto"}).database.build.structure == core::Structure::grid);
   CHECK(render({"--instances=auto", "--strategy=dataflow", "--tested-objects=2"}).database.why_copied == "--tested-objects");
   for (const char* const other : {"--system=svm", "--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
     const RenderOptions options = render({"--instances=auto", other});
     CHECK(options.database.why_copied == other);
-    CHECK(options.picture.staging.mesh.copies == core::Copies::put);
+    CHECK(options.picture.scene_setup.mesh.copies == core::Copies::put);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machine_file.h"
+#include "apps/frontend/machine/machine_file.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "tests/apps/show/rendered.h"

@@ -16,7 +16,7 @@ TEST_CASE("a plan that is refused is refused in the words of the command line, a
   const svm::PlanRequest none{.page_count = 4, .computer = {.node_count = 0}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(none), doctest::Contains("--nodes=0: from 1 to"), core::UsageError);
   const svm::PlanRequest small{.page_count = 4, .computer = {.node_memory_bytes = 1}, .width = 1, .height = 1};
-  CHECK_THROWS_WITH_AS(refused(small), doctest::Contains("--node-memory=1B is too small for --nodes=8"), core::RoomError);
+  CHECK_THROWS_WITH_AS(refused(small), doctest::Contains("--node-memory=1B is too small for --nodes=8"), core::CapacityError);
   const svm::PlanRequest held{
       .strategy = svm::replicated_strategy(), .page_count = 4, .pages = {.cache_pages = 5}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(held), "--cache-pages goes with --strategy=svm", core::UsageError);

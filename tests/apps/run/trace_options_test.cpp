@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/watch/trace.h"
+#include "nodes/observers/trace.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 

@@ -62,7 +62,7 @@ TEST_CASE("a mesh file is a scene, seen and lit as the options say") {
   const tests::TemporaryFolder folder;
   tests::write_text(folder / "a.obj", tests::triangle_obj);
   PictureOptions picture{.scene = folder / "a.obj"};
-  picture.staging = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}, .mesh = {.scale = 2}};
+  picture.scene_setup = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}, .mesh = {.scale = 2}};
   const core::Scene scene = load_scene(picture, LoadNotes::silent);
   CHECK(scene.vertices[1] == core::Vec3d{4, 0, 0});
   CHECK(scene.view.from == core::Vec3d{0, 0, 9});
@@ -73,11 +73,11 @@ TEST_CASE("a mesh that is looked at by a camera of one's own is upright, whateve
   const tests::TemporaryFolder folder;
   tests::write_text(folder / "a.obj", tests::triangle_obj);
   PictureOptions picture{.scene = folder / "a.obj"};
-  picture.staging = {.camera = parse_camera("9,0,0/0,0,0"), .mesh = {.up = UpAxis{2}}};
+  picture.scene_setup = {.camera = parse_camera("9,0,0/0,0,0"), .mesh = {.up = UpAxis{2}}};
   CHECK(load_scene(picture, LoadNotes::silent).view.up == core::Vec3d{0, 0, 1});
   PictureOptions built_in{.scene = "tetra-1"};
   const core::Vec3d up = load_scene(built_in).view.up;
-  built_in.staging.camera = parse_camera("9,0,0/0,0,0");
+  built_in.scene_setup.camera = parse_camera("9,0,0/0,0,0");
   CHECK(load_scene(built_in).view.up == up);
 }
 
@@ -85,14 +85,14 @@ TEST_CASE("the options of mesh files go with no other scene") {
   const std::vector<MeshOptions> all = {{.scale = 1}, {.up = UpAxis{1}}, {.smooth_degrees = 60}, {.allows_missing = true}};
   for (const MeshOptions& mesh : all) {
     PictureOptions picture{.scene = "tetra-1"};
-    picture.staging.mesh = mesh;
+    picture.scene_setup.mesh = mesh;
     CHECK_THROWS_WITH_AS(load_scene(picture), doctest::Contains("go with mesh files"), core::UsageError);
   }
 }
 
 TEST_CASE("a camera and lights go with built-in scenes, too") {
   PictureOptions picture{.scene = "tetra-1"};
-  picture.staging = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}};
+  picture.scene_setup = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}};
   CHECK(load_scene(picture).view.from == core::Vec3d{0, 0, 9});
   CHECK(load_scene(picture).lights.size() == 1);
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/scene/load_scene.h"
-#include "apps/scene/staging.h"
+#include "apps/scene/scene_setup.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -32,7 +32,7 @@ std::string said_of(const std::string& text, const std::vector<core::PointLight>
   const tests::TemporaryFolder folder;
   tests::write_text(folder / "a.nff", text);
   PictureOptions picture{.scene = folder / "a.nff"};
-  picture.staging.lights = lights;
+  picture.scene_setup.lights = lights;
   picture.transport = transport;
   return said_of(picture);
 }

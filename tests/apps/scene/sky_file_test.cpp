@@ -125,7 +125,7 @@ TEST_CASE("a sky that is too large for a scene, or for this computer, is refused
   const File file("a.png", 64, 32, std::vector<float>(64 * 32 * 3, 0.5F));
   PictureReader reader({.texture_bytes_max = 1000});
   CHECK_THROWS_WITH_AS(reader.read_sky(open_picture(file.path)), doctest::Contains("a sky of 64x32 texels takes"),
-                       core::RoomError);
+                       core::CapacityError);
 }
 
 }  // namespace dmpc::apps::sky_file_test

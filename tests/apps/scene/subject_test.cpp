@@ -32,21 +32,21 @@ TEST_CASE("a subject's page size and order of records are those asked for") {
 }
 
 TEST_CASE("how much is kept once is told where that was asked for, and what keeps the rest from it") {
-  core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .triangles_in_places = 56789};
+  core::RecordCounts records{.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789};
   CHECK(kept_text(records) == "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
   records.copied = {{core::Obstacle::shining, 1200}, {core::Obstacle::far_away, 1}};
   CHECK(kept_text(records) ==
         "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied is what shines, in 1,200 places, and what reaches too "
         "far out, in 1 place");
-  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .triangles_in_places = 70}) ==
+  CHECK(kept_text({.instances = 1, .base_meshes = 1, .base_mesh_triangles = 70, .triangles_in_places = 70}) ==
         "kept 1 mesh in 1 place: 70 triangles for 70");
   CHECK(kept_text({}) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
   CHECK(kept_text({.copied = {{core::Obstacle::shining, 5}}}) == "no mesh is kept once: copied is what shines, in 5 places");
 }
 
 TEST_CASE("what is kept without having been asked for is told, and why copies are there where something else was open") {
-  const core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .triangles_in_places = 56789};
-  const core::KeptShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
+  const core::RecordCounts records{.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789};
+  const core::InstancingShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
   const DatabaseOptions open{.instances = InstancesChoice::automatic};
   CHECK(instances_text({}, false, {}, share).empty());
   CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}) == kept_text({}));
@@ -83,8 +83,8 @@ TEST_CASE("what is open is kept where that leaves less than half of the scene to
 }
 
 TEST_CASE("a tree with places in its leaves has no room for more than 2^21 primitives and places") {
-  CHECK(core::KeptShare{.places = 152, .own = 2'097'000}.has_room());
-  CHECK_FALSE(core::KeptShare{.places = 153, .own = 2'097'000}.has_room());
+  CHECK(core::InstancingShare{.places = 152, .own = 2'097'000}.has_room());
+  CHECK_FALSE(core::InstancingShare{.places = 153, .own = 2'097'000}.has_room());
 }
 
 TEST_CASE("of so many copies that none is made, it is told that nobody looked at their rounding") {

@@ -5,25 +5,25 @@
 #include <optional>
 #include <utility>
 
-#include "apps/render/onlookers.h"
+#include "apps/render/observers.h"
 #include "apps/run/run_strategy.h"
 #include "tests/apps/show/rendered.h"
 
 namespace dmpc::apps {
 
-/// A render with --report, and what its onlookers have seen.
+/// A render with --report, and what its observers have seen.
 struct Watched {
   explicit Watched(RenderOptions given, std::size_t references_max = 1'000'000) : options(std::move(given)) {
     options.report = "page.html";
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
-    Onlookers onlookers(watch_order(options, static_cast<std::uint32_t>(database.page_count()),
-                                    subject.settings.camera.pixel_count(), references_max));
-    options.pages.reference_logs = onlookers.reference_logs();
-    report = make_ready(options, database, subject.settings, {}, onlookers.watching()).start({}, {});
-    sights = onlookers.take();
-    if (onlookers.heat() != nullptr) {
-      heat = *onlookers.heat();
+    Observers observers(observer_order(options, static_cast<std::uint32_t>(database.page_count()),
+                                       subject.settings.camera.pixel_count(), references_max));
+    options.pages.reference_logs = observers.reference_logs();
+    report = make_ready(options, database, subject.settings, {}, observers.watching()).start({}, {});
+    run_profile = observers.take();
+    if (observers.heat() != nullptr) {
+      heat = *observers.heat();
     }
   }
   RenderRecord record() const {
@@ -32,14 +32,14 @@ struct Watched {
             .report = *report,
             .seconds = {},
             .heat = heat ? &*heat : nullptr,
-            .view = &*sights.view};
+            .view = &*run_profile.view};
   }
-  const RunView& view() const { return *sights.view; }
+  const RunView& view() const { return *run_profile.view; }
 
   RenderOptions options;
   core::Database database;
   std::optional<Report> report;
-  Sights sights;
+  RunProfile run_profile;
   std::optional<nodes::HeatMap> heat;  ///< what a page plays, and what options.heat_maps ask for
 };
 

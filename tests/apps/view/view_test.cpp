@@ -41,11 +41,11 @@ struct Viewed {
   }
   /// Of a camera that rests.
   std::string resting_picture() {
-    std::string told = picture();
-    while (value(told, "moving") != "false") {
-      told = picture();
+    std::string reported = picture();
+    while (value(reported, "moving") != "false") {
+      reported = picture();
     }
-    return told;
+    return reported;
   }
   std::string wish(const std::string& camera, bool is_moving) const {
     return page.sent("camera", R"({"camera": ")" + camera + R"(", "moving": )" + (is_moving ? "true}" : "false}"));

@@ -11,7 +11,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/database.h"
-#include "core/database/face_stack.h"
+#include "core/database/faces/face_stack.h"
 #include "core/picture/render.h"
 #include "tests/support/close_faces.h"
 #include "tests/support/film_of.h"
@@ -205,7 +205,7 @@ TEST_CASE("a label that goes round a barrel is before it on all sides") {
   CHECK(stack.layers.size() == 2 * staves);
   int above = 0, outwards = 0;
   for (const core::FaceStack::Layer& layer : stack.layers) {
-    above += layer.plane.kept_as == core::BlockHeader::exact_plane + (layer.ids[0] < 2 * staves ? 0 : 1) ? 1 : 0;
+    above += layer.plane.stored_as == core::LeafHeader::exact_plane + (layer.ids[0] < 2 * staves ? 0 : 1) ? 1 : 0;
     outwards += dot(layer.plane.normal, faces[layer.ids[0]].middle()) > 0 ? 1 : 0;
   }
   CHECK(above == 2 * staves);
@@ -227,7 +227,7 @@ TEST_CASE("a face that is above another one here and below it there is said to b
 /// A unit in the last place of a t from 4 to 8, grid-local.
 constexpr double unit_of_t = 0x1p-21;
 
-/// Eight squares above each other, which by their normals go up, so many units of t below a border between two top cells; next
+/// Eight squares above each other, which by their normals go up, so many units of t below a border between two macro cells; next
 /// above the border is one that belongs to no others.
 class Tower {
  public:
@@ -242,7 +242,7 @@ class Tower {
  private:
   void pile_up(const core::GridFrame& frame, double units_below) {
     const auto above_border = [&](double units) {
-      return frame.origin.z + (core::plane_at(frame, 2, core::finest_per_top) + units * unit_of_t) / frame.scale;
+      return frame.origin.z + (core::plane_at(frame, 2, core::finest_per_macro) + units * unit_of_t) / frame.scale;
     };
     scene_ = lit_scene();
     core::SceneBuilder builder(scene_);
@@ -266,7 +266,7 @@ TEST_CASE("a face that its layer brings before another one is found in whatever 
     const Database database = core::build_database(Tower(units_below).scene(), Tower::options());
     const core::GridFrame& frame = database.header().frame;
     const Vec3d middle = core::to_local(frame, {0.1, 0.05, 0});
-    const Ray ray = apps::ray_through({middle.x, middle.y, core::plane_at(frame, 2, core::finest_per_top) + 4.02}, middle);
+    const Ray ray = apps::ray_through({middle.x, middle.y, core::plane_at(frame, 2, core::finest_per_macro) + 4.02}, middle);
     CHECK(apps::same_hit(apps::shoot(database, ray), brute_force(database, ray)));
   }
 }
@@ -330,10 +330,10 @@ TEST_CASE("a poster next to its wall lies where doubles say even where a heap in
   core::SceneBuilder builder(scene);
   builder.polygon(rectangle({3, 3, 0}, {5, 5, 0}, true));
   builder.polygon(rectangle({3.5, 3.5, 2e-6}, {4.5, 4.5, 2e-6}, true));
-  const Database database = core::build_database(scene, {.cells_per_primitive = 1e-3});  // one top cell
+  const Database database = core::build_database(scene, {.cells_per_primitive = 1e-3});  // one macro cell
   const core::PrimitiveValues& poster = database.primitives().back();
   REQUIRE(poster.needs_plane());
-  CHECK(core::BlockHeader{.plane = database.planes()[poster.plane() - 1].kept_as}.has_exact_plane());
+  CHECK(core::LeafHeader{.plane = database.planes()[poster.plane() - 1].stored_as}.has_exact_plane());
 }
 
 TEST_CASE("where more planes lie next to each other than there is time for, the faces in them are said to be in no order") {

@@ -29,10 +29,10 @@ T read(const Database& database, Address address) {
 /// The shading reference of a primitive's copy.
 ShadingReference reference_of(const Database& database, std::uint32_t id) {
   const auto place = database.find_places()[id];
-  const auto header = read<BlockHeader>(database, place.block);
+  const auto header = read<LeafHeader>(database, place.leaf);
   const std::size_t row = (value_count(header.kind) + 1) * header.count + place.lane;
   ShadingReference reference;
-  std::memcpy(&reference, database.bytes().data() + byte_offset(place.block) + sizeof(BlockHeader) + 4 * row, sizeof(reference));
+  std::memcpy(&reference, database.bytes().data() + byte_offset(place.leaf) + sizeof(LeafHeader) + 4 * row, sizeof(reference));
   return reference;
 }
 
@@ -75,14 +75,14 @@ TEST_CASE("every primitive's place holds the primitive") {
   REQUIRE(places.size() == database.primitives().size());
   for (std::uint32_t id = 0; id < places.size(); ++id) {
     const auto place = places[id];
-    const auto header = read<BlockHeader>(database, place.block);
-    const std::byte* block = database.bytes().data() + byte_offset(place.block) + sizeof(BlockHeader);
+    const auto header = read<LeafHeader>(database, place.leaf);
+    const std::byte* leaf = database.bytes().data() + byte_offset(place.leaf) + sizeof(LeafHeader);
     REQUIRE(place.lane < header.count);
     std::uint32_t found = 0;
-    std::memcpy(&found, block + std::size_t{4} * (value_count(header.kind) * header.count + place.lane), sizeof(found));
+    std::memcpy(&found, leaf + std::size_t{4} * (value_count(header.kind) * header.count + place.lane), sizeof(found));
     CHECK(found == id);
     float first = 0;
-    std::memcpy(&first, block + std::size_t{4} * place.lane, sizeof(first));
+    std::memcpy(&first, leaf + std::size_t{4} * place.lane, sizeof(first));
     CHECK(first == database.primitives()[id].value[0]);
   }
 }
@@ -209,29 +209,29 @@ TEST_CASE("a database that forgets its records and primitives keeps its figures"
   CHECK(database.header().primitive_count > 0);
 }
 
-TEST_CASE("bricks, blocks and normals are counted by kind") {
+TEST_CASE("BVH nodes, leaves and normals are counted by kind") {
   Scene scene;
   SceneBuilder builder(scene);
   const RecordCounts none = database_of(scene).records();
-  CHECK(none.bricks + none.blocks[0] + none.blocks[1] + none.blocks[2] + none.normals == 0);
+  CHECK(none.bvh_nodes + none.leaves[0] + none.leaves[1] + none.leaves[2] + none.normals == 0);
   builder.sphere({0, 0, 0}, 0.1);
   builder.cone({0.2, 0, 0}, 0.1, {0.2, 0, 0.1}, 0.1);
   builder.patch({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
   const RecordCounts few = database_of(scene).records();
-  CHECK(few.bricks == 1);
-  CHECK(few.blocks == decltype(few.blocks){1, 1, 1});
+  CHECK(few.bvh_nodes == 1);
+  CHECK(few.leaves == decltype(few.leaves){1, 1, 1});
   CHECK(few.normals == 1);
   for (int i = 0; i < 40; ++i) {
     const double z = 0.01 * (i + 1);
     builder.polygon({{0.0, 0.0, z}, {0.1, 0.0, z}, {0.0, 0.1, z}});
   }
   const Database many = database_of(scene);
-  CHECK(many.records().blocks[0] >= 6);
+  CHECK(many.records().leaves[0] >= 6);
   CHECK(many.records().normals == 1);
   Scene large = scene_of(sphere_mesh(60, 80, 0));
   const RecordCounts counts = database_of(large).records();
-  CHECK(counts.bricks > 100);
-  CHECK(counts.blocks[0] * block_lanes >= database_of(large).references());
+  CHECK(counts.bvh_nodes > 100);
+  CHECK(counts.leaves[0] * leaf_lanes >= database_of(large).references());
 }
 
 TEST_CASE("the progress of a build ends with all its references, and changes nothing") {
@@ -242,11 +242,11 @@ TEST_CASE("the progress of a build ends with all its references, and changes not
     last = done;
     total = all;
   };
-  const Database told = build_database(scene, {.threads = 1, .progress = note});
+  const Database reported = build_database(scene, {.threads = 1, .progress = note});
   CHECK(last == total);
-  CHECK(total == told.references());
+  CHECK(total == reported.references());
   const Database plain = build_database(scene, {});
-  CHECK(std::equal(told.bytes().begin(), told.bytes().end(), plain.bytes().begin(), plain.bytes().end()));
+  CHECK(std::equal(reported.bytes().begin(), reported.bytes().end(), plain.bytes().begin(), plain.bytes().end()));
 }
 
 }  // namespace database_test

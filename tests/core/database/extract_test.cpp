@@ -10,7 +10,7 @@
 #include "apps/lab/bench/stability/cells.h"
 #include "apps/lab/bench/stability/random.h"
 #include "core/database/address_map.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "core/trace/traversal.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/random_regions.h"
@@ -104,7 +104,7 @@ bool check_same_answer(const core::Database& database, const Parts& parts, const
 void check_same_answers(const core::Scene& scene, std::size_t region_count, std::uint32_t seed) {
   CAPTURE(seed);
   std::mt19937 random(seed);
-  const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+  const core::Database database = core::build_database(scene, apps::several_macro_cells(scene));
   const Parts parts(database, tests::random_regions(core::grid_size(database.header().frame), region_count, random));
   const core::Camera camera(scene.view, database.header().frame, 40, 40, 1);
   int travellers = 0;
@@ -184,7 +184,7 @@ TEST_CASE("a region without primitives takes next to nothing") {
 TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
   for (const core::Scene& scene : {tests::everything(), tests::built_in("teapot-4"), core::Scene()}) {
     std::mt19937 random(3);
-    const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+    const core::Database database = core::build_database(scene, apps::several_macro_cells(scene));
     for (const Region& region : tests::random_regions(core::grid_size(database.header().frame), 12, random)) {
       const DatabasePart part = core::extract(database, region), measured = core::measure_part(database, std::span(&region, 1));
       CHECK(measured.record_bytes == part.record_bytes);
@@ -199,7 +199,7 @@ TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
 TEST_CASE("a part of several regions answers in each of them as that region's own part does, and holds what they share once") {
   std::mt19937 random(5);
   const core::Scene scene = tests::everything();
-  const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+  const core::Database database = core::build_database(scene, apps::several_macro_cells(scene));
   const std::vector<Region> all = tests::random_regions(core::grid_size(database.header().frame), 24, random);
   std::vector<Region> some;
   for (std::size_t i = 0; i < all.size(); i += 3) {

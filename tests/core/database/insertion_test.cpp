@@ -16,7 +16,7 @@ using namespace dmpc::tests;
 
 namespace {
 
-/// How many of `count` points a primitive lie in no box that leads to it. A point less than `slack` from another top cell may
+/// How many of `count` points a primitive lie in no box that leads to it. A point less than `slack` from another macro cell may
 /// be listed there instead.
 std::size_t unlisted(const Database& database, std::size_t count, double slack) {
   const Listing listing(database);
@@ -38,7 +38,7 @@ std::size_t unlisted(const Database& database, std::size_t count, double slack) 
 
 /// With the pad as it is: strictly. Without a pad: to the rounding of the sample points.
 void check_listed(const Scene& scene, std::size_t count) {
-  BuildOptions options{.cells_per_primitive = 4};  // several top cells
+  BuildOptions options{.cells_per_primitive = 4};  // several macro cells
   CHECK(unlisted(build_database(scene, options), count, 0) == 0);
   options.pad_share = 0;
   CHECK(unlisted(build_database(scene, options), count, 1e-12) == 0);

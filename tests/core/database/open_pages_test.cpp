@@ -1,4 +1,4 @@
-// Where the records of kept meshes and their places lie: in the forest, in open pages, and in pages that hold all that is below.
+// Where the records of base meshes and their places lie: in the forest, in open pages, and in pages that hold all that is below.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -8,18 +8,18 @@
 #include "core/record/instance.h"
 #include "core/record/record_kind.h"
 #include "core/record/records.h"
-#include "tests/support/kept_scenes.h"
+#include "tests/support/base_mesh_scenes.h"
 
 namespace dmpc::tests::open_pages_test {
 namespace {
 
 using core::Address;
-using core::BrickChild;
+using core::BvhChild;
 
 /// What is found below the directory.
 struct Found {
   std::set<Address> instances, meshes;
-  std::uint32_t open_bricks = 0, open_blocks = 0, closed_pages = 0;
+  std::uint32_t open_bvh_nodes = 0, open_leaves = 0, closed_pages = 0;
 };
 
 class Walker {
@@ -28,7 +28,7 @@ class Walker {
 
   Found all() {
     const auto entry = core::read<core::DirectoryEntry>(records_.find(database_.header().directory));
-    visit(BrickChild::brick(entry.brick()));
+    visit(BvhChild::bvh_node(entry.bvh_node()));
     return found_;
   }
 
@@ -39,55 +39,55 @@ class Walker {
   }
   std::size_t page_of(Address address) const { return core::byte_offset(address) / database_.page_size(); }
 
-  void visit(BrickChild child) {
+  void visit(BvhChild child) {
     const Address address = child.address();
     if (!is_in_forest(address) && !is_open(address)) {
       ++found_.closed_pages;
       stay(child, page_of(address));
-    } else if (child.is_block()) {
-      visit_block(address);
+    } else if (child.is_leaf()) {
+      visit_leaf(address);
     } else {
-      found_.open_bricks += is_open(address) ? 1 : 0;
-      const auto brick = core::read<core::Brick>(records_.find(address));
-      for (std::size_t i = 0; i < brick.child_count; ++i) {
-        visit(brick.child[i]);
-        const bool is_open_brick = is_open(address) && is_open(brick.child[i].address());
-        CHECK((!is_open_brick || page_of(brick.child[i].address()) == page_of(address)));
+      found_.open_bvh_nodes += is_open(address) ? 1 : 0;
+      const auto bvh_node = core::read<core::BvhNode>(records_.find(address));
+      for (std::size_t i = 0; i < bvh_node.child_count; ++i) {
+        visit(bvh_node.child[i]);
+        const bool is_open_bvh_node = is_open(address) && is_open(bvh_node.child[i].address());
+        CHECK((!is_open_bvh_node || page_of(bvh_node.child[i].address()) == page_of(address)));
       }
     }
   }
 
-  void visit_block(Address address) {
-    const std::byte* const block = records_.find(address);
-    const auto header = core::read<core::BlockHeader>(block);
+  void visit_leaf(Address address) {
+    const std::byte* const leaf = records_.find(address);
+    const auto header = core::read<core::LeafHeader>(leaf);
     if (header.kind != core::PrimitiveKind::instance) {
       CHECK(is_in_forest(address));
       return;
     }
-    found_.open_blocks += is_open(address) ? 1 : 0;
+    found_.open_leaves += is_open(address) ? 1 : 0;
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-      const Address instance = core::instance_in(block, lane);
+      const Address instance = core::instance_in(leaf, lane);
       CHECK(is_open(instance));
       CHECK(found_.instances.insert(instance).second);
       const std::byte* const record = records_.find(instance);
-      CHECK(core::bytes_of(core::RecordKind::block, record) == sizeof(core::InstanceRecord));
+      CHECK(core::bytes_of(core::RecordKind::leaf, record) == sizeof(core::InstanceRecord));
       const Address root = core::read<core::InstanceRecord>(record).root;
       if (found_.meshes.insert(root).second) {
-        visit(BrickChild::brick(root));
+        visit(BvhChild::bvh_node(root));
       }
     }
   }
 
   /// All that is below lies in this page, and leads nowhere else.
-  void stay(BrickChild child, std::size_t page) {
+  void stay(BvhChild child, std::size_t page) {
     CHECK(page_of(child.address()) == page);
-    if (child.is_block()) {
-      CHECK(core::read<core::BlockHeader>(records_.find(child.address())).kind != core::PrimitiveKind::instance);
+    if (child.is_leaf()) {
+      CHECK(core::read<core::LeafHeader>(records_.find(child.address())).kind != core::PrimitiveKind::instance);
       return;
     }
-    const auto brick = core::read<core::Brick>(records_.find(child.address()));
-    for (std::size_t i = 0; i < brick.child_count; ++i) {
-      stay(brick.child[i], page);
+    const auto bvh_node = core::read<core::BvhNode>(records_.find(child.address()));
+    for (std::size_t i = 0; i < bvh_node.child_count; ++i) {
+      stay(bvh_node.child[i], page);
     }
   }
 
@@ -106,10 +106,10 @@ TEST_CASE("what leads into meshes is in the forest or in open pages, and all oth
       REQUIRE(database.records().instances > 0);
       const Found found = Walker(database).all();
       CHECK(found.instances.size() == database.records().instances);
-      CHECK(found.meshes.size() == database.records().kept_meshes);
+      CHECK(found.meshes.size() == database.records().base_meshes);
       CHECK(database.open_page_count() > 0);
       CHECK(found.closed_pages > 0);
-      CHECK((found.open_blocks > 0 || page_size < 1024));
+      CHECK((found.open_leaves > 0 || page_size < 1024));
     }
   }
 }

@@ -13,7 +13,7 @@
 #include "core/database/record_writer.h"
 #include "core/database/structure.h"
 #include "core/families/scenes.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "core/record/records.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
@@ -27,15 +27,15 @@ using core::Address;
 using core::Structure;
 
 core::BuildOptions options_of(const core::Scene& scene, Structure structure, std::size_t page_size) {
-  core::BuildOptions options = apps::several_top_cells(scene);
+  core::BuildOptions options = apps::several_macro_cells(scene);
   options.structure = structure;
   options.page_size_bytes = page_size;
   return options;
 }
 
-/// What is found below a brick.
+/// What is found below a BVH node.
 struct Found {
-  std::uint32_t forest_bricks = 0, subtrees = 0;
+  std::uint32_t forest_bvh_nodes = 0, subtrees = 0;
   std::vector<std::uint32_t> primitives;  ///< how often each
 };
 
@@ -47,7 +47,7 @@ class Walker {
   Found all() {
     const auto entry = core::read<core::DirectoryEntry>(records_.find(database_.header().directory));
     REQUIRE(!entry.empty());
-    visit(core::BrickChild::brick(entry.brick()), 0);
+    visit(core::BvhChild::bvh_node(entry.bvh_node()), 0);
     return found_;
   }
 
@@ -56,7 +56,7 @@ class Walker {
   std::size_t page_of(Address address) const { return core::byte_offset(address) / database_.page_size(); }
 
   /// `page`: of the subtree, 0 in the forest.
-  void visit(core::BrickChild child, std::size_t page) {
+  void visit(core::BvhChild child, std::size_t page) {
     const std::size_t own = page_of(child.address());
     const bool is_in_forest = own < database_.forest_page_count();
     if (page == 0 && !is_in_forest) {
@@ -64,30 +64,30 @@ class Walker {
     } else if (page != 0) {
       CHECK(own == page);
     }
-    if (child.is_block()) {
-      visit_block(child.address());
+    if (child.is_leaf()) {
+      visit_leaf(child.address());
       return;
     }
-    found_.forest_bricks += is_in_forest ? 1 : 0;
-    const auto brick = core::read<core::Brick>(records_.find(child.address()));
-    const auto is_block = [&](std::size_t i) { return brick.child[i].is_block(); };
-    bool has_bricks = false;
-    for (std::size_t i = 0; i < brick.child_count; ++i) {
-      has_bricks = has_bricks || !is_block(i);
+    found_.forest_bvh_nodes += is_in_forest ? 1 : 0;
+    const auto bvh_node = core::read<core::BvhNode>(records_.find(child.address()));
+    const auto is_leaf = [&](std::size_t i) { return bvh_node.child[i].is_leaf(); };
+    bool has_bvh_nodes = false;
+    for (std::size_t i = 0; i < bvh_node.child_count; ++i) {
+      has_bvh_nodes = has_bvh_nodes || !is_leaf(i);
     }
-    for (std::size_t i = 0; is_in_forest && has_bricks && i < brick.child_count; ++i) {
-      CHECK((!is_block(i) || page_of(brick.child[i].address()) < database_.forest_page_count()));
+    for (std::size_t i = 0; is_in_forest && has_bvh_nodes && i < bvh_node.child_count; ++i) {
+      CHECK((!is_leaf(i) || page_of(bvh_node.child[i].address()) < database_.forest_page_count()));
     }
-    for (std::size_t i = 0; i < brick.child_count; ++i) {
-      visit(brick.child[i], is_in_forest ? 0 : own);
+    for (std::size_t i = 0; i < bvh_node.child_count; ++i) {
+      visit(bvh_node.child[i], is_in_forest ? 0 : own);
     }
   }
 
-  void visit_block(Address address) {
-    const std::byte* const block = records_.find(address);
-    const auto header = core::read<core::BlockHeader>(block);
+  void visit_leaf(Address address) {
+    const std::byte* const leaf = records_.find(address);
+    const auto header = core::read<core::LeafHeader>(leaf);
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-      ++found_.primitives[core::read<std::uint32_t>(core::ids_of(header, block) + lane * sizeof(std::uint32_t))];
+      ++found_.primitives[core::read<std::uint32_t>(core::ids_of(header, leaf) + lane * sizeof(std::uint32_t))];
     }
   }
 
@@ -113,7 +113,7 @@ core::BuildOptions scattered() {
 
 }  // namespace
 
-TEST_CASE("behind the forest a page has all that is below what it has, and blocks beside bricks are in the forest") {
+TEST_CASE("behind the forest a page has all that is below what it has, and leaves beside BVH nodes are in the forest") {
   for (const char* name : {"gears-1", "teapot-4", "balls-3"}) {
     const core::Scene scene = tests::built_in(name);
     for (const std::size_t page_size : {512U, 1024U, 4096U, 65536U}) {
@@ -128,17 +128,17 @@ TEST_CASE("behind the forest a page has all that is below what it has, and block
       CHECK(found.subtrees >= 1);
       CHECK(database.forest_page_count() >= 1);
       CHECK(database.forest_page_count() < database.page_count());
-      CHECK((found.forest_bricks > 0 || page_size == 65536));
+      CHECK((found.forest_bvh_nodes > 0 || page_size == 65536));
     }
   }
 }
 
-TEST_CASE("one tree has one top cell, and the very primitives of the grid") {
+TEST_CASE("one tree has one macro cell, and the very primitives of the grid") {
   const core::Scene scene = tests::built_in("gears-1");
   const core::Database grid = core::build_database(scene, options_of(scene, Structure::grid, 1024)),
                        tree = core::build_database(scene, options_of(scene, Structure::extents, 1024));
-  CHECK(core::top_cells(grid.header().frame) != std::array<std::int32_t, 3>{1, 1, 1});
-  CHECK(core::top_cells(tree.header().frame) == std::array<std::int32_t, 3>{1, 1, 1});
+  CHECK(core::macro_cells(grid.header().frame) != std::array<std::int32_t, 3>{1, 1, 1});
+  CHECK(core::macro_cells(tree.header().frame) == std::array<std::int32_t, 3>{1, 1, 1});
   CHECK(tree.header().frame.origin == grid.header().frame.origin);
   CHECK(tree.header().frame.scale == grid.header().frame.scale);
   REQUIRE(tree.primitives().size() == grid.primitives().size());

@@ -8,7 +8,7 @@
 
 #include "apps/lab/bench/stability/rays.h"
 #include "core/base/expect.h"
-#include "core/picture/background.h"
+#include "core/picture/camera/background.h"
 #include "core/picture/render.h"
 #include "tests/support/film_of.h"
 #include "tests/support/same_sums.h"
@@ -194,7 +194,7 @@ TEST_CASE("bundles that wait for every record give the same light, count the sam
   CHECK(once.tile_reads > 2 * once.texture_lookups);
   CHECK(once.tile_reads == often.tile_reads);
   CHECK(once.rays == often.rays);
-  check_same_walk(once, often);
+  check_same_traversal(once, often);
   CHECK(once.skipped.bundles == often.skipped.bundles);
   CHECK(once.bundles == often.bundles);
 }

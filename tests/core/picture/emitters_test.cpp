@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/picture/emitter_light.h"
-#include "core/picture/path_step.h"
-#include "core/picture/surface_response.h"
+#include "core/picture/lights/emitter_light.h"
+#include "core/picture/surfaces/path_step.h"
+#include "core/picture/surfaces/surface_response.h"
 #include "core/record/emitter.h"
 #include "tests/support/path_studio.h"
 #include "tests/support/scaled.h"

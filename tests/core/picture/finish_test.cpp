@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/database/database.h"
-#include "core/database/material_records.h"
+#include "core/database/shading/material_records.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "core/scene/texel.h"
@@ -157,9 +157,9 @@ TEST_CASE("a material that NFF can say has the record that it always had") {
   REQUIRE(records.finishes.size() == 1);
   const float plain[] = {1, 0.75F, 0.25F, 0.5F, 0.25F, 9, 0.125F, -2};
   CHECK(std::memcmp(&records.materials[0], plain, sizeof plain) == 0);
-  CHECK(!records.materials[0].has_finish());
-  CHECK(!records.materials[2].has_finish());
-  REQUIRE(records.materials[1].has_finish());
+  CHECK(!records.materials[0].has_extension());
+  CHECK(!records.materials[2].has_extension());
+  REQUIRE(records.materials[1].has_extension());
   CHECK(records.materials[1].finish() == 3);
   CHECK(records.finishes[0].refraction_index == 3);
   CHECK(records.finishes[0].emission == Color{1, 2, 3});

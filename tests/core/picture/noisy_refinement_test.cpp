@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/base/sampling.h"
-#include "core/picture/refinement.h"
+#include "core/picture/sampling/refinement.h"
 
 namespace noisy_refinement_test {
 

@@ -13,12 +13,12 @@ namespace {
 using Triple = std::array<std::int32_t, 3>;
 
 Triple corner(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return {x * finest_per_top, y * finest_per_top, z * finest_per_top};
+  return {x * finest_per_macro, y * finest_per_macro, z * finest_per_macro};
 }
 
 }  // namespace
 
-TEST_CASE("every top cell has an entry of its own inside the directory") {
+TEST_CASE("every macro cell has an entry of its own inside the directory") {
   for (const Triple& size : {Triple{1, 1, 1}, Triple{5, 1, 9}, Triple{4, 4, 4}, Triple{3, 7, 2}}) {
     std::set<std::uint64_t> indices;
     for (std::int32_t z = 0; z < size[2]; ++z) {
@@ -47,7 +47,7 @@ TEST_CASE("an odd number of entries is made even, since records hold two") {
   CHECK(directory_entry_count({2, 5, 7}) == 70);
 }
 
-TEST_CASE("any place in a top cell leads to its entry") {
+TEST_CASE("any place in a macro cell leads to its entry") {
   const Triple size{8, 8, 8};
   CHECK(directory_index(size, {256, 512, 768}) == directory_index(size, {511, 512 + 255, 768 + 1}));
 }

@@ -121,7 +121,7 @@ TEST_CASE("what a scene takes with all its instances is known before, however mu
   CHECK(size.bytes() == 1001 * sizeof(Object) + 6003 * sizeof(Vec3d));
   scene.objects[1].vertex_count = 0xffffffffU;
   CHECK(expanded_size(scene, instances).vertices == 3 + 1000 * std::uint64_t{0xffffffffU});
-  CHECK_THROWS_AS(expand(scene, instances), RoomError);
+  CHECK_THROWS_AS(expand(scene, instances), CapacityError);
 }
 
 }  // namespace dmpc::core::instances_test

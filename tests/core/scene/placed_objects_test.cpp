@@ -37,17 +37,17 @@ Scene left(std::uint64_t seed) {
 }
 
 /// Kind, material, number of corners, and the bits of all that an object has where it stands.
-using Told = std::vector<std::uint64_t>;
+using Reported = std::vector<std::uint64_t>;
 
-void add(Told& told, const Vec3d& v) {
+void add(Reported& reported, const Vec3d& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    told.push_back(std::bit_cast<std::uint64_t>(v[axis]));
+    reported.push_back(std::bit_cast<std::uint64_t>(v[axis]));
   }
 }
 
-Told told(const PlacedObject& placed) {
+Reported reported(const PlacedObject& placed) {
   const Object& object = placed.object();
-  Told result{static_cast<std::uint64_t>(object.kind), object.material, object.vertex_count};
+  Reported result{static_cast<std::uint64_t>(object.kind), object.material, object.vertex_count};
   if (object.kind == ObjectKind::sphere) {
     add(result, placed.pools().spheres[object.first].center);
   } else if (object.kind == ObjectKind::cone) {
@@ -65,9 +65,9 @@ Told told(const PlacedObject& placed) {
   return result;
 }
 
-std::vector<Told> all_told(const Scene& scene, std::uint64_t stride = 1) {
-  std::vector<Told> all;
-  PlacedObjects(scene).for_each([&](const PlacedObject& object) { all.push_back(told(object)); }, stride);
+std::vector<Reported> all_reported(const Scene& scene, std::uint64_t stride = 1) {
+  std::vector<Reported> all;
+  PlacedObjects(scene).for_each([&](const PlacedObject& object) { all.push_back(reported(object)); }, stride);
   return all;
 }
 
@@ -82,7 +82,7 @@ bool same_corners(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-TEST_CASE("a scene that leaves copies out has of a kept mesh its places, and none of its objects") {
+TEST_CASE("a scene that leaves copies out has of a base mesh its places, and none of its objects") {
   Scene scene = in_floats(rug_on_floor(false, true, 6));
   leave(scene, {.meshes = {{0, 72}}, .places = std::vector<core::Instance>(1000, {turned_place(1, {}, true), 0, 73})});
   CHECK(scene.objects.size() == 1);  // the floor
@@ -100,7 +100,7 @@ TEST_CASE("it has all objects of the expanded one, in its order and to the bit: 
     CAPTURE(seed);
     const Scene whole = expanded(seed), without = left(seed);
     REQUIRE(object_count(without) == whole.objects.size());
-    REQUIRE(all_told(without) == all_told(whole));
+    REQUIRE(all_reported(without) == all_reported(whole));
     copies += whole.objects.size() - without.objects.size();
   }
   CHECK(copies > 1000 * seeds);
@@ -110,7 +110,7 @@ TEST_CASE("every third object is the same, too, wherever meshes begin") {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     CAPTURE(seed);
     const Scene without = left(seed);
-    const std::vector<Told> all = all_told(without), thirds = all_told(without, 3);
+    const std::vector<Reported> all = all_reported(without), thirds = all_reported(without, 3);
     REQUIRE(thirds.size() == (all.size() + 2) / 3);
     for (std::size_t i = 0; i < thirds.size(); ++i) {
       REQUIRE(thirds[i] == all[3 * i]);
@@ -152,12 +152,12 @@ TEST_CASE("copies may be put in some places alone: the objects stay, and those t
     CHECK(leaves_copies_out(some));
     CHECK(some.objects.size() == size_with_copies(without, odd).objects);
     CHECK(object_count(some) == whole.objects.size());
-    CHECK(all_told(some) == all_told(whole));
+    CHECK(all_reported(some) == all_reported(whole));
     CHECK(same_corners(without_copies(some), without_copies(whole)));
     CHECK(without_copies(some).objects.size() == without.objects.size());
     std::vector<std::uint64_t> copies(odd.size());
     for (std::uint32_t i = 0; i < some.objects.size(); ++i) {
-      if (const core::KeptPlace* const place = place_of(some, i)) {
+      if (const core::BaseMeshInstance* const place = place_of(some, i)) {
         ++copies[place - some.kept->places.data()];
       }
     }
@@ -183,16 +183,16 @@ TEST_CASE("a scene that leaves copies out is sent with them, as the expanded one
   }
 }
 
-TEST_CASE("a scene without kept meshes leaves nothing out") {
+TEST_CASE("a scene without base meshes leaves nothing out") {
   auto [scene, instances] = instanced_scene(7);
   instances.places.resize(1);
   leave(scene, instances);
   CHECK(scene.kept == nullptr);
   CHECK_FALSE(leaves_copies_out(scene));
   CHECK(object_count(scene) == scene.objects.size());
-  const std::vector<Told> before = all_told(scene);
+  const std::vector<Reported> before = all_reported(scene);
   put_copies(scene);
-  CHECK(all_told(scene) == before);
+  CHECK(all_reported(scene) == before);
 }
 
 TEST_CASE("a thousand million objects are left out in a moment, and more than indices reach are an error") {
@@ -204,7 +204,7 @@ TEST_CASE("a thousand million objects are left out in a moment, and more than in
   };
   CHECK(left_with(50'000) == 1'000'000'001);
   CHECK(left_with(214'748) == 4'294'960'001);
-  CHECK_THROWS_AS(left_with(214'749), core::RoomError);
+  CHECK_THROWS_AS(left_with(214'749), core::CapacityError);
 }
 
 }  // namespace dmpc::tests::placed_objects_test

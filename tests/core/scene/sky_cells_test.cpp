@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/sampling.h"
-#include "core/database/sky_records.h"
+#include "core/database/shading/sky_records.h"
 #include "core/record/sky.h"
 #include "core/scene/sky_texels.h"
 #include "core/scene/texel.h"

@@ -67,7 +67,7 @@ TEST_CASE("a hit counts before t_max and not at it") {
   }
 }
 
-TEST_CASE("a walk interrupted at every record gives the bits of one that is not, and counts its work") {
+TEST_CASE("a traversal interrupted at every record gives the bits of one that is not, and counts its work") {
   const Database database = database_of(mixed_scene());
   Random random(3);
   Operations once, often;
@@ -81,7 +81,7 @@ TEST_CASE("a walk interrupted at every record gives the bits of one that is not,
   }
   CHECK(differences == 0);
   CHECK(interruptions > scaled(50'000));
-  check_same_walk(once, often);
+  check_same_traversal(once, often);
 }
 
 TEST_CASE("pages of every size hold the same hits") {
@@ -89,7 +89,7 @@ TEST_CASE("pages of every size hold the same hits") {
   const Database expected = database_of(scene);
   for (std::size_t page_size = 512; page_size <= 65536; page_size *= 2) {
     CAPTURE(page_size);
-    BuildOptions options = several_top_cells(scene);
+    BuildOptions options = several_macro_cells(scene);
     options.page_size_bytes = page_size;
     const Database database = build_database(scene, options);
     Random random(7);

@@ -1,4 +1,4 @@
-// Walks into kept meshes of which somebody else does a part, and for which records are lent one by one.
+// Walks into base meshes of which somebody else does a part, and for which records are lent one by one.
 #include "core/trace/below_in_mesh.h"
 
 #include <doctest/doctest.h>
@@ -6,14 +6,14 @@
 #include <cstdint>
 
 #include "core/database/database.h"
-#include "core/picture/camera.h"
-#include "tests/support/kept_scenes.h"
+#include "core/picture/camera/camera.h"
+#include "tests/support/base_mesh_scenes.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::below_in_mesh_test {
 namespace {
 
-using core::BrickChild;
+using core::BvhChild;
 using core::Hit;
 using core::InstanceCursor;
 
@@ -33,9 +33,9 @@ struct Shared {
   std::uint32_t below = 0, below_in_mesh = 0, lent = 0;
 };
 
-class SharedWalk {
+class SharedTraversal {
  public:
-  explicit SharedWalk(const core::Database& database)
+  explicit SharedTraversal(const core::Database& database)
       : all_(database.bytes()),
         header_(database.header()),
         forest_{all_, database.forest_page_count() * database.page_size()},
@@ -61,7 +61,7 @@ class SharedWalk {
   Hit answer(const core::Below& below, const InstanceCursor& cursor, Shared& shared) {
     if (cursor.is_inside) {
       ++shared.below_in_mesh;
-      return core::trace_below(below, core::told_place(cursor), all_, header_, shared.operations);
+      return core::trace_below(below, core::reported_instance(cursor), all_, header_, shared.operations);
     }
     ++shared.below;
     return core::trace_below(below, all_, shared.operations);
@@ -77,21 +77,21 @@ InstanceCursor cursor_in_mesh(float best_t, std::uint32_t best_id) {
   InstanceCursor cursor;
   cursor.stage = core::Cursor::Stage::child;
   cursor.best = {best_t, best_id, core::Address{7}, 1};
-  cursor.next = BrickChild::block(core::Address{64});
+  cursor.next = BvhChild::leaf(core::Address{64});
   cursor.waiting.count = 1;
-  cursor.waiting.record[0] = BrickChild::brick(core::Address{500});
+  cursor.waiting.record[0] = BvhChild::bvh_node(core::Address{500});
   cursor.waiting.t_enter[0] = 4.5F;
   cursor.is_inside = true;
-  cursor.next_in_mesh = BrickChild::brick(core::Address{100});
+  cursor.next_in_mesh = BvhChild::bvh_node(core::Address{100});
   cursor.waiting_in_mesh.count = 2;
-  cursor.waiting_in_mesh.record = {BrickChild::brick(core::Address{300}), BrickChild::brick(core::Address{200})};
+  cursor.waiting_in_mesh.record = {BvhChild::bvh_node(core::Address{300}), BvhChild::bvh_node(core::Address{200})};
   cursor.waiting_in_mesh.t_enter = {6, 3};
   return cursor;
 }
 
 }  // namespace
 
-TEST_CASE("a walk in a mesh goes on with what waits there, while what waits outside waits") {
+TEST_CASE("a traversal in a mesh goes on with what waits there, while what waits outside waits") {
   core::Operations operations;
   InstanceCursor cursor = cursor_in_mesh(5, 10);
   core::take_below({4, 11, core::Address{9}, 2}, {}, {}, cursor, operations);
@@ -104,7 +104,8 @@ TEST_CASE("a walk in a mesh goes on with what waits there, while what waits outs
   CHECK(cursor.waiting.count == 1);
 }
 
-TEST_CASE("any hit from below in a mesh ends the walk of a shadow ray, and what would have been visited outside is counted") {
+TEST_CASE(
+    "any hit from below in a mesh ends the traversal of a shadow ray, and what would have been visited outside is counted") {
   core::Operations operations;
   InstanceCursor cursor = cursor_in_mesh(Hit{}.t, core::no_primitive);
   core::take_below({5, 11, core::Address{9}, 2}, {.kind = core::RayKind::shadow}, {}, cursor, operations);
@@ -113,13 +114,13 @@ TEST_CASE("any hit from below in a mesh ends the walk of a shadow ray, and what 
   CHECK(operations.skipped.any_hit == 1);
 }
 
-TEST_CASE("what is told of a place is what a walk in its mesh needs, and where its record lies") {
+TEST_CASE("what is told of a place is what a traversal in its mesh needs, and where its record lies") {
   InstanceCursor cursor = cursor_in_mesh(5, 10);
   cursor.instance.world = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   cursor.instance.first = 77;
   cursor.instance.unit = 0.25F;
   cursor.instance.pad = 1e-6F;
-  const core::ToldPlace place = core::told_place(cursor);
+  const core::ReportedInstance place = core::reported_instance(cursor);
   CHECK(place.world == cursor.instance.world);
   CHECK(place.record == core::Address{64});
   CHECK(place.first == 77);
@@ -128,7 +129,7 @@ TEST_CASE("what is told of a place is what a walk in its mesh needs, and where i
   CHECK(core::below(core::Ray{}, cursor, {}).child.address() == core::Address{100});
   cursor.is_inside = false;
   CHECK(core::below(core::Ray{}, cursor, {}).child.address() == core::Address{64});
-  CHECK_THROWS_AS(std::ignore = core::told_place(cursor), core::InternalError);
+  CHECK_THROWS_AS(std::ignore = core::reported_instance(cursor), core::InternalError);
 }
 
 TEST_CASE("rays whose walks in meshes others do meet what they would alone, by the same operations") {
@@ -140,7 +141,7 @@ TEST_CASE("rays whose walks in meshes others do meet what they would alone, by t
       const int side = scaled_edge(32);
       const core::Camera camera(scene.view, database.header().frame, side, side, 1);
       core::LocalRecords all(database.bytes());
-      SharedWalk walk(database);
+      SharedTraversal walk(database);
       core::Operations alone;
       Shared shared;
       for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(side * side); ++pixel) {
@@ -151,12 +152,12 @@ TEST_CASE("rays whose walks in meshes others do meet what they would alone, by t
         const Hit found = walk.trace(ray, shared);
         CHECK(found.t == one.best.t);
         CHECK(found.primitive == one.best.primitive);
-        CHECK(found.block == one.best.block);
+        CHECK(found.leaf == one.best.leaf);
         CHECK(found.lane == one.best.lane);
       }
       CHECK(shared.below_in_mesh > 0);
       CHECK(shared.lent > 0);
-      CHECK(shared.operations.brick_reads == alone.brick_reads);
+      CHECK(shared.operations.bvh_node_reads == alone.bvh_node_reads);
       CHECK(shared.operations.primitive_tests == alone.primitive_tests);
       CHECK(shared.operations.skipped.any_hit == alone.skipped.any_hit);
     }

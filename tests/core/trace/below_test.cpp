@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "core/database/database.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "tests/support/small_scenes.h"
 
 namespace below_test {
@@ -12,7 +12,7 @@ namespace below_test {
 namespace {
 
 using namespace dmpc;
-using core::BrickChild;
+using core::BvhChild;
 using core::Hit;
 
 /// The forest alone, or all.
@@ -27,9 +27,9 @@ core::Cursor waiting_cursor(float best_t, std::uint32_t best_id) {
   core::Cursor cursor;
   cursor.stage = core::Cursor::Stage::child;
   cursor.best = {best_t, best_id, core::Address{7}, 1};
-  cursor.next = BrickChild::brick(core::Address{100});
+  cursor.next = BvhChild::bvh_node(core::Address{100});
   cursor.waiting.count = 2;
-  cursor.waiting.record = {BrickChild::brick(core::Address{300}), BrickChild::brick(core::Address{200})};
+  cursor.waiting.record = {BvhChild::bvh_node(core::Address{300}), BvhChild::bvh_node(core::Address{200})};
   cursor.waiting.t_enter = {6, 3};
   return cursor;
 }
@@ -42,7 +42,7 @@ TEST_CASE("a hit from below takes the place of a farther one, or of one as far w
     core::Cursor cursor = waiting_cursor(known.t, known.primitive);
     core::take_below({4, 11, core::Address{9}, 2}, {}, {}, cursor, operations);
     CHECK(cursor.best.primitive == 11);
-    CHECK(cursor.best.block == core::Address{9});
+    CHECK(cursor.best.leaf == core::Address{9});
     CHECK(cursor.best.lane == 2);
     CHECK(cursor.next.address() == core::Address{200});
   }
@@ -66,7 +66,7 @@ TEST_CASE("nothing below leaves the hit and goes on with the next child, and beh
   CHECK_FALSE(cursor.next.found());
 }
 
-TEST_CASE("any hit from below ends the walk of a shadow ray, and what it would have visited is counted") {
+TEST_CASE("any hit from below ends the traversal of a shadow ray, and what it would have visited is counted") {
   core::Operations operations;
   core::Cursor cursor = waiting_cursor(Hit{}.t, core::no_primitive);
   core::take_below({4, 11, core::Address{9}, 2}, {.kind = core::RayKind::shadow}, {}, cursor, operations);
@@ -96,11 +96,11 @@ TEST_CASE("rays whose walks below the forest others do meet what they would alon
       CHECK(traced == expected);
       CHECK(other.best.t == one.best.t);
       CHECK(other.best.primitive == one.best.primitive);
-      CHECK(other.best.block == one.best.block);
+      CHECK(other.best.leaf == one.best.leaf);
       CHECK(other.best.lane == one.best.lane);
     }
     CHECK(questions > 100);
-    CHECK(shared.brick_reads == alone.brick_reads);
+    CHECK(shared.bvh_node_reads == alone.bvh_node_reads);
     CHECK(shared.primitive_tests == alone.primitive_tests);
     CHECK(shared.cell_steps == alone.cell_steps);
     CHECK(shared.skipped.any_hit == alone.skipped.any_hit);

@@ -12,7 +12,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/extract.h"
-#include "core/trace/bundle_walk.h"
+#include "core/trace/bundle_traversal.h"
 #include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -76,7 +76,7 @@ void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
     CHECK(((bundle.found >> i & 1U) != 0) == expected.hits[i].found());
     if (!bundle.any) {
       CHECK(same_hit(bundle.best.of(i), expected.hits[i]));
-      CHECK(bundle.best.of(i).block == expected.hits[i].block);
+      CHECK(bundle.best.of(i).leaf == expected.hits[i].leaf);
     }
   }
 }
@@ -127,7 +127,7 @@ TEST_CASE("1 to 16 rays that walk together hit what they hit alone, whatever ins
       LocalRecords records(database.bytes());
       Operations operations;
       const auto bundle = bundle_of(rays);
-      CHECK(BundleWalk<LocalRecords>(*bundle, records, database.header(), {}, operations, *steps, *intersectors).run());
+      CHECK(BundleTraversal<LocalRecords>(*bundle, records, database.header(), {}, operations, *steps, *intersectors).run());
       check_hits(*bundle, walk_alone(database, rays));
       hits += count_of(bundle->found);
     });
@@ -143,9 +143,10 @@ TEST_CASE("a bundle does the same work, whatever instructions the processor has"
       LocalRecords records(database.bytes());
       Operations fast, slow;
       const auto one = bundle_of(rays), other = bundle_of(rays);
-      BundleWalk<LocalRecords>(*one, records, database.header(), {}, fast).run();
-      BundleWalk<LocalRecords>(*other, records, database.header(), {}, slow, *bundle_steps(set), *bundle_intersectors(set)).run();
-      check_same_walk(fast, slow);
+      BundleTraversal<LocalRecords>(*one, records, database.header(), {}, fast).run();
+      BundleTraversal<LocalRecords>(*other, records, database.header(), {}, slow, *bundle_steps(set), *bundle_intersectors(set))
+          .run();
+      check_same_traversal(fast, slow);
       CHECK(fast.skipped.bundles == slow.skipped.bundles);
       CHECK(fast.skipped.any_hit == slow.skipped.any_hit);
     });
@@ -191,7 +192,7 @@ TEST_CASE("a bundle that waits for every record finds the same and counts the sa
     for (std::size_t i = 0; i < rays.size(); ++i) {
       CHECK(same_hit(bundle->best.of(i), expected->best.of(i)));
     }
-    check_same_walk(at_once, in_steps);
+    check_same_traversal(at_once, in_steps);
     CHECK(at_once.skipped.bundles == in_steps.skipped.bundles);
   });
 }
@@ -207,7 +208,7 @@ TEST_CASE("a bundle of one ray does that ray's work") {
     trace(*bundle, records, database.header(), {}, operations);
     const WalksAlone expected = walk_alone(database, rays);
     check_hits(*bundle, expected);
-    check_same_walk(operations, expected.operations);
+    check_same_traversal(operations, expected.operations);
     CHECK(operations.empty_cells == expected.operations.empty_cells);
     CHECK(operations.bundles == 0);
     CHECK(operations.skipped.bundles == 0);
@@ -224,12 +225,12 @@ TEST_CASE("sixteen equal rays look each record up once, and are counted as sixte
   const auto bundle = bundle_of(rays);
   trace(*bundle, records, database.header(), {}, operations);
   const Operations one = walk_alone(database, {ray}).operations;
-  CHECK(operations.brick_reads == 16 * one.brick_reads);
+  CHECK(operations.bvh_node_reads == 16 * one.bvh_node_reads);
   CHECK(operations.cell_steps == 16 * one.cell_steps);
   CHECK(operations.bundles == 1);
   CHECK(operations.rays_in_bundles == 16);
   CHECK(operations.skipped.bundles % 15 == 0);
-  CHECK(operations.skipped.bundles >= 15 * one.brick_reads);
+  CHECK(operations.skipped.bundles >= 15 * one.bvh_node_reads);
 }
 
 TEST_CASE("without skips a bundle finds the nearest hits of shadow rays") {
@@ -273,7 +274,7 @@ struct Traveller {
   Traced traced = Traced::left;
 };
 
-/// What a walk alone makes of it in the region of `part`.
+/// What a traversal alone makes of it in the region of `part`.
 Traveller walk_on(const Traveller& traveller, const DatabasePart& part, Operations& operations) {
   Traveller next = traveller;
   next.passage = traveller.passage ? traveller.passage : first_passage(traveller.ray, part.header.frame);
@@ -300,7 +301,7 @@ void check_same_way(const RayBundle& bundle, std::size_t ray, const Traveller& e
   }
   if (expected.traced != Traced::miss && !bundle.any) {
     CHECK(same_hit(bundle.hit(ray), expected.passage->best));
-    CHECK(bundle.hit(ray).block == expected.passage->best.block);
+    CHECK(bundle.hit(ray).leaf == expected.passage->best.leaf);
   }
 }
 
@@ -336,20 +337,20 @@ void walk_on_together(std::vector<Traveller>& all, const DatabasePart& part, con
   const auto bundle = bundle_of(rays);
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (here[i]->passage) {
-      here[i]->passage->best.block = no_address;  // it was read elsewhere
+      here[i]->passage->best.leaf = no_address;  // it was read elsewhere
       bundle->arrive(i, *here[i]->passage);
     }
   }
   LocalRecords records(part.bytes);
   Operations together, alone;
-  CHECK(BundleWalk<LocalRecords>(*bundle, records, part.header, {}, together, steps, intersectors).run());
+  CHECK(BundleTraversal<LocalRecords>(*bundle, records, part.header, {}, together, steps, intersectors).run());
   for (std::size_t i = 0; i < here.size(); ++i) {
     CAPTURE(i);
     *here[i] = walk_on(*here[i], part, alone);
     check_same_way(*bundle, i, *here[i]);
   }
   if (here.size() == 1) {
-    check_same_walk(together, alone);
+    check_same_traversal(together, alone);
   }
 }
 
@@ -377,7 +378,7 @@ TEST_CASE("rays that walk together leave a region where and as they do alone, an
       }
       for (const Traveller& traveller : travellers) {
         CHECK(traveller.traced != Traced::left);
-        hops += traveller.passage && traveller.passage->entry_axis != walk_starts ? 1 : 0;
+        hops += traveller.passage && traveller.passage->entry_axis != traversal_starts ? 1 : 0;
         hits += traveller.traced == Traced::hit ? 1 : 0;
       }
     });
@@ -392,7 +393,7 @@ TEST_CASE("a candidate that was read elsewhere gives way to the same hit read he
   const Hit candidate{2.0F, 7};
   bundle.arrive(3, {.best = candidate});
   CHECK(bundle.hit(3).primitive == 7);
-  CHECK(bundle.hit(3).block == no_address);
+  CHECK(bundle.hit(3).leaf == no_address);
   CHECK(nearer(2.0F, 7, bundle.best.of(3)));
   CHECK_FALSE(nearer(2.0F, 8, bundle.best.of(3)));
   CHECK_FALSE(replaces(2.0F, 8, bundle.best.of(3)));
@@ -415,7 +416,7 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
     bundle->arrive(0, {passage->t_enter, passage->cell, passage->entry_axis, {hit.t + 1, hit.primitive - 1}});
     trace(*bundle, records, database.header(), no_skips(), operations);
     CHECK(same_hit(bundle->hit(0), hit));
-    CHECK(bundle->hit(0).block == hit.block);
+    CHECK(bundle->hit(0).leaf == hit.leaf);
     ++hits;
   });
   CHECK(hits > 5);

@@ -27,14 +27,14 @@ TEST_CASE("operations are charged by class, and what strategies count is left to
   operations.primitive_tests[1] = 3;
   operations.rays[0] = 10;
   operations.skipped.background = 4;
-  operations.brick_reads = 100;
+  operations.bvh_node_reads = 100;
   operations.primitive_tests[0] = 1000;
-  CHECK(of(charges_of(operations), Charge::brick_read) == 100);
+  CHECK(of(charges_of(operations), Charge::bvh_node_read) == 100);
   CHECK(of(charges_of(operations), Charge::triangle_test) == 1000);
   operations.instance_entries = 2;
   operations.placed_triangles = 3;
   const ChargeCounts counts = charges_of(operations);
-  CHECK(of(counts, Charge::brick_read) == 100 + 2 * bricks_an_entry);
+  CHECK(of(counts, Charge::bvh_node_read) == 100 + 2 * bvh_nodes_an_entry);
   CHECK(of(counts, Charge::triangle_test) == 1000 + 3 * tests_a_placing);
   CHECK(of(counts, Charge::cell_step) == 7);
   CHECK(of(counts, Charge::sphere_test) == 3);

@@ -4,7 +4,7 @@
 
 #include "apps/lab/bench/stability/random.h"
 #include "core/database/database.h"
-#include "core/picture/camera.h"
+#include "core/picture/camera/camera.h"
 #include "core/scene/frame.h"
 #include "tests/support/shooting.h"
 

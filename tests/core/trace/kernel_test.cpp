@@ -58,7 +58,7 @@ Ray random_ray(Random& random) {
   }
 }
 
-/// Rows as in a block, ids 10, 20, ..., then 8 floats of garbage.
+/// Rows as in a leaf, ids 10, 20, ..., then 8 floats of garbage.
 std::vector<float> rows_of(const std::vector<Triangle>& triangles, Random& random) {
   std::vector<float> rows;
   for (std::size_t row = 0; row < 9; ++row) {
@@ -75,11 +75,11 @@ std::vector<float> rows_of(const std::vector<Triangle>& triangles, Random& rando
   return rows;
 }
 
-/// A block of triangles with the ids 10, 20, ... and room to read over.
-std::vector<std::byte> block_of(const std::vector<Triangle>& triangles) {
+/// A leaf of triangles with the ids 10, 20, ... and room to read over.
+std::vector<std::byte> leaf_of(const std::vector<Triangle>& triangles) {
   Random random(1);
-  std::vector<std::byte> bytes(block_bytes(PrimitiveKind::triangle, block_lanes) + overread_bytes);
-  const BlockHeader header{.kind = PrimitiveKind::triangle, .count = static_cast<std::uint8_t>(triangles.size())};
+  std::vector<std::byte> bytes(leaf_bytes(PrimitiveKind::triangle, leaf_lanes) + overread_bytes);
+  const LeafHeader header{.kind = PrimitiveKind::triangle, .count = static_cast<std::uint8_t>(triangles.size())};
   const auto rows = rows_of(triangles, random);
   std::memcpy(bytes.data(), &header, sizeof(header));
   std::memcpy(bytes.data() + sizeof(header), rows.data(), triangles.size() * 40);
@@ -93,8 +93,8 @@ const Ray along_z = ray_from({0, 0, 0}, {0, 0, 1});
 Hit tested(const std::vector<Triangle>& triangles, const Ray& ray) {
   Hit best;
   Operations operations;
-  const auto block = block_of(triangles);
-  test_block(ray, ShearedRay(ray), block.data(), Address{5}, best, operations);
+  const auto leaf = leaf_of(triangles);
+  test_leaf(ray, ShearedRay(ray), leaf.data(), Address{5}, best, operations);
   CHECK(operations.primitive_tests[0] == triangles.size());
   return best;
 }
@@ -105,7 +105,7 @@ TEST_CASE("vectors of 1 to 8 lanes give the scalar twin's bits, whatever lies be
   Random random(1);
   std::size_t differences = 0, hits = 0;
   for (std::size_t i = 0; i < scaled(200'000); ++i) {
-    const std::size_t count = 1 + i % block_lanes;
+    const std::size_t count = 1 + i % leaf_lanes;
     std::vector<Triangle> triangles;
     while (triangles.size() < count) {
       triangles.push_back(random_triangle(random));
@@ -114,7 +114,7 @@ TEST_CASE("vectors of 1 to 8 lanes give the scalar twin's bits, whatever lies be
     const ShearedRay ray(random_ray(random));
     const auto ignored = static_cast<std::uint32_t>(10 * random.below(12));
     const float t_most = random.bits() % 4 == 0 ? 1.0F : std::numeric_limits<float>::infinity();
-    float scalar[block_lanes], simd[block_lanes];
+    float scalar[leaf_lanes], simd[leaf_lanes];
     const std::uint32_t expected = hit_triangles_scalar(ray, {rows.data(), count}, ignored, t_most, scalar);
     differences += hit_triangles(ray, {rows.data(), count}, ignored, t_most, simd) == expected ? 0 : 1;
     for (std::uint32_t rest = expected; rest != 0; rest &= rest - 1) {
@@ -142,32 +142,32 @@ TEST_CASE("a lane's place changes no bit of its answer") {
   Random random(2);
   for (std::size_t i = 0; i < scaled(2000); ++i) {
     std::vector<Triangle> triangles;
-    while (triangles.size() < block_lanes) {
+    while (triangles.size() < leaf_lanes) {
       triangles.push_back(random_triangle(random));
     }
     const ShearedRay ray(random_ray(random));
-    float forward[block_lanes], backward[block_lanes];
+    float forward[leaf_lanes], backward[leaf_lanes];
     const auto hits = [&](float* times) {
       const auto rows = rows_of(triangles, random);
-      return hit_triangles(ray, {rows.data(), block_lanes}, no_primitive, std::numeric_limits<float>::infinity(), times);
+      return hit_triangles(ray, {rows.data(), leaf_lanes}, no_primitive, std::numeric_limits<float>::infinity(), times);
     };
     const std::uint32_t ahead = hits(forward);
     std::reverse(triangles.begin(), triangles.end());
     const std::uint32_t back = hits(backward);
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < leaf_lanes; ++lane) {
       const bool is_hit = (ahead >> lane & 1U) != 0;
-      CHECK(is_hit == ((back >> (block_lanes - 1 - lane) & 1U) != 0));
-      CHECK((!is_hit || forward[lane] == backward[block_lanes - 1 - lane]));
+      CHECK(is_hit == ((back >> (leaf_lanes - 1 - lane) & 1U) != 0));
+      CHECK((!is_hit || forward[lane] == backward[leaf_lanes - 1 - lane]));
     }
   }
 }
 
-TEST_CASE("a block yields its nearest hit, and the lowest id of equal ones") {
+TEST_CASE("a leaf yields its nearest hit, and the lowest id of equal ones") {
   const Hit hit = tested({behind, front, front}, along_z);
   CHECK(hit.t == 1.0F);
   CHECK(hit.primitive == 20);
   CHECK(hit.lane == 1);
-  CHECK(hit.block == Address{5});
+  CHECK(hit.leaf == Address{5});
 }
 
 TEST_CASE("the ignored primitive and hits at t_max or beyond do not count") {
@@ -182,15 +182,15 @@ TEST_CASE("the ignored primitive and hits at t_max or beyond do not count") {
   CHECK_FALSE(tested({behind, front}, ray_from({0, 0, 3}, {0, 0, 1})).found());
 }
 
-TEST_CASE("testing a block twice, or after a nearer hit, changes nothing") {
-  const auto block = block_of({front, behind});
+TEST_CASE("testing a leaf twice, or after a nearer hit, changes nothing") {
+  const auto leaf = leaf_of({front, behind});
   Hit best{.t = 0.5F, .primitive = 3};
   Operations operations;
-  test_block(along_z, ShearedRay(along_z), block.data(), Address{5}, best, operations);
+  test_leaf(along_z, ShearedRay(along_z), leaf.data(), Address{5}, best, operations);
   CHECK(best.primitive == 3);
   best = {.t = 1.0F, .primitive = 15};
   for (int i = 0; i < 2; ++i) {
-    test_block(along_z, ShearedRay(along_z), block.data(), Address{5}, best, operations);
+    test_leaf(along_z, ShearedRay(along_z), leaf.data(), Address{5}, best, operations);
     CHECK(best.primitive == 10);
   }
 }
@@ -198,49 +198,49 @@ TEST_CASE("testing a block twice, or after a nearer hit, changes nothing") {
 namespace {
 
 /// With up to 8 boxes of any size and place, flat ones and points too.
-Brick random_brick(Random& random) {
-  Brick brick{.origin = point(random), .unit = std::ldexp(1.0F, -8 - static_cast<int>(random.below(6)))};
-  brick.child_count = static_cast<std::uint32_t>(1 + random.below(brick_children_max));
-  for (std::size_t child = 0; child < brick.child_count; ++child) {
-    brick.child[child] = BrickChild::block(Address{static_cast<std::uint32_t>(100 + child)});
+BvhNode random_bvh_node(Random& random) {
+  BvhNode bvh_node{.origin = point(random), .unit = std::ldexp(1.0F, -8 - static_cast<int>(random.below(6)))};
+  bvh_node.child_count = static_cast<std::uint32_t>(1 + random.below(bvh_children_max));
+  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+    bvh_node.child[child] = BvhChild::leaf(Address{static_cast<std::uint32_t>(100 + child)});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::uint8_t>(random.below(256)), b = static_cast<std::uint8_t>(random.below(256));
-      brick.bounds[axis][child] = std::min(a, b);
-      brick.bounds[axis + 3][child] = random.below(8) == 0 ? std::min(a, b) : std::max(a, b);
+      bvh_node.bounds[axis][child] = std::min(a, b);
+      bvh_node.bounds[axis + 3][child] = random.below(8) == 0 ? std::min(a, b) : std::max(a, b);
     }
   }
-  return brick;
+  return bvh_node;
 }
 
 /// In any direction, or along one or two axes with zeros of either sign.
-Ray random_ray_at(const Brick& brick, Random& random) {
+Ray random_ray_at(const BvhNode& bvh_node, Random& random) {
   Vec3f direction(random.direction());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     direction[axis] = random.below(4) == 0 ? std::copysign(0.0F, direction[axis]) : direction[axis];
   }
-  const Vec3f target = brick.origin + Vec3f(random.in_box(0, 255)) * brick.unit;
+  const Vec3f target = bvh_node.origin + Vec3f(random.in_box(0, 255)) * bvh_node.unit;
   return ray_from(target - direction * static_cast<float>(random.between(-1, 3)), direction);
 }
 
 struct Met {
-  BrickChild first = BrickChild::none();
+  BvhChild first = BvhChild::none();
   float t_first = 0;
-  std::vector<BrickChild> waiting;  ///< the nearest last
-  std::vector<float> t_enter;       ///< of those that wait
+  std::vector<BvhChild> waiting;  ///< the nearest last
+  std::vector<float> t_enter;     ///< of those that wait
 
   bool operator==(const Met& other) const {
-    const auto same = [](BrickChild a, BrickChild b) { return a.bits == b.bits; };
+    const auto same = [](BvhChild a, BvhChild b) { return a.bits == b.bits; };
     return same(first, other.first) && t_first == other.t_first && t_enter == other.t_enter &&
            std::equal(waiting.begin(), waiting.end(), other.waiting.begin(), other.waiting.end(), same);
   }
   std::size_t count() const { return waiting.size() + (first.found() ? 1 : 0); }
 };
 
-Met met_by(BrickKernel meet, const Ray& ray, const Brick& brick, bool in_order, float t_high) {
+Met met_by(BvhNodeKernel meet, const Ray& ray, const BvhNode& bvh_node, bool in_order, float t_high) {
   MetChildren waiting;
   waiting.count = 0;
   waiting.t_taken = 0;
-  const BrickChild first = meet(BoxRay(ray, reciprocal_direction(ray)), brick, 0.0F, t_high, in_order, waiting);
+  const BvhChild first = meet(BoxRay(ray, reciprocal_direction(ray)), bvh_node, 0.0F, t_high, in_order, waiting);
   return {first,
           waiting.t_taken,
           {waiting.record.begin(), waiting.record.begin() + waiting.count},
@@ -248,12 +248,12 @@ Met met_by(BrickKernel meet, const Ray& ray, const Brick& brick, bool in_order, 
 }
 
 /// Whether the ray's point at t is in the box, in double.
-bool is_inside(const Brick& brick, std::size_t child, const Ray& ray, double t, double margin) {
+bool is_inside(const BvhNode& bvh_node, std::size_t child, const Ray& ray, double t, double margin) {
   bool inside = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = double{ray.origin[axis]} + t * double{ray.direction[axis]};
-    const double low = double{brick.origin[axis]} + brick.bounds[axis][child] * double{brick.unit};
-    const double high = double{brick.origin[axis]} + brick.bounds[axis + 3][child] * double{brick.unit};
+    const double low = double{bvh_node.origin[axis]} + bvh_node.bounds[axis][child] * double{bvh_node.unit};
+    const double high = double{bvh_node.origin[axis]} + bvh_node.bounds[axis + 3][child] * double{bvh_node.unit};
     inside = inside && at >= low + margin && at <= high - margin;
   }
   return inside;
@@ -265,12 +265,12 @@ TEST_CASE("vectors of boxes give the scalar twin's children, in its order, with 
   Random random(3);
   std::size_t differences = 0, found = 0;
   for (std::size_t i = 0; i < scaled(200'000); ++i) {
-    const Brick brick = random_brick(random);
-    const Ray ray = random_ray_at(brick, random);
+    const BvhNode bvh_node = random_bvh_node(random);
+    const Ray ray = random_ray_at(bvh_node, random);
     const float t_high = random.bits() % 2 == 0 ? 1.0F : std::numeric_limits<float>::infinity();
     const bool in_order = random.bits() % 2 == 0;
-    const Met met = met_by(meet_children, ray, brick, in_order, t_high);
-    differences += met == met_by(meet_children_scalar, ray, brick, in_order, t_high) ? 0 : 1;
+    const Met met = met_by(meet_children, ray, bvh_node, in_order, t_high);
+    differences += met == met_by(meet_children_scalar, ray, bvh_node, in_order, t_high) ? 0 : 1;
     found += met.count();
   }
   CHECK(differences == 0);
@@ -281,17 +281,17 @@ TEST_CASE("a ray meets every box that it passes through by more than rounding, n
   Random random(4);
   std::size_t missed_boxes = 0, out_of_order = 0, through = 0;
   for (std::size_t i = 0; i < scaled(50'000); ++i) {
-    const Brick brick = random_brick(random);
-    const Ray ray = random_ray_at(brick, random);
-    const Met met = met_by(meet_children, ray, brick, true, std::numeric_limits<float>::infinity());
+    const BvhNode bvh_node = random_bvh_node(random);
+    const Ray ray = random_ray_at(bvh_node, random);
+    const Met met = met_by(meet_children, ray, bvh_node, true, std::numeric_limits<float>::infinity());
     const bool sorted = std::is_sorted(met.t_enter.rbegin(), met.t_enter.rend());
     out_of_order += sorted && (met.t_enter.empty() || met.t_first <= met.t_enter.back()) ? 0 : 1;
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
       bool inside = false;
       for (int step = 0; step < 64; ++step) {
-        inside = inside || is_inside(brick, child, ray, step / 16.0, 0x1p-20);
+        inside = inside || is_inside(bvh_node, child, ray, step / 16.0, 0x1p-20);
       }
-      const auto is_child = [&](BrickChild one) { return one.bits == brick.child[child].bits; };
+      const auto is_child = [&](BvhChild one) { return one.bits == bvh_node.child[child].bits; };
       const bool is_met = is_child(met.first) || std::any_of(met.waiting.begin(), met.waiting.end(), is_child);
       missed_boxes += inside && !is_met ? 1 : 0;
       through += inside ? 1 : 0;

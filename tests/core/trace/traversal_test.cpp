@@ -61,7 +61,7 @@ TEST_CASE("a ray beside the grid, away from it or ending before it reads no reco
   }
 }
 
-TEST_CASE("a walk that has ended answers again and reads nothing more") {
+TEST_CASE("a traversal that has ended answers again and reads nothing more") {
   Cursor cursor;
   CountingRecords records(cube_database());
   const Ray ray = ray_in_world({5, 0.1, 0.2}, {0, 0, 0});
@@ -112,7 +112,7 @@ const Database& border_database() {
 /// A coordinate of a plane between cells; exact where `plane` is a power of two.
 float coordinate(std::int32_t plane) { return static_cast<float>(plane) * border_database().header().frame.finest_cell; }
 
-/// The cursor after a walk from `passage` through the part of the grid that is `region`.
+/// The cursor after a traversal from `passage` through the part of the grid that is `region`.
 struct Stretch {
   Stretch(const Ray& ray, const Passage& passage, const Region& region) : cursor(arrive(passage)) {
     const DatabasePart part = extract(border_database(), region);

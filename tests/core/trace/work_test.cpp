@@ -10,7 +10,7 @@ TEST_CASE("work is each operation at its price") {
   core::Operations operations;
   operations.rays = {1, 2, 3, 4};
   operations.cell_steps = 5;
-  operations.brick_reads = 6;
+  operations.bvh_node_reads = 6;
   operations.primitive_tests = {7, 8, 9};
   operations.shadings = 10;
   operations.tile_reads = 11;
@@ -18,12 +18,12 @@ TEST_CASE("work is each operation at its price") {
   CHECK(core::work_of(operations, prices) == 100'000'000 + 5'000'000 + 600'000 + 70'000 + 8'000 + 900 + 100 + 11);
 }
 
-TEST_CASE("to go into a kept mesh is work of bricks, and to place its triangles work of tests, as machines are charged") {
+TEST_CASE("to go into a base mesh is work of BVH nodes, and to place its triangles work of tests, as machines are charged") {
   core::Operations operations;
   operations.instance_entries = 3;
   operations.placed_triangles = 40;
-  const core::WorkPrices prices{.brick_read_ps = 1'000'000, .primitive_test_ps = {1000, 1, 1}};
-  CHECK(core::work_of(operations, prices) == 3 * core::bricks_an_entry * 1'000'000 + 40 * core::tests_a_placing * 1000);
+  const core::WorkPrices prices{.bvh_node_read_ps = 1'000'000, .primitive_test_ps = {1000, 1, 1}};
+  CHECK(core::work_of(operations, prices) == 3 * core::bvh_nodes_an_entry * 1'000'000 + 40 * core::tests_a_placing * 1000);
 }
 
 TEST_CASE("a ray that is known to meet only the background is no work") {
@@ -37,7 +37,7 @@ TEST_CASE("every kind of work has a price") {
   const core::WorkPrices& prices = core::measured_prices;
   CHECK(prices.ray_ps > 0);
   CHECK(prices.cell_step_ps > 0);
-  CHECK(prices.brick_read_ps > 0);
+  CHECK(prices.bvh_node_read_ps > 0);
   CHECK(prices.shading_ps > 0);
   CHECK(prices.tile_read_ps > 0);
   for (const std::uint64_t price : prices.primitive_test_ps) {

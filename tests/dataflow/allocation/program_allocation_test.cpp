@@ -41,7 +41,7 @@ TEST_CASE("a node of dataflow allocates nothing while it traces, receives and se
   CHECK(allocated_by({}, 5) == 0);
   CHECK(allocated_by({.rays = {.ray_batch = 1, .ray_credits = 1}}, 5) == 0);
   CHECK(allocated_by({.rays = {.ray_credits = 0}}, 3) == 0);
-  CHECK(allocated_by({.rays = {.ray_batch = 1, .ray_places = 1}}, 5) == 0);
+  CHECK(allocated_by({.rays = {.ray_batch = 1, .ray_slots = 1}}, 5) == 0);
   CHECK(allocated_by({.refinement = {.error = 0.01}}, 3) == 0);
   CHECK(allocated_by({.bundles = true}, 5) == 0);
   CHECK(allocated_by({.rays = {.ray_batch = 1, .ray_credits = 0}, .bundles = true}, 3) == 0);

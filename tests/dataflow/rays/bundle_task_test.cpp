@@ -48,7 +48,7 @@ core::Ray primary(std::uint32_t pixel) { return subject().settings().camera.prim
 bool same(const RayMessage& a, const RayMessage& b) {
   return a.ray.pixel == b.ray.pixel && a.t_enter == b.t_enter && a.cell == b.cell && a.entry_axis == b.entry_axis &&
          a.is_confirmed == b.is_confirmed && a.finder == b.finder && a.best.t == b.best.t &&
-         a.best.primitive == b.best.primitive && a.best.block == b.best.block && a.best.lane == b.best.lane;
+         a.best.primitive == b.best.primitive && a.best.leaf == b.best.leaf && a.best.lane == b.best.lane;
 }
 
 /// The ray that has ended next in a bundle is what a task of its own makes of it.
@@ -120,7 +120,7 @@ TEST_CASE("a candidate of another node's stays its finder's until it is met here
       }
       RayMessage message = dataflow::message_of(primary(pixel), *passage, other);
       message.best = finder.task.leaving().best;
-      message.best.block = elsewhere;
+      message.best.leaf = elsewhere;
       message.best.primitive += pixel % 2 == 0 ? 0 : 0x00ff0000;  // of no primitive that there is
       message.best.t = pixel % 4 < 2 ? message.best.t : static_cast<float>(passage->t_enter) + 1e-6F;
       messages.push_back(message);

@@ -180,7 +180,7 @@ TEST_CASE("a packet that is not full waits for its owner's credit and does not o
 }
 
 TEST_CASE("a shared place is asked for with the first ray, once, and again for what is left when it is used") {
-  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .shares_places = true, .queue_packets = 2});
+  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .shares_slots = true, .queue_packets = 2});
   sender.add(0, 1);
   const tests::Parcel request = sender.single.take();
   CHECK(request.target == NodeId{0});
@@ -205,7 +205,7 @@ TEST_CASE("a shared place is asked for with the first ray, once, and again for w
 }
 
 TEST_CASE("a shared place goes back unused, and counts as a packet, if its rays have gone by way of the host") {
-  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0, .shares_places = true, .host_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0, .shares_slots = true, .host_credits = 1});
   sender.add(2, 1);
   CHECK(Kind{sender.single.take().kind} == Kind::ask);
   CHECK(sender.gather.send() == Way::to_host);
@@ -222,7 +222,7 @@ TEST_CASE("a shared place goes back unused, and counts as a packet, if its rays 
 
 TEST_CASE("no more owners are asked at once than there are packets, and each answer lets the next be asked, in turn") {
   RaySender sender(
-      {.node_count = 6, .ray_batch = 1, .ray_credits = 0, .shares_places = true, .open_packets = 2, .host_credits = 9});
+      {.node_count = 6, .ray_batch = 1, .ray_credits = 0, .shares_slots = true, .open_packets = 2, .host_credits = 9});
   for (const std::uint32_t owner : {0U, 2U}) {
     sender.add(owner, owner);
     CHECK(Kind{sender.single.take().kind} == Kind::ask);

@@ -25,13 +25,13 @@ namespace {
 struct Hat {
   explicit Hat(std::uint32_t region_count)
       : scene(tests::built_in("sombrero-1")),
-        database(core::build_database(scene, apps::several_top_cells(scene))),
+        database(core::build_database(scene, apps::several_macro_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, 24, 24, 1), {}},
         distribution(dataflow::distribute(database, settings,
                                           dataflow::equal_size_bsp(core::grid_size(settings.header.frame),
                                                                    dataflow::axes_facing(settings.camera), region_count))) {}
   const dataflow::Regions& bsp() const { return distribution.regions; }
-  dataflow::Surroundings known() const { return tests::surroundings(bsp(), distribution.outline); }
+  dataflow::Surroundings known() const { return tests::surroundings(bsp(), distribution.proxy); }
   /// Which regions are empty, and no more.
   dataflow::Surroundings marks() const { return tests::surroundings(bsp(), unknown); }
 
@@ -39,7 +39,7 @@ struct Hat {
   core::Database database;
   core::RenderSettings settings;
   dataflow::Distribution distribution;
-  core::DatabasePart unknown = core::outline_of(database, 0);
+  core::DatabasePart unknown = core::proxy_of(database, 0);
 };
 
 /// How a ray ends.
@@ -118,11 +118,11 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
   CHECK(asked < asked_of_all / 4 * 3);
 }
 
-TEST_CASE("a ray that passes regions where the outline says that it meets nothing ends with the same bits and asks few owners") {
+TEST_CASE("a ray that passes regions where the proxy says that it meets nothing ends with the same bits and asks few owners") {
   const Hat hat(24);
   const core::GridFrame& frame = hat.settings.header.frame;
-  const core::DatabasePart coarse = core::outline_of(hat.database, 3000);
-  REQUIRE(coarse.record_bytes < hat.distribution.outline.record_bytes);
+  const core::DatabasePart coarse = core::proxy_of(hat.database, 3000);
+  REQUIRE(coarse.record_bytes < hat.distribution.proxy.record_bytes);
   apps::Random random(20'262);
   std::uint32_t asked = 0, asked_coarsely = 0, asked_by_marks = 0, hits = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -151,7 +151,7 @@ TEST_CASE("a ray that passes regions where the outline says that it meets nothin
   CHECK(asked < asked_by_marks / 2);
 }
 
-TEST_CASE("a ray stops in the region of who asks, whatever the outline says") {
+TEST_CASE("a ray stops in the region of who asks, whatever the proxy says") {
   const Hat hat(24);
   std::uint32_t stopped = 0;
   for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
@@ -162,7 +162,7 @@ TEST_CASE("a ray stops in the region of who asks, whatever the outline says") {
       const dataflow::NextStop stop = next_stop(ray, *first, hat.known(), nodes::NodeId{here}, operations);
       CHECK(stop.traced == Traced::left);
       CHECK(stop.region == here);
-      CHECK(operations.brick_reads == 0);
+      CHECK(operations.bvh_node_reads == 0);
       ++stopped;
     }
   }

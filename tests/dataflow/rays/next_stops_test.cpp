@@ -8,7 +8,7 @@
 
 #include "apps/lab/bench/stability/random.h"
 #include "core/database/database.h"
-#include "core/trace/bundle_walk.h"
+#include "core/trace/bundle_traversal.h"
 #include "dataflow/distribution.h"
 #include "dataflow/regions/balance.h"
 #include "tests/support/scaled.h"
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t region_count = 24;
 
-/// A database cut into regions, with outlines of several sizes.
+/// A database cut into regions, with proxies of several sizes.
 struct Land {
   explicit Land(const core::BuildOptions& options, std::size_t coarse_bytes)
       : database(core::build_database(tests::built_in("sombrero-1"), options)),
@@ -33,12 +33,12 @@ struct Land {
         distribution(dataflow::distribute(database, settings,
                                           dataflow::equal_size_bsp(core::grid_size(settings.header.frame),
                                                                    dataflow::axes_facing(settings.camera), region_count))),
-        coarse(core::outline_of(database, coarse_bytes)) {}
+        coarse(core::proxy_of(database, coarse_bytes)) {}
 
   core::Database database;
   core::RenderSettings settings;
   dataflow::Distribution distribution;
-  core::DatabasePart coarse, unknown = core::outline_of(database, 0);
+  core::DatabasePart coarse, unknown = core::proxy_of(database, 0);
 };
 
 /// Up to 16 rays: neighbours, or of all places and directions, some of them along an axis.
@@ -71,7 +71,7 @@ void shoot(apps::Random& random, const Land& land, core::RayBundle& bundle) {
 /// What became of rays that had left.
 struct Seen {
   std::uint64_t stops = 0, passed = 0, hits = 0, misses = 0, stayed = 0;
-  std::uint64_t bricks = 0, bricks_alone = 0;
+  std::uint64_t bvh_nodes = 0, bvh_nodes_alone = 0;
 };
 
 /// Each ray of the bundle that has left goes on as it would alone.
@@ -112,8 +112,8 @@ void check_stops(core::RayBundle& bundle, const dataflow::Surroundings& surround
   CHECK(together.cell_steps == alone.cell_steps);
   CHECK(together.skipped.empty_regions == alone.skipped.empty_regions);
   CHECK(together.empty_cells == alone.empty_cells);
-  seen.bricks += together.brick_reads;
-  seen.bricks_alone += alone.brick_reads;
+  seen.bvh_nodes += together.bvh_node_reads;
+  seen.bvh_nodes_alone += alone.bvh_node_reads;
 }
 
 /// Rays walk in a region as a bundle, some with a candidate of before, and leave it.
@@ -136,8 +136,8 @@ Seen seen_in(const Land& land, std::uint64_t seed) {
         bundle->found |= RayMask{1} << ray;
       }
     }
-    const core::DatabasePart* const outline = std::array{&land.distribution.outline, &land.coarse, &land.unknown}[turn % 3];
-    check_stops(*bundle, tests::surroundings(regions, *outline), there, seen);
+    const core::DatabasePart* const proxy = std::array{&land.distribution.proxy, &land.coarse, &land.unknown}[turn % 3];
+    check_stops(*bundle, tests::surroundings(regions, *proxy), there, seen);
   }
   return seen;
 }
@@ -146,18 +146,18 @@ Seen seen_in(const Land& land, std::uint64_t seed) {
 
 TEST_CASE("rays that leave a region together stop, or end, where each of them does alone, for hardly more work") {
   const Land land({.cells_per_primitive = 1}, 3000);
-  REQUIRE(land.coarse.record_bytes < land.distribution.outline.record_bytes);
+  REQUIRE(land.coarse.record_bytes < land.distribution.proxy.record_bytes);
   const Seen seen = seen_in(land, 20'271);
   CHECK(seen.stops > 300);
   CHECK(seen.passed > 100);
   CHECK(seen.hits > 30);
   CHECK(seen.misses > 100);
   CHECK(seen.stayed > 10);
-  CHECK(seen.bricks_alone > 1000);
-  CHECK(seen.bricks < seen.bricks_alone * 21 / 20);  // children come in one order for all
+  CHECK(seen.bvh_nodes_alone > 1000);
+  CHECK(seen.bvh_nodes < seen.bvh_nodes_alone * 21 / 20);  // children come in one order for all
 }
 
-TEST_CASE("so they do among voxels, and where the outline has cubes of voxels") {
+TEST_CASE("so they do among voxels, and where the proxy has cubes of voxels") {
   const Land land({.structure = core::Structure::voxels, .voxels = {.voxels_per_primitive = 30}}, 4096);
   REQUIRE(land.coarse.header.directory_doublings > 0);
   const Seen seen = seen_in(land, 20'272);

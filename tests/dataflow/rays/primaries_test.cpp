@@ -37,7 +37,7 @@ TEST_CASE("rays of later passes come packet by packet, and each makes room for a
   Primaries primaries(memory, std::vector<PrimaryRun>{{0, 1}}, {0, 2}, true);
   CHECK(primaries.take() == 0);
   CHECK(primaries.packets_worked_off() == 0);
-  dataflow::DealtPrimaries packet{.samples = {2, 2}, .count = static_cast<std::uint32_t>(packet.runs.size())};
+  dataflow::AssignedPrimaries packet{.samples = {2, 2}, .count = static_cast<std::uint32_t>(packet.runs.size())};
   for (std::uint32_t i = 0; i < packet.count; ++i) {
     packet.runs[i] = {10 * i, 2};
   }
@@ -65,7 +65,7 @@ TEST_CASE("a ray's number tells its pixel's place and its sample") {
   CHECK(dataflow::sample_of(17, {8, 4}) == 9);
 }
 
-TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it enters, and the sky is spread") {
+TEST_CASE("every primary ray is assigned once, to the owner of the cell in which it enters, and the sky is spread") {
   core::Scene scene = tests::mirrors_and_glass();
   scene.view.at = {4, -3, 2};  // half of the picture is sky
   const core::Database database = core::build_database(scene, {});
@@ -73,13 +73,13 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
   const core::Camera camera(scene.view, frame, 30, 20, 3);
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
   const core::RenderSettings settings{.header = database.header(), .camera = camera};
-  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()));
-  std::vector<int> dealt(camera.pixel_count() * 3);
+  const auto runs = dataflow::assign_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()));
+  std::vector<int> assigned(camera.pixel_count() * 3);
   std::vector<int> sky(5);
   for (std::uint32_t node = 0; node < 5; ++node) {
     for (const PrimaryRun& run : runs[node]) {
       for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
-        ++dealt[number];
+        ++assigned[number];
         const auto pixel = static_cast<std::uint32_t>(number / 3);
         const auto passage = core::first_passage(camera.primary_ray(pixel, static_cast<std::uint32_t>(number % 3)), frame);
         CHECK((!passage || bsp.owner_of(passage->cell) == nodes::NodeId{node}));
@@ -87,14 +87,14 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
       }
     }
   }
-  CHECK(dealt == std::vector<int>(dealt.size(), 1));
+  CHECK(assigned == std::vector<int>(assigned.size(), 1));
   for (const int of_node : sky) {
     CHECK(of_node > 0);
-    CHECK(of_node <= static_cast<int>(dealt.size()) / 5);
+    CHECK(of_node <= static_cast<int>(assigned.size()) / 5);
   }
 }
 
-TEST_CASE("square by square, every primary ray is dealt once, to whom it is dealt row by row") {
+TEST_CASE("square by square, every primary ray is assigned once, to whom it is assigned row by row") {
   const core::Scene scene = tests::mirrors_and_glass();
   const core::Database database = core::build_database(scene, {});
   const core::GridFrame& frame = database.header().frame;
@@ -103,7 +103,7 @@ TEST_CASE("square by square, every primary ray is dealt once, to whom it is deal
   const core::RenderSettings settings{.header = database.header(), .camera = camera};
   const auto owners_in = [&](const dataflow::PixelOrder& order) {
     const auto runs =
-        dataflow::deal_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()), {}, order);
+        dataflow::assign_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()), {}, order);
     std::vector<std::uint32_t> owners(camera.pixel_count() * 3, 5);
     for (std::uint32_t node = 0; node < 5; ++node) {
       for (const PrimaryRun& run : runs[node]) {
@@ -133,14 +133,14 @@ TEST_CASE("rays of pixels that show the background are shared out by pixel numbe
   core::RenderSettings settings{.header = database.header(), .camera = camera, .background = core::BackgroundTiles(camera, bits)};
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 3);
   const core::PixelMask done(camera.pixel_count());
-  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), done);
+  const auto runs = dataflow::assign_primaries(settings, bsp, settings.first_pass(), done);
   for (std::uint32_t node = 0; node < 3; ++node) {
     REQUIRE(runs[node].size() == 1);
     CHECK(runs[node][0].first == node * 800);
     CHECK(runs[node][0].count == 800);
   }
   settings.skips.background = false;
-  CHECK(dataflow::deal_primaries(settings, bsp, settings.first_pass(), done)[0].size() > 1);
+  CHECK(dataflow::assign_primaries(settings, bsp, settings.first_pass(), done)[0].size() > 1);
 }
 
 }  // namespace primaries_test

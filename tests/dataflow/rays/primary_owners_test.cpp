@@ -6,7 +6,7 @@
 
 #include "apps/lab/bench/stability/cells.h"
 #include "core/database/database.h"
-#include "core/picture/background.h"
+#include "core/picture/camera/background.h"
 #include "core/trace/traversal.h"
 #include "dataflow/distribution.h"
 #include "dataflow/rays/next_stop.h"
@@ -26,7 +26,7 @@ namespace {
 struct SharedHat {
   SharedHat(const core::View& view, int side_pixels, int samples, const std::vector<std::uint32_t>& region_counts)
       : scene(tests::built_in("sombrero-1")),
-        database(core::build_database(scene, apps::several_top_cells(scene))),
+        database(core::build_database(scene, apps::several_macro_cells(scene))),
         settings{.header = database.header(),
                  .camera = core::Camera(view, database.header().frame, side_pixels, side_pixels - 4, samples)} {
     settings.background = core::find_background(database, settings.camera);
@@ -50,7 +50,7 @@ std::uint32_t owner_by_next_stop(const SharedHat& hat, const dataflow::Regions& 
   const core::Ray ray = hat.settings.camera.primary_ray(pixel, sample);
   if (const auto passage = core::first_passage(ray, frame); passage && !hat.settings.shows_background(pixel)) {
     core::Operations operations;
-    const dataflow::NextStop stop = tests::next_stop_without_outline(ray, *passage, frame, bsp, operations);
+    const dataflow::NextStop stop = tests::next_stop_without_proxy(ray, *passage, frame, bsp, operations);
     if (stop.traced == core::Traced::left) {
       return nodes::index_of(bsp.owner_of(stop.passage.cell));
     }
@@ -101,7 +101,7 @@ TEST_CASE("so is one whose eye is within the grid, or that runs along planes and
   CHECK(passed > 0);
 }
 
-TEST_CASE("runs of primary rays are counted for many computers as they are dealt to each") {
+TEST_CASE("runs of primary rays are counted for many computers as they are assigned to each") {
   std::vector<std::uint32_t> region_counts;
   for (std::uint32_t i = 0; i < dataflow::JointLattice::partitions_max + 5; ++i) {
     region_counts.push_back(1 + i % 9);
@@ -122,7 +122,7 @@ TEST_CASE("runs of primary rays are counted for many computers as they are dealt
   const auto counts = dataflow::count_primary_runs(hat.settings, hat.bsps, pass, done);
   REQUIRE(counts.size() == hat.bsps.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto runs = dataflow::deal_primaries(hat.settings, hat.bsps[i], pass, done);
+    const auto runs = dataflow::assign_primaries(hat.settings, hat.bsps[i], pass, done);
     REQUIRE(counts[i].size() == runs.size());
     std::uint64_t rays = 0;
     for (std::size_t node = 0; node < runs.size(); ++node) {

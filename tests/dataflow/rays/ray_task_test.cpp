@@ -138,7 +138,7 @@ TEST_CASE("a candidate that was found elsewhere keeps its finder and its address
   REQUIRE(bench.trace() == core::Traced::left);
   CHECK(!bench.task.found_here());
   CHECK(NodeId{bench.task.leaving().finder} == other);
-  CHECK(bench.task.leaving().best.block == elsewhere);
+  CHECK(bench.task.leaving().best.leaf == elsewhere);
   CHECK(bench.task.leaving().best.lane == 2);
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("a candidate that is met here, too, or one behind what is met here, ma
   finder.task.enter(message);
   finder.trace();
   core::Hit met = finder.task.leaving().best, farther = met;
-  met.block = farther.block = elsewhere;
+  met.leaf = farther.leaf = elsewhere;
   farther.t *= 2;
   for (const core::Hit& candidate : {met, farther}) {
     message.finder = 9;
@@ -159,7 +159,7 @@ TEST_CASE("a candidate that is met here, too, or one behind what is met here, ma
     CHECK(bench.task.found_here());
     CHECK(bench.task.leaving().best.t == met.t);
     CHECK(NodeId{bench.task.leaving().finder} == self);
-    CHECK(bench.task.leaving().best.block != elsewhere);
+    CHECK(bench.task.leaving().best.leaf != elsewhere);
   }
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("a hit that was found elsewhere is confirmed to its finder, and not sh
   const RayMessage confirmed = bench.task.confirmed_hit();
   CHECK(confirmed.is_confirmed == 1);
   CHECK(NodeId{confirmed.finder} == other);
-  CHECK(confirmed.best.block == elsewhere);
+  CHECK(confirmed.best.leaf == elsewhere);
   CHECK(confirmed.best.lane == 3);
   CHECK(confirmed.best.t == message.best.t);
   CHECK_THROWS_AS(bench.task.shade_hit(), core::InternalError);

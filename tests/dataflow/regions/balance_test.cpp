@@ -1,5 +1,5 @@
 #include "dataflow/regions/balance.h"
-#include "core/picture/subsample.h"
+#include "core/picture/camera/subsample.h"
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ struct Stage {
   core::RenderSettings settings;
 
   explicit Stage(const core::Scene& scene, int width = 64, int height = 64)
-      : database(core::build_database(scene, apps::several_top_cells(scene))),
+      : database(core::build_database(scene, apps::several_macro_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, width, height, 1), {}} {}
 
   ColumnLattice lattice() const {
@@ -114,7 +114,7 @@ TEST_CASE("the charged picture does the operations of the reference renderer, to
     }
     const core::Operations& found = picture.operations();
     CHECK(found.cell_steps == expected.cell_steps);
-    CHECK(found.brick_reads == expected.brick_reads);
+    CHECK(found.bvh_node_reads == expected.bvh_node_reads);
     CHECK(found.primitive_tests == expected.primitive_tests);
     CHECK(found.shadings == expected.shadings);
     CHECK(charged == core::work_of(found));
@@ -141,7 +141,7 @@ TEST_CASE("the work of a ray is charged along the ray, piece by piece, and its s
   core::Scene scene = built_in("tetra-5");
   scene.lights.clear();
   const Stage stage(scene);
-  constexpr double overlap = 2 * core::finest_per_top;  // of the boxes in a top cell, that are visited by where they begin
+  constexpr double overlap = 2 * core::finest_per_macro;  // of the boxes in a macro cell, that are visited by where they begin
   int hits = 0;
   for (std::uint32_t pixel = 0; pixel < stage.settings.camera.pixel_count(); pixel += 7) {
     std::vector<core::Corner> cells;
@@ -153,7 +153,7 @@ TEST_CASE("the work of a ray is charged along the ray, piece by piece, and its s
     CHECK(std::is_sorted(cells.begin(), cells.end(),
                          [&](const core::Corner& a, const core::Corner& b) { return path.along(a) < path.along(b) - overlap; }));
     hits += picture.operations().shadings > 0 ? 1 : 0;
-    CHECK((picture.operations().brick_reads < 8 || cells.front() != cells.back()));
+    CHECK((picture.operations().bvh_node_reads < 8 || cells.front() != cells.back()));
   }
   CHECK(hits > 50);
 }

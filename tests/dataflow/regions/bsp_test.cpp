@@ -252,18 +252,18 @@ TEST_CASE("by unit those hold nothing whose owner holds nothing") {
   CHECK(by_unit.is_empty(3));
 }
 
-TEST_CASE("rays walk in the largest block of a node's units that cuts end") {
+TEST_CASE("rays walk in the largest leaf of a node's units that cuts end") {
   Bsp bsp = dataflow::build_units(hill(), 2, 4);
-  CHECK(bsp.block_around(1).count == 4);
-  CHECK(bsp.block_around(1).box == bsp.without_units().region_at(0));
+  CHECK(bsp.leaf_around(1).count == 4);
+  CHECK(bsp.leaf_around(1).box == bsp.without_units().region_at(0));
   bsp.give_to(3, nodes::NodeId{1});
-  CHECK(bsp.block_around(1).count == 2);
-  CHECK(bsp.block_around(2).count == 1);
-  CHECK(bsp.block_around(2).box == bsp.region_at(2));
-  CHECK(bsp.block_around(3).count == 1);
+  CHECK(bsp.leaf_around(1).count == 2);
+  CHECK(bsp.leaf_around(2).count == 1);
+  CHECK(bsp.leaf_around(2).box == bsp.region_at(2));
+  CHECK(bsp.leaf_around(3).count == 1);
   bsp.give_to(2, nodes::NodeId{1});
-  CHECK(bsp.block_around(2).count == 2);
-  CHECK_FALSE(bsp.owns(nodes::NodeId{0}, bsp.block_around(2)));
+  CHECK(bsp.leaf_around(2).count == 2);
+  CHECK_FALSE(bsp.owns(nodes::NodeId{0}, bsp.leaf_around(2)));
 }
 
 TEST_CASE("units are as many as may be, or refused with what there may be") {

@@ -1,6 +1,6 @@
 // Nodes that hand one unit of space to each other while rays are under way to it, in every order of events: the questions, pages,
-// primary rays and acknowledgements of dataflow/units/hand_over.h with the proof of the end of dataflow/termination.h. Flow
-// control is left out: it has its own model, and what is handed over has places of its own.
+// primary rays and acknowledgements of dataflow/units/migration.h with the proof of the end of dataflow/termination.h. Flow
+// control is left out: it has its own model, and what is migrated has places of its own.
 //
 // Rays of other units have come to every node before, so each may ask. Whether a node finds another worth asking is left open: it
 // may after every packet that counts. Packets overtake each other, as they do under chaos.
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "dataflow/termination.h"
-#include "dataflow/units/hand_over.h"
+#include "dataflow/units/migration.h"
 #include "tests/dataflow/peers_model.h"
 
 namespace dmpc::tests {
@@ -26,9 +26,9 @@ struct HandOverRules {
   bool news_wakes = false;           ///< a node that hears who has the unit may ask
   bool answers_from_last_page = true;
   bool stores_before_acknowledging = true;
-  bool keeps_pages = true;       ///< a giver, for rays that walk there
-  bool giver_hands_over = true;  ///< with the last acknowledgement it no longer answers
-  bool asks_once = true;         ///< for all rays received, whatever the answer
+  bool keeps_pages = true;     ///< a donor, for rays that walk there
+  bool donor_migrates = true;  ///< with the last acknowledgement it no longer answers
+  bool asks_once = true;       ///< for all rays received, whatever the answer
   bool refuses_while_moving = true;
   bool believes_old_news = false;
 };
@@ -52,13 +52,13 @@ class HandOverModel {
   };
   using Channel = ModelChannel<Message, 6>;
   struct Member {
-    dataflow::HandOver hand_over;
+    dataflow::Migration migration;
     dataflow::Termination termination = dataflow::Termination::initiator(model_tree);
     std::uint8_t owner = 0, version = 0;  ///< of the unit, as it is known
     std::uint8_t rays = 0;                ///< not looked at yet
     std::uint8_t held = 0;                ///< not started
     std::uint8_t walking = 0;             ///< rays taken up while the node answered for the unit
-    std::uint8_t taker = 0;               ///< of the unit that is being given
+    std::uint8_t recipient = 0;           ///< of the unit that is being given
     std::uint8_t parts_left = 0;          ///< of that: its last page, its primary rays
     std::uint8_t unstored = 0;            ///< a last page that a broken node has acknowledged: its version
     bool has_pages = false;
@@ -88,7 +88,7 @@ class HandOverModel {
       m.rays = settings_.rays[node];
       m.held = settings_.held[node];
       state.alive = narrow(state.alive + m.rays + m.held);
-      m.hand_over.rays_came();
+      m.migration.rays_came();
       m.wants = true;
     }
     state.member[0].has_pages = true;
@@ -132,8 +132,8 @@ class HandOverModel {
       const Member& m = state.member[node];
       rays += m.rays + m.held + m.walking;
       answering += m.owner == node ? 1 : 0;
-      given += static_cast<std::uint32_t>(m.hand_over.given_count());
-      taken += static_cast<std::uint32_t>(m.hand_over.taken_count());
+      given += static_cast<std::uint32_t>(m.migration.given_count());
+      taken += static_cast<std::uint32_t>(m.migration.taken_count());
       wanting += wants_to_ask(state, node) ? 1 : 0;
     }
     hold(rays + rays_under_way(state) == state.alive, "no ray is lost or doubled while a unit moves");
@@ -169,10 +169,10 @@ class HandOverModel {
 
   static void append(std::string& bytes, const Member& m) {
     const auto& token = m.termination.token();
-    for (const int value : {int{m.hand_over.may_ask()},
-                            int{m.hand_over.is_settled()},
-                            int(m.hand_over.given_count()),
-                            int(m.hand_over.taken_count()),
+    for (const int value : {int{m.migration.may_ask()},
+                            int{m.migration.is_settled()},
+                            int(m.migration.given_count()),
+                            int(m.migration.taken_count()),
                             int(m.termination.balance()),
                             int{m.termination.is_black()},
                             int{m.termination.holds_token()},
@@ -186,13 +186,13 @@ class HandOverModel {
                             int{m.rays},
                             int{m.held},
                             int{m.walking},
-                            int{m.taker},
+                            int{m.recipient},
                             int{m.parts_left},
                             int{m.unstored},
                             int{m.has_pages},
                             int{m.wants},
-                            int{m.hand_over.may_give()},
-                            int{m.hand_over.have_rays_come()}}) {
+                            int{m.migration.may_give()},
+                            int{m.migration.have_rays_come()}}) {
       bytes += static_cast<char>(value);
     }
   }
@@ -228,7 +228,7 @@ class HandOverModel {
 
   static bool wants_to_ask(const State& state, std::size_t node) {
     const Member& m = state.member[node];
-    return m.hand_over.may_ask() && m.wants && state.questions_left > 0 && m.owner != node;
+    return m.migration.may_ask() && m.wants && state.questions_left > 0 && m.owner != node;
   }
   static bool has_work(const Member& m) { return m.rays + m.walking > 0 || m.unstored > 0; }
 
@@ -299,7 +299,7 @@ class HandOverModel {
 
   void ask(State& state, std::size_t node, std::size_t other) const {
     Member& m = state.member[node];
-    m.hand_over.ask();
+    m.migration.ask();
     m.wants = false;
     --state.questions_left;
     send(state, node, other, {.kind = Kind::ask});
@@ -331,7 +331,7 @@ class HandOverModel {
     m.wants = m.wants || is_counted(message.kind) || (settings_.rules.news_wakes && message.kind == Kind::moved);
     switch (message.kind) {
       case Kind::ray:
-        m.hand_over.rays_came();
+        m.migration.rays_came();
         ++m.rays;
         if (m.owner != to) {
           send(state, to, from, {Kind::moved, m.version, m.owner});
@@ -340,14 +340,14 @@ class HandOverModel {
       case Kind::ask:
         return receive_ask(state, from, to);
       case Kind::refusal:
-        m.hand_over.refused();
+        m.migration.refused();
         return settings_.rules.asks_once ? void() : ask_again(state, to);
       case Kind::page:
         return receive_page(state, from, to, message);
       case Kind::primaries:
         m.held = narrow(m.held + static_cast<std::size_t>(message.balance));
-        m.hand_over.taken();
-        m.hand_over.rays_came();
+        m.migration.taken();
+        m.migration.rays_came();
         return send(state, to, from, {.kind = Kind::acknowledgement});
       case Kind::acknowledgement:
         return receive_acknowledgement(state, to);
@@ -363,17 +363,17 @@ class HandOverModel {
   }
 
   void ask_again(State& state, std::size_t node) const {
-    state.member[node].hand_over.rays_came();
+    state.member[node].migration.rays_came();
     ++state.questions_left;
   }
 
   void receive_ask(State& state, std::size_t from, std::size_t to) const {
     Member& m = state.member[to];
-    if ((settings_.rules.refuses_while_moving && !m.hand_over.may_give()) || m.owner != to) {
+    if ((settings_.rules.refuses_while_moving && !m.migration.may_give()) || m.owner != to) {
       return send(state, to, from, {.kind = Kind::refusal});
     }
-    m.hand_over.give();
-    m.taker = narrow(from);
+    m.migration.give();
+    m.recipient = narrow(from);
     m.parts_left = 2;
     send(state, to, from, {Kind::page, static_cast<std::uint8_t>(m.version + 1), 0});
   }
@@ -397,19 +397,19 @@ class HandOverModel {
     switch (m.parts_left) {
       case 2:
         m.parts_left = 1;
-        return send(state, to, m.taker, {Kind::page, static_cast<std::uint8_t>(m.version + 1), 1});
+        return send(state, to, m.recipient, {Kind::page, static_cast<std::uint8_t>(m.version + 1), 1});
       case 1:
         m.parts_left = 0;
-        if (settings_.rules.giver_hands_over) {
-          m.owner = m.taker;
+        if (settings_.rules.donor_migrates) {
+          m.owner = m.recipient;
           ++m.version;
         }
-        send(state, to, m.taker, {.kind = Kind::primaries, .balance = static_cast<std::int8_t>(m.held)});
+        send(state, to, m.recipient, {.kind = Kind::primaries, .balance = static_cast<std::int8_t>(m.held)});
         m.held = settings_.rules.gives_primaries_away ? 0 : m.held;
         return;
       default:
         m.has_pages = settings_.rules.keeps_pages;
-        m.hand_over.given();
+        m.migration.given();
     }
   }
 

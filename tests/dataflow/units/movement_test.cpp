@@ -1,4 +1,4 @@
-// Units that are handed over while rays travel: whoever has them by then, the film stays.
+// Units that are migrated while rays travel: whoever has them by then, the film stays.
 #include "dataflow/units/movement.h"
 #include "core/trace/charge.h"
 
@@ -56,7 +56,7 @@ TEST_CASE("regions that do not move count nothing of units") {
   CHECK(movement.asks == 0);
 }
 
-TEST_CASE("units are handed over with primary rays on a modelled machine of every wiring, and the film stays") {
+TEST_CASE("units are migrated with primary rays on a modelled machine of every wiring, and the film stays") {
   for (const auto kind : {nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh, nodes::TopologyKind::torus,
                           nodes::TopologyKind::fat_tree, nodes::TopologyKind::crossbar}) {
     dataflow::RunOptions options = modelled(8, 8);
@@ -93,10 +93,10 @@ TEST_CASE("a node without a free frame or without room for primary rays takes no
     CHECK(node.memory_used.total() <= least);
   }
   options.computer.node_memory_bytes = least - 1;
-  CHECK_THROWS_AS(dataflow::run_dataflow(crowded().database(), crowded().settings(), options, {}), core::RoomError);
+  CHECK_THROWS_AS(dataflow::run_dataflow(crowded().database(), crowded().settings(), options, {}), core::CapacityError);
 }
 
-TEST_CASE("where the host deals the primary rays units stay where they are, and the film stays") {
+TEST_CASE("where the host assigns the primary rays units stay where they are, and the film stays") {
   dataflow::RunOptions options = modelled(8, 8);
   options.continuation.keep = [](const core::Film&, const core::Refinement&, const core::PixelMask&) {};
   options.continuation.is_due = [] { return false; };
@@ -105,7 +105,7 @@ TEST_CASE("where the host deals the primary rays units stay where they are, and 
   CHECK(movement.units_given == 0);
 }
 
-TEST_CASE("units are handed over on disturbed computers, and the film stays") {
+TEST_CASE("units are migrated on disturbed computers, and the film stays") {
   std::uint64_t given = 0, sent_on = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     INFO("seed ", seed);
@@ -123,7 +123,7 @@ TEST_CASE("units move where packets have one ray and nodes one credit, or one pl
   for (const bool are_shared : {false, true}) {
     dataflow::RunOptions options = modelled(8, 8);
     options.rays.ray_batch = 1;
-    (are_shared ? options.rays.ray_places : options.rays.ray_credits) = 1;
+    (are_shared ? options.rays.ray_slots : options.rays.ray_credits) = 1;
     CHECK(render(options).movement().units_given > 0);
   }
 }
@@ -151,7 +151,7 @@ TEST_CASE("a modelled machine takes its time for units' pages, and for the recor
   CHECK(installing_ns == 1000 * movement.pages_installed);
   CHECK(movement.pages_installed > 0);
   CHECK(movement.pages_installed <= movement.pages_sent);
-  const std::uint64_t reading_ns = computing_ns_with(core::Charge::brick_read, movement);
+  const std::uint64_t reading_ns = computing_ns_with(core::Charge::bvh_node_read, movement);
   CHECK(reading_ns > 1000 * movement.records_walked);
   CHECK(movement.records_walked >= movement.pages_sent);
 }

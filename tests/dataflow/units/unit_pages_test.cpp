@@ -84,7 +84,7 @@ TEST_CASE("a page is found by its number, whatever its frame, and what is not he
   CHECK(is_like(2));
   CHECK(bench.pages.find_page(3) == nullptr);
   const core::Address address = core::advance(core::Address{}, 3 * gears().page_size());
-  CHECK(core::read<core::Brick>(bench.pages.find(address)).child_count == 0);
+  CHECK(core::read<core::BvhNode>(bench.pages.find(address)).child_count == 0);
   CHECK(bench.pages.add(3, gears().page(3)));
   CHECK(is_like(3));
   CHECK(bench.pages.free_frames() == 0);

@@ -10,7 +10,7 @@
 namespace dmpc::tests::unit_primaries_test {
 namespace {
 
-using dataflow::DealtPrimaries;
+using dataflow::AssignedPrimaries;
 using dataflow::PrimaryRun;
 using dataflow::UnitPrimaries;
 
@@ -60,7 +60,7 @@ TEST_CASE("what is given of a unit is what has not started, and starts here no m
   for (int i = 0; i < 3; ++i) {
     bench.primaries.take();  // 0, 1, 2
   }
-  const DealtPrimaries given = bench.primaries.give(0);
+  const AssignedPrimaries given = bench.primaries.give(0);
   REQUIRE(given.count == 2);
   CHECK(given.runs[0].first == 3);
   CHECK(given.runs[0].count == 1);
@@ -90,15 +90,15 @@ TEST_CASE("a unit's runs go along packet by packet") {
   for (std::uint64_t i = 0; i < 100; ++i) {
     runs.push_back({10 * i, 2});
   }
-  UnitPrimariesBench giver(100, runs, {100}), taker(100, {}, {0});
-  CHECK(taker.primaries.free_runs() == 100);
-  while (giver.primaries.runs_of(0) > 0) {
-    taker.primaries.put(0, giver.primaries.give(0));
+  UnitPrimariesBench donor(100, runs, {100}), recipient(100, {}, {0});
+  CHECK(recipient.primaries.free_runs() == 100);
+  while (donor.primaries.runs_of(0) > 0) {
+    recipient.primaries.put(0, donor.primaries.give(0));
   }
-  CHECK(giver.primaries.empty());
-  CHECK(taker.primaries.left() == 200);
-  CHECK(taker.primaries.free_runs() == 0);
-  CHECK(taker.primaries.take() == 0);
+  CHECK(donor.primaries.empty());
+  CHECK(recipient.primaries.left() == 200);
+  CHECK(recipient.primaries.free_runs() == 0);
+  CHECK(recipient.primaries.take() == 0);
 }
 
 TEST_CASE("there is room for a unit where all rays have started, even between two packets, and for no more than that") {
@@ -106,16 +106,16 @@ TEST_CASE("there is room for a unit where all rays have started, even between tw
   CHECK(bench.primaries.free_runs() == 0);
   bench.take_all();
   CHECK(bench.primaries.free_runs() == 2);
-  DealtPrimaries dealt{.samples = {0, 1}, .count = 1};
+  AssignedPrimaries assigned{.samples = {0, 1}, .count = 1};
   for (const std::uint64_t first : {30U, 40U, 50U}) {
-    dealt.runs[0] = {first, 2};
-    bench.primaries.put(7, dealt);
+    assigned.runs[0] = {first, 2};
+    bench.primaries.put(7, assigned);
     CHECK(bench.take_all() == std::vector<std::uint64_t>{first, first + 1});
   }
-  dealt.count = 2;
-  bench.primaries.put(7, dealt);
-  CHECK_THROWS_AS(bench.primaries.put(7, dealt), core::InternalError);
-  CHECK_THROWS_AS(bench.primaries.put(6, DealtPrimaries{.samples = {0, 1}}), core::InternalError);
+  assigned.count = 2;
+  bench.primaries.put(7, assigned);
+  CHECK_THROWS_AS(bench.primaries.put(7, assigned), core::InternalError);
+  CHECK_THROWS_AS(bench.primaries.put(6, AssignedPrimaries{.samples = {0, 1}}), core::InternalError);
 }
 
 TEST_CASE("runs that are nobody's, or more than there is room for, are a fault") {

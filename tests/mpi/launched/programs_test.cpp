@@ -50,12 +50,12 @@ void check_program_fault(const std::string& name, const Words& words, int status
 
 TEST_CASE("a program comes to the same on any number of ranks, over shared memory and TCP, and disturbed") {
   for (const int ranks : {1, 2, 3, 5}) {
-    CHECK(on_ranks(ranks, "asker", {"--nodes=6", "--quiet"}, ranks == 2 ? tcp : shared_memory).output == "sum 1710\n");
+    CHECK(on_ranks(ranks, "requester", {"--nodes=6", "--quiet"}, ranks == 2 ? tcp : shared_memory).output == "sum 1710\n");
   }
   for (int seed = 0; seed < 4; ++seed) {
     INFO("seed ", seed);
     const std::string chaos = "--chaos=" + std::to_string(seed);
-    CHECK(on_ranks(3, "asker", {"--nodes=7", "--quiet", chaos}).output == "sum 1995\n");
+    CHECK(on_ranks(3, "requester", {"--nodes=7", "--quiet", chaos}).output == "sum 1995\n");
     CHECK(on_ranks(3, "tasks", {"--nodes=7", "--quiet", chaos, "--cache-pages=1"}).output == "sum 8000\n");
   }
 }
@@ -72,8 +72,8 @@ TEST_CASE("the examples come to the same on ranks" * doctest::test_suite("slow")
 TEST_CASE("counters on ranks add up to those of one process, and say what went between ranks") {
   const TemporaryFolder folder;
   const std::string here = folder / "here.json", there = folder / "there.json";
-  REQUIRE(alone("asker", {"--nodes=6", "--stats=" + here}).status == 0);
-  const Said ended = on_ranks(3, "asker", {"--nodes=6", "--stats=" + there});
+  REQUIRE(alone("requester", {"--nodes=6", "--stats=" + here}).status == 0);
+  const Said ended = on_ranks(3, "requester", {"--nodes=6", "--stats=" + there});
   REQUIRE_MESSAGE(ended.status == 0, ended.errors);
   CHECK(contains(ended.output, "6 nodes on ranks: "));
   CHECK(contains(ended.output, "; 60 packets between 3 ranks; "));
@@ -115,7 +115,7 @@ TEST_CASE("pages, references and results of tasks on ranks are those of one proc
 
 TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   const TemporaryFolder folder;
-  for (const auto& [name, once] : {std::pair<std::string, std::string>{"asker", "--questions=10"}, {"tasks", "--rounds=1"}}) {
+  for (const auto& [name, once] : {std::pair<std::string, std::string>{"requester", "--questions=10"}, {"tasks", "--rounds=1"}}) {
     const std::string file = folder / (name + ".pftrace"), stats = folder / (name + "-stats.json");
     const Said ended = on_ranks(3, name, {"--nodes=6", once, "--trace=" + file, "--stats=" + stats});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
@@ -139,7 +139,7 @@ TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
 TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of tasks is that of one process" *
           doctest::test_suite("slow")) {
   const TemporaryFolder folder;
-  for (const std::string name : {"asker", "tasks"}) {
+  for (const std::string name : {"requester", "tasks"}) {
     const std::string file = folder / (name + ".html");
     const Said ended = on_ranks(3, name, {"--nodes=6", "--report=" + file});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
@@ -149,7 +149,7 @@ TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of task
       CHECK_MESSAGE(contains(page, part), name);
     }
   }
-  CHECK(contains(file_text(folder / "asker.html"), "Who sent packets to whom"));
+  CHECK(contains(file_text(folder / "requester.html"), "Who sent packets to whom"));
   CHECK(contains(file_text(folder / "tasks.html"), "Who fetched pages from whom"));
   const auto heat = [&](const std::string& name) -> Words {
     return {"--nodes=6", "--in-flight=1", "--cache-pages=1", "--heat=" + (folder / name).string()};
@@ -160,17 +160,17 @@ TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of task
 }
 
 TEST_CASE("what a program does wrong on ranks is said once, and ends all of them" * doctest::test_suite("slow")) {
-  check_program_fault("asker", {"--fault=13"}, 3, "what it threw is no std::exception");
-  check_program_fault("asker", {"--fault=5"}, 3, "a packet 'question' of 80 bytes");
-  check_program_fault("asker", {"--fault=2"}, 3, "had no answer 'square'");
-  check_program_fault("asker", {"--fewer=1"}, 1, "needs of the program");
-  check_program_fault("asker", {"--node-memory=1KiB"}, 4, "--node-memory=1024");
-  check_program_fault("asker", {"--questions=x"}, 2, "--questions");
+  check_program_fault("requester", {"--fault=13"}, 3, "what it threw is no std::exception");
+  check_program_fault("requester", {"--fault=5"}, 3, "a packet 'question' of 80 bytes");
+  check_program_fault("requester", {"--fault=2"}, 3, "had no answer 'square'");
+  check_program_fault("requester", {"--fewer=1"}, 1, "needs of the program");
+  check_program_fault("requester", {"--node-memory=1KiB"}, 4, "--node-memory=1024");
+  check_program_fault("requester", {"--questions=x"}, 2, "--questions");
   check_program_fault("tasks", {"--fault=7"}, 2, "--fault=7: no such use");
 }
 
 TEST_CASE("nodes of several ranks that stand still are found out, with the circle in which they wait") {
-  const Said ended = on_ranks(3, "asker", {"--nodes=3", "--fault=1"});
+  const Said ended = on_ranks(3, "requester", {"--nodes=3", "--fault=1"});
   CHECK(ended.status == 3);
   CHECK_MESSAGE(contains(ended.errors, "node 1: 2 asked; waits for 2 'square' of node 2; owes 2 'square' to node 0\n"),
                 ended.errors);
@@ -196,28 +196,28 @@ TEST_CASE("ranks that take their time between runs are waited for") {
 TEST_CASE("as many nodes as there are processors for them are made where nobody says, and fewer than ranks are refused") {
   CHECK(on_ranks(3, "tasks", {"--quiet"}).output == "sum 8000\n");
   check_program_fault("tasks", {"--rounds=1", "--tasks=1", "--cache-pages=0"}, 2, "--cache-pages");
-  const Said ended = on_ranks(3, "asker", {"--nodes=2"});
+  const Said ended = on_ranks(3, "requester", {"--nodes=2"});
   CHECK(ended.status == 2);
-  CHECK_MESSAGE(contains(ended.errors, "asker: --nodes=2: expected at least one node for each of the 3 ranks"), ended.errors);
+  CHECK_MESSAGE(contains(ended.errors, "requester: --nodes=2: expected at least one node for each of the 3 ranks"), ended.errors);
 }
 
 TEST_CASE("a process that is alone on ranks says so, unless it is to be quiet") {
-  const std::string said = "asker: --runner=mpi: this is the only process, so that all nodes are in it\n";
-  CHECK(contains(on_ranks(1, "asker", {"--nodes=2"}).errors, said));
-  CHECK_FALSE(contains(on_ranks(1, "asker", {"--nodes=2", "--quiet"}).errors, said));
+  const std::string said = "requester: --runner=mpi: this is the only process, so that all nodes are in it\n";
+  CHECK(contains(on_ranks(1, "requester", {"--nodes=2"}).errors, said));
+  CHECK_FALSE(contains(on_ranks(1, "requester", {"--nodes=2", "--quiet"}).errors, said));
 }
 
 TEST_CASE("processes that are started together without --runner=mpi are told of it once") {
-  const Said ended = run(mpirun_of(3, program_named("asker"), {}));
+  const Said ended = run(mpirun_of(3, program_named("requester"), {}));
   CHECK(ended.status == 2);
-  CHECK(count(ended.errors, "asker: ") == 1);
+  CHECK(count(ended.errors, "requester: ") == 1);
   CHECK_MESSAGE(contains(ended.errors, "mpirun has started 3 processes"), ended.errors);
   CHECK(contains(ended.errors, "or let them run it together: --runner=mpi"));
 }
 
 TEST_CASE("what does not go with ranks is refused") {
   for (const std::string option : {"--machine=hdr", "--topology=mesh"}) {
-    const Said ended = on_ranks(2, "asker", {option});
+    const Said ended = on_ranks(2, "requester", {option});
     CHECK(ended.status == 2);
     CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: what ranks run on is no model"), ended.errors);
   }
@@ -226,12 +226,12 @@ TEST_CASE("what does not go with ranks is refused") {
 TEST_CASE("a program of one's own takes no module from around it, but from where it was linked to take it") {
   const TemporaryFolder folder;
   namespace fs = std::filesystem;
-  const fs::path program = folder / "bin/asker", module = fs::path(DMPC_PROGRAM).parent_path() / "dmpc_mpi.so";
+  const fs::path program = folder / "bin/requester", module = fs::path(DMPC_PROGRAM).parent_path() / "dmpc_mpi.so";
   for (const std::string place : {"bin", "apps", "lib/dmpc"}) {
     fs::create_directories(folder / place);
     fs::copy_file(module, folder / place / "dmpc_mpi.so");
   }
-  fs::copy_file(program_named("asker"), program);
+  fs::copy_file(program_named("requester"), program);
   const Said ended = run({program, "--nodes=2", "--runner=mpi"});
   CHECK(ended.status == 3);
   CHECK_MESSAGE(contains(ended.errors, "is in none of its places"), ended.errors);

@@ -16,7 +16,7 @@ using Mailbox = nodes::BasicMailbox<ExploredAtomics>;
 using AwakeCount = nodes::BasicAwakeCount<ExploredAtomics>;
 using nodes::MailboxCapacity;
 
-enum class Slip : std::uint8_t { none, looks_before_asleep, calls_before_leaving };
+enum class Slip : std::uint8_t { none, polls_before_sleep, calls_before_leaving };
 
 /// Two nodes put a packet each into the outbox, carry if nobody else does, and sleep for good. Thread 0 communicates, and sleeps
 /// without a time-out while a node is awake. As RanksRunner and NodeThreads do it.
@@ -62,9 +62,9 @@ struct TwoNodes {
         carry();
         unlock();
       }
-      const bool all_slept = slip == Slip::looks_before_asleep && awake.is_zero();
+      const bool all_slept = slip == Slip::polls_before_sleep && awake.is_zero();
       Explorer::current().check(call.fall_asleep(), "nothing is put before a communicating thread");
-      if (slip == Slip::looks_before_asleep ? all_slept : awake.is_zero()) {
+      if (slip == Slip::polls_before_sleep ? all_slept : awake.is_zero()) {
         break;
       }
       call.wait();
@@ -99,7 +99,7 @@ TEST_CASE("the last node to sleep calls the thread that communicates, and nothin
 }
 
 TEST_CASE("a communicating thread that looks before it announces sleep is found out") {
-  CHECK(failure_of<Slip::looks_before_asleep>() != "");
+  CHECK(failure_of<Slip::polls_before_sleep>() != "");
 }
 
 TEST_CASE("a node that calls before it leaves is found out") { CHECK(failure_of<Slip::calls_before_leaving>() != ""); }

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 TEST_CASE("who was stopped himself takes nobody for silent, and who runs finds out who is") {
   Loopback loopback(2);
-  const RankSilence silence{.life_sign = 20ms, .longest = 200ms};
+  const RankSilence silence{.heartbeat = 20ms, .longest = 200ms};
   RankLinks links(loopback.rank(0), silence);
   for (int stops = 0; stops < 3; ++stops) {
     std::this_thread::sleep_for(2 * silence.longest);
@@ -32,11 +32,11 @@ TEST_CASE("who was stopped himself takes nobody for silent, and who runs finds o
 
 TEST_CASE("a rank that is waited for is told of again and again, by rank 0 alone, until it is lost") {
   Loopback loopback(3);
-  const RankSilence silence{.life_sign = 20ms, .longest = 350ms, .told = 100ms};
+  const RankSilence silence{.heartbeat = 20ms, .longest = 350ms, .reported = 100ms};
   RankLinks first(loopback.rank(0), silence), second(loopback.rank(1), silence);
-  std::vector<std::string> told, by_second;
-  first.tell_to([&](const std::string& text) { told.push_back(text); });
-  second.tell_to([&](const std::string& text) { by_second.push_back(text); });
+  std::vector<std::string> reported, by_second;
+  first.report_to([&](const std::string& text) { reported.push_back(text); });
+  second.report_to([&](const std::string& text) { by_second.push_back(text); });
   const auto look_long = [](RankLinks& links) {
     for (;;) {
       std::this_thread::sleep_for(1ms);
@@ -44,8 +44,8 @@ TEST_CASE("a rank that is waited for is told of again and again, by rank 0 alone
     }
   };
   CHECK_THROWS_AS(look_long(first), LostRank);
-  CHECK(told.size() == 6);  // three times each of two
-  CHECK(told.at(0).ends_with(": nothing has been heard of it for 0 s; it is waited for until that is 0 s"));
+  CHECK(reported.size() == 6);  // three times each of two
+  CHECK(reported.at(0).ends_with(": nothing has been heard of it for 0 s; it is waited for until that is 0 s"));
   CHECK_THROWS_AS(look_long(second), LostRank);
   CHECK(by_second.size() == 3);  // of rank 0
 }

@@ -35,7 +35,7 @@ struct RankRun {
   RankTraffic traffic;
 };
 
-constexpr RankSilence short_silence{.life_sign = std::chrono::milliseconds(50), .longest = std::chrono::milliseconds(1000)};
+constexpr RankSilence short_silence{.heartbeat = std::chrono::milliseconds(50), .longest = std::chrono::milliseconds(1000)};
 
 /// Runs `specifications` on so many ranks, and looks at each rank's runner with look(runner) after a regular end.
 template <class Look>
@@ -164,10 +164,10 @@ TEST_CASE("every request is answered across ranks, with one credit or many, howe
         CAPTURE(ranks);
         CAPTURE(peers);
         CAPTURE(window);
-        const auto check = [](const Asker& program, std::uint32_t /*index*/) { CHECK(program.all_right()); };
-        const auto look = [&, count = peers](RanksRunner& runner) { check_programs<Asker>(runner, count, check); };
-        check_ended(run_on(ranks, equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)), look,
-                           {.seed = peers, .late_looks_max = late}));
+        const auto check = [](const Requester& program, std::uint32_t /*index*/) { CHECK(program.all_right()); };
+        const auto look = [&, count = peers](RanksRunner& runner) { check_programs<Requester>(runner, count, check); };
+        check_ended(run_on(ranks, equal_nodes(peers, Requester::mailbox(peers, window), making<Requester>(20U, window)), look,
+                           {.seed = peers, .late_polls_max = late}));
       }
     }
   }
@@ -178,7 +178,7 @@ TEST_CASE("packets that may wait arrive at another rank in order, overtaken by n
   std::iota(expected.begin(), expected.end(), 0);
   auto specifications = equal_nodes(3, Patient::mailbox, making<ToyProgram>());
   specifications[1].make_program = making<Patient>(6U);
-  specifications[1].patience = {.kinds = 1U << 1U, .packets = 5};
+  specifications[1].batching = {.kinds = 1U << 1U, .packets = 5};
   specifications[2].make_program = making<Patient>(6U);
   const auto look = [&](RanksRunner& runner) {
     if (runner.is_here(2)) {
@@ -190,7 +190,7 @@ TEST_CASE("packets that may wait arrive at another rank in order, overtaken by n
 
 TEST_CASE("full frames are few, and hold what their way has no room for") {
   const auto results =
-      run_on(2, equal_nodes(12, Asker::mailbox(12, 40), making<Asker>(200U, 40U)), no_look, {.late_looks_max = 20});
+      run_on(2, equal_nodes(12, Requester::mailbox(12, 40), making<Requester>(200U, 40U)), no_look, {.late_polls_max = 20});
   const std::uint64_t packets = check_ended(results);
   CHECK(results[0].value->traffic.frames_sent + results[1].value->traffic.frames_sent < packets / 4);
 }
@@ -220,7 +220,7 @@ TEST_CASE("what a failed run has told rank 0 is not told again by a rank that sa
   specifications[1].make_program = making<Worker>(true);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
-    const auto results = on_ranks(3, {.seed = seed, .late_looks_max = 200}, [&](Fabric& fabric) {
+    const auto results = on_ranks(3, {.seed = seed, .late_polls_max = 200}, [&](Fabric& fabric) {
       RankLinks links(fabric);
       RanksRunner runner(specifications, links);
       try {
@@ -242,8 +242,8 @@ TEST_CASE("what a failed run has told rank 0 is not told again by a rank that sa
 }
 
 TEST_CASE("a mailbox smaller than the credits is found out by the rank whose node it is") {
-  const auto results =
-      run_on(2, equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)), no_look);
+  const auto results = run_on(
+      2, equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Requester>(50U, 40U)), no_look);
   CHECK(results[0].failure_text().find("credits leave room") != std::string::npos);
   CHECK(results[1].failure_text().find("credits leave room") != std::string::npos);
 }
@@ -265,8 +265,8 @@ TEST_CASE("a stop that is requested on one rank interrupts all, workers and slee
 TEST_CASE("a frame that is lost is found out, whichever it is") {
   for (std::uint64_t frame = 0; frame < 6; ++frame) {
     CAPTURE(frame);
-    const auto results = run_on(3, equal_nodes(7, Asker::mailbox(7, 2), making<Asker>(20U, 2U)), no_look,
-                                {.seed = frame, .late_looks_max = 4, .loss = LoopbackTrouble::Loss{1, 2, frame}});
+    const auto results = run_on(3, equal_nodes(7, Requester::mailbox(7, 2), making<Requester>(20U, 2U)), no_look,
+                                {.seed = frame, .late_polls_max = 4, .loss = LoopbackTrouble::Loss{1, 2, frame}});
     for (const RankResult<RankRun>& result : results) {
       CHECK(result.failure_text().find("a frame from rank 1 to rank 2 is lost") != std::string::npos);
     }
@@ -275,7 +275,7 @@ TEST_CASE("a frame that is lost is found out, whichever it is") {
 
 TEST_CASE("a frame that is lost while ranks compare their clocks is found out, whichever it is and between whom" *
           doctest::test_suite("slow")) {
-  class Onlooker final : public Observer {};
+  class PacketCounter final : public Observer {};
   for (const auto& [from, to] : {std::pair{0U, 1U}, {1U, 0U}, {2U, 0U}}) {
     for (std::uint64_t frame = 0; frame < 4; ++frame) {
       CAPTURE(from);
@@ -283,8 +283,10 @@ TEST_CASE("a frame that is lost while ranks compare their clocks is found out, w
       CAPTURE(frame);
       const auto results = on_ranks(3, {.seed = frame, .loss = LoopbackTrouble::Loss{from, to, frame}}, [](Fabric& fabric) {
         RankLinks links(fabric);
-        Onlooker onlooker;
-        return RanksRunner(equal_nodes(7, Asker::mailbox(7, 2), making<Asker>(20U, 2U)), links, std::nullopt, &onlooker).run({});
+        PacketCounter packet_counter;
+        return RanksRunner(equal_nodes(7, Requester::mailbox(7, 2), making<Requester>(20U, 2U)), links, std::nullopt,
+                           &packet_counter)
+            .run({});
       });
       for (const RankResult<RunEnd>& result : results) {
         CHECK(result.failure_text().find(" is lost") != std::string::npos);
@@ -321,7 +323,7 @@ TEST_CASE("a rank whose nodes work for long without a word is not taken for lost
 
 TEST_CASE("what nodes have to say after a run comes to rank 0, however long it is") {
   const auto text = [](std::size_t index) { return std::string(index * 20'000, static_cast<char>('a' + index)); };
-  const auto results = on_ranks(3, {.late_looks_max = 3}, [&](Fabric& fabric) {
+  const auto results = on_ranks(3, {.late_polls_max = 3}, [&](Fabric& fabric) {
     RankLinks links(fabric);
     RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(3U)), links);
     CHECK(runner.run({}) == RunEnd::finished);
@@ -335,7 +337,7 @@ TEST_CASE("what nodes have to say after a run comes to rank 0, however long it i
 }
 
 TEST_CASE("after the nodes each rank speaks for itself, and rank 0 hears what went between them") {
-  const auto results = on_ranks(3, {.late_looks_max = 30}, [&](Fabric& fabric) {
+  const auto results = on_ranks(3, {.late_polls_max = 30}, [&](Fabric& fabric) {
     RankLinks links(fabric);
     RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(5U)), links);
     CHECK(runner.run({}) == RunEnd::finished);
@@ -350,7 +352,7 @@ TEST_CASE("after the nodes each rank speaks for itself, and rank 0 hears what we
   REQUIRE(heard.size() == 3);
   for (std::uint32_t rank = 0; rank < 3; ++rank) {
     CAPTURE(rank);
-    CHECK(heard[rank].told == std::string(rank * 50'000, static_cast<char>('0' + rank)));
+    CHECK(heard[rank].reported == std::string(rank * 50'000, static_cast<char>('0' + rank)));
     CHECK(heard[rank].traffic.packets_sent == 5);  // a rank's last node, or the host's neighbour, passes the token on
     CHECK(heard[rank].traffic.packets_received == 5);
     CHECK(heard[rank].traffic.frames_sent > 5);
@@ -400,7 +402,7 @@ TEST_CASE("where somebody looks on, each rank's clock is set to that of rank 0, 
     std::uint64_t last_ns;
   };
   const std::uint64_t begin_ns = nanoseconds(CLOCK_MONOTONIC);
-  const auto results = on_ranks(3, {.late_looks_max = 9}, [&](Fabric& fabric) {
+  const auto results = on_ranks(3, {.late_polls_max = 9}, [&](Fabric& fabric) {
     Sees observer;
     RankLinks links(fabric);
     RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(5U)), links, std::nullopt, &observer);

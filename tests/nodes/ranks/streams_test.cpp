@@ -15,7 +15,7 @@
 #include "core/base/expect.h"
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/failure.h"
-#include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/heartbeats.h"
 #include "nodes/ranks/repeated_runs.h"
 #include "nodes/ranks/streams.h"
 #include "tests/support/loopback_ranks.h"
@@ -29,7 +29,7 @@ using nodes::RankLinks;
 using nodes::StreamFromHost;
 using nodes::StreamsToRanks;
 
-constexpr nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{5}, .longest = std::chrono::milliseconds{100}};
+constexpr nodes::RankSilence impatient{.heartbeat = std::chrono::milliseconds{5}, .longest = std::chrono::milliseconds{100}};
 
 /// Bytes of a rank's own.
 std::vector<std::byte> bytes_for(std::uint32_t rank, std::size_t count) {
@@ -42,11 +42,11 @@ std::vector<std::byte> bytes_for(std::uint32_t rank, std::size_t count) {
 
 TEST_CASE("each rank reads its own stream, whole and in order, be it empty or longer than there is room for") {
   constexpr std::size_t window = nodes::stream_window_bytes;
-  for (const std::uint32_t late_looks : {0U, 40U}) {
+  for (const std::uint32_t late_polls : {0U, 40U}) {
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, window, 3 * window + 1}) {
-      CAPTURE(late_looks);
+      CAPTURE(late_polls);
       CAPTURE(bytes);
-      const auto results = tests::on_ranks(3, {.seed = 5, .late_looks_max = late_looks}, [&](nodes::Fabric& fabric) {
+      const auto results = tests::on_ranks(3, {.seed = 5, .late_polls_max = late_polls}, [&](nodes::Fabric& fabric) {
         RankLinks links(fabric);
         if (fabric.rank() == 0) {
           StreamsToRanks streams(links);
@@ -73,13 +73,13 @@ TEST_CASE("each rank reads its own stream, whole and in order, be it empty or lo
   }
 }
 
-/// The nodes of a rank, as follow_runs() has them: what they were told is noted, run by run.
+/// The nodes of a rank, as run_as_worker() has them: what they were told is noted, run by run.
 struct Noted {
   std::string* heard;
   StreamFromHost* stream;
 
   bool is_repeated() const { return true; }
-  void begin_again(std::string_view told) { *heard += " again " + std::to_string(nodes::read_again<int>(told)); }
+  void begin_again(std::string_view reported) { *heard += " again " + std::to_string(nodes::read_again<int>(reported)); }
   nodes::RunEnd run(std::stop_token) {
     stream->say_ready();
     return {};
@@ -105,8 +105,8 @@ TEST_CASE("ranks make nodes of a job, run them again by each value that is hande
       return heard;
     }
     try {
-      nodes::follow_runs(links, {}, [&](std::string_view told, StreamFromHost& stream) {
-        nodes::FlatReader flat(told);
+      nodes::run_as_worker(links, {}, [&](std::string_view reported, StreamFromHost& stream) {
+        nodes::FlatReader flat(reported);
         flat.take<nodes::StreamKind>();
         heard += " job " + std::to_string(flat.take<int>());
         return Noted{&heard, &stream};
@@ -128,7 +128,7 @@ TEST_CASE("what fails on a rank before the run fails on rank 0 with its name, an
     if (fabric.rank() == 0) {
       StreamsToRanks streams(links);
       CHECK_THROWS_WITH_AS(streams.write(2, bytes_for(2, 4 * nodes::stream_window_bytes)), "rank 2: no memory is left",
-                           core::RoomError);
+                           core::CapacityError);
       nodes::dismiss(links, 4);
       return 4;
     }
@@ -183,7 +183,7 @@ TEST_CASE("a rank that works for longer than others would wait shows that it liv
   const auto results = tests::on_ranks(2, {}, [](nodes::Fabric& fabric) {
     RankLinks links(fabric, impatient);
     if (fabric.rank() == 0) {
-      const int worked = nodes::with_life_signs(links, [] {
+      const int worked = nodes::with_heartbeats(links, [] {
         std::this_thread::sleep_for(3 * impatient.longest);
         return 7;
       });
@@ -199,7 +199,7 @@ TEST_CASE("a rank that works for longer than others would wait shows that it liv
 TEST_CASE("what fails while others are shown that a rank lives fails here") {
   nodes::Loopback loopback(1);
   RankLinks links(loopback.rank(0));
-  CHECK_THROWS_AS(nodes::with_life_signs(links, []() -> int { throw core::InputError("there is no such file"); }),
+  CHECK_THROWS_AS(nodes::with_heartbeats(links, []() -> int { throw core::InputError("there is no such file"); }),
                   core::InputError);
 }
 

@@ -45,22 +45,22 @@ struct PoolRing {
 
   PoolRing() {
     ExploredAtomics::forget_cells();
-    for (std::size_t driver = 0; driver < thread_count; ++driver) {
-      for (std::uint32_t node = first_of[driver]; node < first_of[driver + 1]; ++node) {
-        mailboxes[node].give_bell(drivers[driver].bell(node - first_of[driver]));
+    for (std::size_t worker_thread = 0; worker_thread < thread_count; ++worker_thread) {
+      for (std::uint32_t node = first_of[worker_thread]; node < first_of[worker_thread + 1]; ++node) {
+        mailboxes[node].set_wake_up(worker_threads[worker_thread].wake_up(node - first_of[worker_thread]));
       }
     }
   }
 
-  void thread(std::size_t driver) {
-    AwakeNodes& own = drivers[driver];
-    if (driver == 0) {
+  void thread(std::size_t worker_thread) {
+    AwakeNodes& own = worker_threads[worker_thread];
+    if (worker_thread == 0) {
       pass(0, hops);
     }
     while (true) {
       own.take_woken([](std::uint32_t /*number*/) {});
       if (const std::optional<std::uint32_t> number = own.next()) {
-        take_turn(own, *number, first_of[driver] + *number);
+        take_turn(own, *number, first_of[worker_thread] + *number);
       } else if (own.woken().fall_asleep()) {
         if (ended.load(std::memory_order_relaxed) != 0) {
           return;
@@ -99,8 +99,8 @@ struct PoolRing {
     }
     check(sum == hops, "no driver is awake only when nothing is under way");
     ended.store(1, std::memory_order_relaxed);
-    for (AwakeNodes& driver : drivers) {
-      driver.woken().rouse();
+    for (AwakeNodes& worker_thread : worker_threads) {
+      worker_thread.woken().rouse();
     }
   }
 
@@ -109,7 +109,7 @@ struct PoolRing {
   LocalMemory memory{plan_of(node_count * Mailbox::bytes(capacity) + AwakeNodes::bytes(2) + AwakeNodes::bytes(1))};
   AwakeCount awake{thread_count};
   std::array<Mailbox, node_count> mailboxes{Mailbox(capacity, memory), Mailbox(capacity, memory), Mailbox(capacity, memory)};
-  std::array<AwakeNodes, thread_count> drivers{AwakeNodes(2, memory, awake), AwakeNodes(1, memory, awake)};
+  std::array<AwakeNodes, thread_count> worker_threads{AwakeNodes(2, memory, awake), AwakeNodes(1, memory, awake)};
   Atomic<std::uint32_t> ended{0};
   std::array<std::uint32_t, node_count> arrivals{};
 };
@@ -159,7 +159,7 @@ TEST_CASE("a driver's nodes have their turns one after the other, and who is wok
   CHECK(nodes.next() == 0);
   CHECK(nodes.next() == 1);
   nodes.stay(0);
-  nodes.bell(1).ring();
+  nodes.wake_up(1).ring();
   std::vector<std::uint32_t> woken;
   nodes.take_woken([&woken](std::uint32_t number) { woken.push_back(number); });
   CHECK(woken == std::vector<std::uint32_t>{1});

@@ -13,7 +13,7 @@
 #include "core/base/expect.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "nodes/runner.h"
-#include "nodes/threads/held_packets.h"
+#include "nodes/threads/delayed_packets.h"
 #include "nodes/threads/threads_runner.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
@@ -41,20 +41,20 @@ std::uint64_t processor_ns() {
 class OneComputes : public ToyProgram {
  public:
   explicit OneComputes(Node& node) : ToyProgram(node) { node.grant(NodeId{0}, 0); }
-  void receive(const Packet& /*packet*/) override { is_told_ = true; }
+  void receive(const Packet& /*packet*/) override { is_reported_ = true; }
   bool work() override {
     if (index() == 1) {
       for (const std::uint64_t end_ns = processor_ns() + 20'000'000; processor_ns() < end_ns;) {
       }
       node().send_reserved(NodeId{0}, 0, 1, std::uint32_t{0});
-      is_told_ = true;
+      is_reported_ = true;
     }
     return false;
   }
-  bool finished() const override { return index() > 1 || is_told_; }
+  bool finished() const override { return index() > 1 || is_reported_; }
 
  private:
-  bool is_told_ = false;
+  bool is_reported_ = false;
 };
 
 /// Counts quanta that others had between two of its own, through a number that all share, which no program may: for a test.
@@ -135,7 +135,7 @@ TEST_CASE("an observer of a pool is told of each node, its calls one after the o
 template <class Look>
 void run_on_ranks(std::uint32_t ranks, std::uint32_t threads, const std::vector<NodeSpecification>& specifications,
                   const std::optional<Chaos>& chaos, const Look& look) {
-  const auto results = on_ranks(ranks, {.seed = ranks, .late_looks_max = 9}, [&](Fabric& fabric) {
+  const auto results = on_ranks(ranks, {.seed = ranks, .late_polls_max = 9}, [&](Fabric& fabric) {
     RankLinks links(fabric);
     RanksRunner runner(specifications, links, chaos, nullptr, threads);
     const RunEnd end = runner.run({});
@@ -153,10 +153,10 @@ TEST_CASE("within a rank a pool drives the rank's nodes") {
     for (const std::uint32_t threads : {1U, 2U, 9U}) {
       CAPTURE(ranks);
       CAPTURE(threads);
-      run_on_ranks(ranks, threads, equal_nodes(24, Asker::mailbox(24, 2), making<Asker>(10U, 2U)), std::nullopt,
+      run_on_ranks(ranks, threads, equal_nodes(24, Requester::mailbox(24, 2), making<Requester>(10U, 2U)), std::nullopt,
                    [](RanksRunner& runner) {
                      for (std::uint32_t i = 0; i < 24; ++i) {
-                       CHECK((!runner.is_here(i) || program_of<Asker>(runner, i).all_right()));
+                       CHECK((!runner.is_here(i) || program_of<Requester>(runner, i).all_right()));
                      }
                    });
     }

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "nodes/threads/looks.h"
+#include "nodes/threads/poll_backoff.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
 
@@ -115,7 +115,7 @@ class Longing : public ToyProgram {
 
 TEST_CASE("a target is not woken for each packet that may wait") {
   auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(99U));
-  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  specifications[0].batching = {.kinds = 1U << 1U, .packets = 10};
   ThreadsRunner runner(specifications);
   CHECK(runner.run({}) == RunEnd::finished);
   CHECK(runner.node(1).counters().sleeps <= 5);  // before each of four batches, and after
@@ -123,48 +123,49 @@ TEST_CASE("a target is not woken for each packet that may wait") {
 
 TEST_CASE("a packet that may wait does not wait for as long as its sender has work") {
   auto specifications = equal_nodes(2, {.small_slots = 2}, making<Longing>());
-  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  specifications[0].batching = {.kinds = 1U << 1U, .packets = 10};
   ThreadsRunner runner(specifications);
   CHECK(runner.run({}) == RunEnd::finished);
-  CHECK(runner.node(0).counters().quanta >= patience_quanta_max);
+  CHECK(runner.node(0).counters().quanta >= batching_quanta_max);
 }
 
 TEST_CASE("packets that may wait have one target") {
   auto specifications = equal_nodes(2, {.small_slots = 4}, making<TwoTargets>());
-  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  specifications[0].batching = {.kinds = 1U << 1U, .packets = 10};
   ThreadsRunner runner(specifications);
   CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("packets that may wait have one target"), core::InternalError);
 }
 
 TEST_CASE("an idle thread looks again where many share a core, and sleeps at once where few do") {
-  CHECK(looks_before_sleep(3, 2) == 0);
-  CHECK(looks_before_sleep(5, 2) == 0);
-  CHECK(looks_before_sleep(9, 2) > 0);
-  CHECK(looks_before_sleep(65, 64) == 0);
-  CHECK(looks_before_sleep(3, 0) > 0);
+  CHECK(polls_before_sleep(3, 2) == 0);
+  CHECK(polls_before_sleep(5, 2) == 0);
+  CHECK(polls_before_sleep(9, 2) > 0);
+  CHECK(polls_before_sleep(65, 64) == 0);
+  CHECK(polls_before_sleep(3, 0) > 0);
 }
 
 TEST_CASE("an idle thread whose long yields let others run sleeps at once for a while") {
   constexpr std::uint64_t ms = 1'000'000;
-  Looks looks(4, 2);
-  looks.yielded_long(100 * ms, 50 * ms);
-  CHECK(looks.allowed() == 4);
+  PollBackoff polls(4, 2);
+  polls.yielded_long(100 * ms, 50 * ms);
+  CHECK(polls.allowed() == 4);
   // Half of the processors have been ours.
-  looks.yielded_long(110 * ms, 60 * ms);
-  CHECK(looks.allowed() == 4);
+  polls.yielded_long(110 * ms, 60 * ms);
+  CHECK(polls.allowed() == 4);
   // Now less than 0.4 of them.
-  looks.yielded_long(120 * ms, 67 * ms);
-  for (std::uint32_t sleep = 0; sleep < Looks::sleeps_at_once_max; ++sleep) {
-    CHECK(looks.allowed() == 0);
-    looks.end();
+  polls.yielded_long(120 * ms, 67 * ms);
+  for (std::uint32_t sleep = 0; sleep < PollBackoff::sleeps_at_once_max; ++sleep) {
+    CHECK(polls.allowed() == 0);
+    polls.end();
   }
-  CHECK(looks.allowed() == 4);
-  looks.end();
-  CHECK(looks.allowed() == 4);
+  CHECK(polls.allowed() == 4);
+  polls.end();
+  CHECK(polls.allowed() == 4);
 }
 
 TEST_CASE("a mailbox smaller than the credits is found out") {
-  ThreadsRunner runner(equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)));
+  ThreadsRunner runner(
+      equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Requester>(50U, 40U)));
   CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("credits leave room"), core::InternalError);
 }
 
@@ -209,16 +210,16 @@ TEST_CASE("a memory is sealed before the run begins") {
 TEST_CASE("a runner runs again, with what its programs have to do by then, and counts each run from zero") {
   constexpr std::uint32_t peers = 5, window = 2;
   for (const auto pool_threads : {std::optional<std::uint32_t>(), std::optional<std::uint32_t>(2)}) {
-    ThreadsRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(7U, window)), std::nullopt, nullptr,
-                         pool_threads);
+    ThreadsRunner runner(equal_nodes(peers, Requester::mailbox(peers, window), making<Requester>(7U, window)), std::nullopt,
+                         nullptr, pool_threads);
     for (const std::uint32_t count : {7U, 0U, 30U, 1U}) {
       for (std::uint32_t i = 0; i < peers; ++i) {
-        program_of<Asker>(runner, i).ask(count);
+        program_of<Requester>(runner, i).ask(count);
       }
       CHECK(runner.run({}) == RunEnd::finished);
       for (std::uint32_t i = 0; i < peers; ++i) {
         CHECK(runner.program(i).finished());
-        CHECK(program_of<Asker>(runner, i).all_right());
+        CHECK(program_of<Requester>(runner, i).all_right());
         CHECK(runner.node(i).counters().sent[request].packets == std::uint64_t{count} * (peers - 1));
         CHECK(runner.node(i).counters().received[request].packets == std::uint64_t{count} * (peers - 1));
       }

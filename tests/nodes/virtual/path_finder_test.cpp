@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "nodes/watch/wait_log.h"
+#include "nodes/observers/wait_log.h"
 #include "tests/nodes/scripted_machine.h"
 
 namespace dmpc::tests::path_finder_test {
@@ -20,16 +20,16 @@ namespace {
 using namespace nodes;
 
 /// A run whose paths are followed, with all its waits.
-struct FollowedRun {
+struct WorkerRun {
   ScriptedRun run;
   WaitRecord waits;
 
   const PathTimes& path() const { return run.report.critical_path->times; }
 };
 
-FollowedRun follow(const std::vector<Script>& scripts, const Machine& machine = toy_model()) {
+WorkerRun follow(const std::vector<Script>& scripts, const Machine& machine = toy_model()) {
   WaitLog log(static_cast<std::uint32_t>(scripts.size()), 1U << 20U);
-  FollowedRun followed{run_scripts(scripts, machine, &log), {}};
+  WorkerRun followed{run_scripts(scripts, machine, &log), {}};
   followed.waits = log.take(1U << 20U);
   return followed;
 }
@@ -85,15 +85,15 @@ std::uint64_t messages_back_from(const WaitRecord& record, ProgramPoint at) {
 
 }  // namespace
 
-TEST_CASE("the critical path of two nodes and one page is its request, service and reply between what the asker computes") {
-  const FollowedRun followed = follow(one_page(0));
+TEST_CASE("the critical path of two nodes and one page is its request, service and reply between what the requester computes") {
+  const WorkerRun followed = follow(one_page(0));
   const PathTimes& path = followed.path();
   CHECK(path.computing_ns == 2000 + 5000);
   CHECK(path.sending_ns == 3 + 11);
   CHECK(path.travelling_ns == (50 + 100 + 20 * 2) + (500 + 100 + 200 * 3));
   CHECK(path.serving_ns == 7 + 100'000 + 3000);
   CHECK(path.receiving_ns == 13);
-  CHECK(path.stolen_ns == 0);
+  CHECK(path.service_busy_ns == 0);
   CHECK(path.links_ns == 0);
   CHECK(path.messages == 2);
   CHECK(path.by_kind_ns[urgent] == 3 + (50 + 100 + 40) + 103'007);
@@ -102,7 +102,7 @@ TEST_CASE("the critical path of two nodes and one page is its request, service a
 }
 
 TEST_CASE("a wait for a page says who sent what led to it, and when") {
-  const FollowedRun followed = follow(one_page(0));
+  const WorkerRun followed = follow(one_page(0));
   REQUIRE(followed.waits.waits.size() == 1);
   const Waited& wait = followed.waits.waits.front();
   CHECK(wait.node == NodeId{0});
@@ -116,10 +116,10 @@ TEST_CASE("a wait for a page says who sent what led to it, and when") {
   CHECK(wait.from.time_ns == 2003);
 }
 
-TEST_CASE("where the home computes longest, the critical path is what it computes and what was stolen of that") {
-  const FollowedRun followed = follow(one_page(300));
+TEST_CASE("where the home computes longest, the critical path is what it computes and what was service while busy of that") {
+  const WorkerRun followed = follow(one_page(300));
   CHECK(followed.path().computing_ns == 300'000);
-  CHECK(followed.path().stolen_ns == 103'007 + 11);
+  CHECK(followed.path().service_busy_ns == 103'007 + 11);
   CHECK(followed.path().messages == 0);
   CHECK(followed.path().total_ns() == followed.run.report.total_ns);
 }
@@ -131,7 +131,7 @@ TEST_CASE("a request that stands behind another's service leads back to that one
   scripts[2] = {.reactions = {{urgent, {3, {{0, pong}}}}}, .packets_awaited = 2};
   scripts[2].reactions[urgent].letters = {{0, pong}, {1, pong}};
   scripts[0].packets_awaited = scripts[1].packets_awaited = 2;
-  const FollowedRun followed = follow(scripts);
+  const WorkerRun followed = follow(scripts);
   CHECK(followed.path().computing_ns == 2000 + 5000);
   CHECK(followed.path().serving_ns == 2 * 103'007);
   CHECK(followed.path().total_ns() == followed.run.report.total_ns);
@@ -144,7 +144,7 @@ TEST_CASE("links that others hold are on the critical path by name") {
                                        {}};
   Machine machine = toy_model();
   machine.has_memory_port = true;
-  const FollowedRun followed = follow(scripts, machine);
+  const WorkerRun followed = follow(scripts, machine);
   CHECK(followed.path().total_ns() == followed.run.report.total_ns);
   CHECK(followed.run.report.links.wait_ns > 0);
 }
@@ -156,12 +156,12 @@ TEST_CASE("in any run the critical path adds up to its time, and the waits lead 
     const std::vector<Script> scripts = random_scripts(seed);
     Machine machine = toy_model(TopologyKind::torus);
     machine.service_ns = seed % 2 == 0 ? 100'000 : 0;
-    const FollowedRun followed = follow(scripts, machine);
+    const WorkerRun followed = follow(scripts, machine);
     const PathTimes& path = followed.path();
     const std::uint64_t total_ns = followed.run.report.total_ns;
     CHECK(path.total_ns() == total_ns);
     CHECK(std::accumulate(path.by_kind_ns.begin(), path.by_kind_ns.end(), std::uint64_t{0}) ==
-          total_ns - path.computing_ns - path.stolen_ns);
+          total_ns - path.computing_ns - path.service_busy_ns);
     const ProgramPoint from = followed.run.report.critical_path->from;
     if (from.time_ns == total_ns) {  // a program was the last, not a service
       CHECK(messages_back_from(followed.waits, from) == path.messages);
@@ -173,7 +173,7 @@ TEST_CASE("in any run the critical path adds up to its time, and the waits lead 
 
 TEST_CASE("an observer is told waits that add up to those of each node, by the packets that end them") {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const FollowedRun followed = follow(random_scripts(seed));
+    const WorkerRun followed = follow(random_scripts(seed));
     const std::vector<VirtualTimes>& all = followed.run.report.nodes;
     for (std::uint32_t node = 0; node < all.size(); ++node) {
       std::array<std::uint64_t, packet_kind_count> waited{};

@@ -79,8 +79,8 @@ std::vector<std::uint64_t> fingerprint(const ScriptedRun& run) {
     print.insert(print.end(), {use.messages, use.bytes, use.busy_ns, use.wait_ns});
   }
   for (const VirtualTimes& times : report.nodes) {
-    print.insert(print.end(), {times.computing_ns, times.sending_ns, times.receiving_ns, times.stolen_ns, times.lent_ns,
-                               times.waiting_ns[ping], times.end_ns});
+    print.insert(print.end(), {times.computing_ns, times.sending_ns, times.receiving_ns, times.service_busy_ns,
+                               times.service_idle_ns, times.waiting_ns[ping], times.end_ns});
   }
   for (const auto& receipts : run.receipts) {
     for (const ScriptedProgram::Receipt& receipt : receipts) {
@@ -110,12 +110,12 @@ TEST_CASE("a virtual computer of nothing is refused") { CHECK_THROWS_AS(VirtualR
 
 TEST_CASE("another virtual run begins at time 0 on a machine as new: programs that do the same again have the same events") {
   constexpr std::uint32_t peers = 5, window = 2, count = 9;
-  VirtualRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(count, window)), toy_model());
+  VirtualRunner runner(equal_nodes(peers, Requester::mailbox(peers, window), making<Requester>(count, window)), toy_model());
   runner.run({});
   const VirtualReport first = *runner.virtual_report();
   CHECK(first.total_ns > 0);
   for (std::uint32_t i = 0; i < peers; ++i) {
-    program_of<Asker>(runner, i).ask(count);
+    program_of<Requester>(runner, i).ask(count);
   }
   CHECK(runner.run({}) == RunEnd::finished);
   const VirtualReport again = *runner.virtual_report();
@@ -151,32 +151,32 @@ TEST_CASE("a place in a mailbox is free again when its packet has been received"
 namespace {
 
 /// The first node sends the host, which is all that remembers where it got it from, bytes that last.
-class LastingSender final : public ToyProgram {
+class ImmutableSender final : public ToyProgram {
  public:
   static constexpr MailboxCapacity mailbox{.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 104};
 
-  LastingSender(Node& node, std::span<const std::byte> lasting, bool is_in_place)
-      : ToyProgram(node), lasting_(lasting), is_in_place_(is_in_place), is_sender_(index() == 0) {
+  ImmutableSender(Node& node, std::span<const std::byte> immutable, bool is_in_place)
+      : ToyProgram(node), immutable_(immutable), is_in_place_(is_in_place), is_sender_(index() == 0) {
     node.grant(host(), 0);
   }
   void receive(const Packet& packet) override {
-    CHECK(packet.payload_bytes() == 4 + lasting_.size());
-    CHECK((packet.behind(4).data() == lasting_.data()) == is_in_place_);
-    CHECK(std::equal(lasting_.begin(), lasting_.end(), packet.behind(4).begin()));
+    CHECK(packet.payload_bytes() == 4 + immutable_.size());
+    CHECK((packet.behind(4).data() == immutable_.data()) == is_in_place_);
+    CHECK(std::equal(immutable_.begin(), immutable_.end(), packet.behind(4).begin()));
   }
   bool work() override {
     if (std::exchange(is_sender_, false)) {
       const std::array<std::byte, 4> front{};
       std::vector<std::byte> room(front.begin(), front.end());
-      room.insert(room.end(), lasting_.begin(), lasting_.end());
-      CHECK((is_in_place_ ? node().try_send(host(), 0, ping, front, lasting_, room) : node().try_send(host(), 0, ping, room)));
+      room.insert(room.end(), immutable_.begin(), immutable_.end());
+      CHECK((is_in_place_ ? node().try_send(host(), 0, ping, front, immutable_, room) : node().try_send(host(), 0, ping, room)));
     }
     return false;
   }
   bool finished() const override { return !is_sender_; }
 
  private:
-  std::span<const std::byte> lasting_;
+  std::span<const std::byte> immutable_;
   bool is_in_place_;
   bool is_sender_;
 };
@@ -184,11 +184,11 @@ class LastingSender final : public ToyProgram {
 }  // namespace
 
 TEST_CASE("what lasts is handed over where it is, in virtual time, which is the same as of a copy") {
-  const std::vector<std::byte> lasting(100, std::byte{9});
+  const std::vector<std::byte> immutable(100, std::byte{9});
   std::vector<std::uint64_t> hashes;
   for (const bool is_in_place : {true, false}) {
     VirtualRunner runner(
-        equal_nodes(2, LastingSender::mailbox, making<LastingSender>(std::span<const std::byte>(lasting), is_in_place)),
+        equal_nodes(2, ImmutableSender::mailbox, making<ImmutableSender>(std::span<const std::byte>(immutable), is_in_place)),
         toy_model(TopologyKind::crossbar));
     CHECK(runner.run({}) == RunEnd::finished);
     hashes.push_back(runner.virtual_report()->hash);

@@ -157,14 +157,14 @@ TEST_CASE("an interrupt makes a computation end later by what it takes, and the 
     return std::vector<Script>{interrupts ? sends({1, urgent}) : Script{}, computes, {}, {}};
   };
   const std::uint64_t service = service_ns(machine, 2, long_bytes);
-  const ScriptedRun calm = run_scripts(scripts(false)), stolen = run_scripts(scripts(true));
-  CHECK(calm.report.nodes[1].stolen_ns == 0);
-  CHECK(stolen.report.nodes[1].stolen_ns == service);
-  CHECK(stolen.report.nodes[1].computing_ns == calm.report.nodes[1].computing_ns);
-  CHECK(stolen.end_ns(1) == calm.end_ns(1) + service);
-  CHECK(stolen.end_ns(2) == calm.end_ns(2) + service);
+  const ScriptedRun calm = run_scripts(scripts(false)), service_busy = run_scripts(scripts(true));
+  CHECK(calm.report.nodes[1].service_busy_ns == 0);
+  CHECK(service_busy.report.nodes[1].service_busy_ns == service);
+  CHECK(service_busy.report.nodes[1].computing_ns == calm.report.nodes[1].computing_ns);
+  CHECK(service_busy.end_ns(1) == calm.end_ns(1) + service);
+  CHECK(service_busy.end_ns(2) == calm.end_ns(2) + service);
   const std::uint64_t reply = arrival_ns(machine, long_bytes, 1) - machine.long_message.send_ns;
-  CHECK(stolen.end_ns(0) == arrival_ns(machine, short_bytes, 1) + service + reply + machine.long_message.receive_ns);
+  CHECK(service_busy.end_ns(0) == arrival_ns(machine, short_bytes, 1) + service + reply + machine.long_message.receive_ns);
 }
 
 TEST_CASE("interrupts are served in the order of their coming, one after the other") {
@@ -175,7 +175,7 @@ TEST_CASE("interrupts are served in the order of their coming, one after the oth
   serves.reactions[urgent].letters = {{0, pong}, {2, pong}};  // the second answer to 0 and to 2 ends each service
   const ScriptedRun run = run_scripts({asks, serves, asks, {}, {}});
   const std::uint64_t service = service_ns(machine, 2, short_bytes) + machine.short_message.send_ns;
-  CHECK(run.report.nodes[1].stolen_ns == 2 * service);
+  CHECK(run.report.nodes[1].service_busy_ns == 2 * service);
   const std::uint64_t begin = arrival_ns(machine, short_bytes, 1), way = one_way_ns(machine, short_bytes, 1);
   CHECK(run.end_ns(2) == begin + 2 * service + way - machine.short_message.send_ns);
   CHECK(run.end_ns(0) == run.end_ns(2) - machine.short_message.send_ns);
@@ -190,8 +190,8 @@ TEST_CASE("a node with nothing to do serves at once, and what comes meanwhile be
   const ScriptedRun run = run_scripts(scripts);
   const std::uint64_t arrival = arrival_ns(machine, short_bytes, 1), service = service_ns(machine, 2, short_bytes);
   const VirtualTimes& served = run.report.nodes[1];
-  CHECK(served.lent_ns == service);
-  CHECK(served.stolen_ns == 0);
+  CHECK(served.service_idle_ns == service);
+  CHECK(served.service_busy_ns == 0);
   CHECK(served.waiting_ns[ping] == arrival);
   CHECK(served.receiving_ns == machine.short_message.receive_ns);
   CHECK(run.end_ns(1) == arrival + service + machine.short_message.receive_ns + 3 * operation_ns);
@@ -199,15 +199,15 @@ TEST_CASE("a node with nothing to do serves at once, and what comes meanwhile be
 }
 
 TEST_CASE("a home that does nothing else serves one request after the other, as fast as its processor can") {
-  constexpr std::uint32_t askers = 3, requests = 5;
+  constexpr std::uint32_t requesters = 3, requests = 5;
   const Machine machine = toy_model();
   const Script asks{.quanta = {{0, std::vector<Letter>(requests, Letter{0, urgent})}}};
   const Script serves{.reactions = {{urgent, {2, {{4, pong, long_bytes}}}}}};
   const std::vector<Script> scripts{serves, asks, asks, asks, {}};
   const ScriptedRun run = run_scripts(scripts, machine);
-  const std::uint64_t service = service_ns(machine, 2, long_bytes), replies = askers * requests;
-  CHECK(run.report.nodes[0].lent_ns == replies * service);
-  CHECK(run.report.nodes[0].stolen_ns == 0);
+  const std::uint64_t service = service_ns(machine, 2, long_bytes), replies = requesters * requests;
+  CHECK(run.report.nodes[0].service_idle_ns == replies * service);
+  CHECK(run.report.nodes[0].service_busy_ns == 0);
   const std::uint64_t last_reply = arrival_ns(machine, short_bytes, 1) + replies * service;
   CHECK(run.report.total_ns == last_reply + one_way_ns(machine, long_bytes, 1) - machine.long_message.send_ns);
 }
@@ -217,7 +217,7 @@ TEST_CASE("a run lasts until its last service is over") {
   const ScriptedRun run = run_scripts({sends({1, urgent}), {.reactions = {{urgent, {2}}}}, {}});
   const std::uint64_t service = service_ns(machine, 2, short_bytes) - machine.short_message.send_ns;
   CHECK(run.report.total_ns == arrival_ns(machine, short_bytes, 1) + service);
-  CHECK(run.report.nodes[1].lent_ns == service);
+  CHECK(run.report.nodes[1].service_idle_ns == service);
   CHECK(run.report.nodes[1].end_ns == arrival_ns(machine, short_bytes, 1));
 }
 
@@ -261,7 +261,7 @@ TEST_CASE("a node that never has anything to do is at its end from the start") {
 }
 
 TEST_CASE("a total is the sum of its parts") {
-  VirtualTimes times{.computing_ns = 1, .sending_ns = 2, .receiving_ns = 4, .stolen_ns = 8, .lent_ns = 16};
+  VirtualTimes times{.computing_ns = 1, .sending_ns = 2, .receiving_ns = 4, .service_busy_ns = 8, .service_idle_ns = 16};
   times.waiting_ns[0] = 32;
   times.waiting_ns[packet_kind_count - 1] = 64;
   times.end_ns = 128;

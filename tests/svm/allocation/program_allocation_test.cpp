@@ -11,8 +11,8 @@
 #include "svm/forest/forest.h"
 #include "svm/forest/strategy.h"
 #include "svm/local_copy.h"
+#include "svm/pages/observers/observed_pagers.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/watched_pagers.h"
 #include "svm/run.h"
 #include "tests/support/allocation_guard.h"
 

@@ -146,7 +146,7 @@ TEST_CASE("with forest the film, the rays and all that walks do are those of rep
         const svm::Report report = run_forest(*subject, computer_of(nodes, in_flight));
         CHECK(outcome_of(report) == subject->outcome());
         const core::Operations done = report.operations();
-        CHECK(done.brick_reads == expected.brick_reads);
+        CHECK(done.bvh_node_reads == expected.bvh_node_reads);
         CHECK(done.cell_steps == expected.cell_steps);
         CHECK(done.primitive_tests == expected.primitive_tests);
         CHECK(done.normal_reads == expected.normal_reads);
@@ -179,7 +179,7 @@ TEST_CASE("a node of forest uses exactly the memory of its plan, with the smalle
     CHECK(least.plan.in_flight == 1);
     CHECK(outcome_of(least) == gears().outcome());
     --*options.computer.node_memory_bytes;
-    CHECK(dmpc::tests::complaint_of<core::RoomError>([&] {
+    CHECK(dmpc::tests::complaint_of<core::CapacityError>([&] {
             run_forest(gears(), options);
           }).find("node_memory_bytes=" + nodes::size_text(*options.computer.node_memory_bytes + 1)) != std::string::npos);
   }

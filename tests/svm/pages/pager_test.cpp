@@ -31,9 +31,9 @@ svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_
 /// The pager of node 0.
 struct SmallPager {
   SmallPager(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight,
-             nodes::Lasting lasting = nodes::Lasting::is_copied)
+             nodes::Immutable immutable = nodes::Immutable::is_copied)
       : plan(plan_with(nodes, cache_pages, in_flight)),
-        lone(plan, 0, lasting),
+        lone(plan, 0, immutable),
         pages(page_count, page_size),
         pager(lone.node, plan.pages(), pages.bytes()) {}
 
@@ -140,12 +140,12 @@ TEST_CASE("a request without credit waits for a reply from the same home") {
 
 TEST_CASE("a home replies with the page at once, to whoever asks") {
   SmallPager small(4, 1, 1);
-  for (const std::uint32_t asker : {3U, 1U, 1U, 2U}) {
-    small.pager.serve(parcel_of(asker, Kind::page_request, svm::PageRequest{PageId{8}}).packet());
+  for (const std::uint32_t requester : {3U, 1U, 1U, 2U}) {
+    small.pager.serve(parcel_of(requester, Kind::page_request, svm::PageRequest{PageId{8}}).packet());
     REQUIRE(small.lone.post.parcels.size() == 1);
     const Parcel parcel = small.lone.post.parcels.front();
     small.lone.post.parcels.clear();
-    CHECK(parcel.target == nodes::NodeId{asker});
+    CHECK(parcel.target == nodes::NodeId{requester});
     REQUIRE(parcel.payload.size() == 8 + page_size);
     CHECK(std::memcmp(parcel.payload.data() + 8, small.pages.page(8).data(), page_size) == 0);
   }
@@ -179,9 +179,9 @@ TEST_CASE("in a tree a node replies with what it has, to whoever asked first, an
   CHECK(last_parcel().target == nodes::NodeId{0});
   CHECK(last_parcel().kind == svm::number_of(Kind::passed_request));
   CHECK(last_parcel().packet().as<svm::PassedRequest>().page == PageId{9});
-  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 12);
+  CHECK(last_parcel().packet().as<svm::PassedRequest>().requester == 12);
   pager.serve(parcel_of(12, Kind::passed_request, svm::PassedRequest{PageId{8}, 39}).packet());
-  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 39);
+  CHECK(last_parcel().packet().as<svm::PassedRequest>().requester == 39);
   CHECK(pager.counters().served == 0);
 
   const svm::PageReplyHeader header{PageId{9}};
@@ -202,7 +202,7 @@ TEST_CASE("in a tree a node replies with what it has, to whoever asked first, an
 }
 
 TEST_CASE("on a modelled machine pages at home and in the cache are where they are in the database, and count as copies") {
-  SmallPager copying(4, 2, 2), referring(4, 2, 2, nodes::Lasting::is_referred_to);
+  SmallPager copying(4, 2, 2), referring(4, 2, 2, nodes::Immutable::is_referred_to);
   for (SmallPager* const small : {&copying, &referring}) {
     for (const std::uint32_t page : {5U, 6U, 7U}) {
       CHECK_FALSE(small->finds(page));

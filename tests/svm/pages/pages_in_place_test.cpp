@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t page_size = 512;
 
 /// Of a node whose memory keeps what lasts so, and a database of so many pages.
-std::optional<PagesInPlace> pages_of(nodes::Lasting lasting, const std::vector<std::byte>& database) {
-  const nodes::LocalMemory memory(nodes::MemoryPlan{}, lasting);
+std::optional<PagesInPlace> pages_of(nodes::Immutable immutable, const std::vector<std::byte>& database) {
+  const nodes::LocalMemory memory(nodes::MemoryPlan{}, immutable);
   PageCapacity capacity;
   capacity.page_count = static_cast<std::uint32_t>(database.size() / page_size);
   capacity.cache = {.frame_count = 2, .page_size_bytes = page_size};
@@ -27,7 +27,7 @@ std::optional<PagesInPlace> pages_of(nodes::Lasting lasting, const std::vector<s
 
 TEST_CASE("a page in place is absent, in a frame or here for good, and lies where the database has it") {
   const std::vector<std::byte> database(3 * page_size);
-  std::optional<PagesInPlace> pages = pages_of(nodes::Lasting::is_referred_to, database);
+  std::optional<PagesInPlace> pages = pages_of(nodes::Immutable::is_referred_to, database);
   REQUIRE(pages);
   for (const std::uint32_t page : {0U, 1U, 2U}) {
     CHECK(pages->frame_of(PageId{page}) == PagesInPlace::absent);
@@ -48,9 +48,9 @@ TEST_CASE("a cache whose pages are in place evicts what one with a table of its 
   constexpr std::uint32_t page_count = 9;
   const std::vector<std::byte> database(page_count * page_size);
   const CacheShape shape{.frame_count = 3, .page_size_bytes = page_size};
-  nodes::LocalMemory memory(Cache::layout(shape) + Cache::layout(shape), nodes::Lasting::is_referred_to);
+  nodes::LocalMemory memory(Cache::layout(shape) + Cache::layout(shape), nodes::Immutable::is_referred_to);
   Cache with_table(memory, shape, 0), with_places(memory, shape, 0);
-  std::optional<PagesInPlace> places = pages_of(nodes::Lasting::is_referred_to, database);
+  std::optional<PagesInPlace> places = pages_of(nodes::Immutable::is_referred_to, database);
   REQUIRE(places);
   for (std::uint32_t i = 0; i < 200; ++i) {
     const PageId page{i * i % page_count};
@@ -71,9 +71,9 @@ TEST_CASE("a cache whose pages are in place evicts what one with a table of its 
 
 TEST_CASE("pages are looked up in place on modelled machines alone, and only as long as the table is small") {
   const std::vector<std::byte> few(page_size), many((std::size_t{PagesInPlace::pages_max} + 1) * page_size);
-  CHECK(pages_of(nodes::Lasting::is_referred_to, few));
-  CHECK_FALSE(pages_of(nodes::Lasting::is_copied, few));
-  CHECK_FALSE(pages_of(nodes::Lasting::is_referred_to, many));
+  CHECK(pages_of(nodes::Immutable::is_referred_to, few));
+  CHECK_FALSE(pages_of(nodes::Immutable::is_copied, few));
+  CHECK_FALSE(pages_of(nodes::Immutable::is_referred_to, many));
 }
 
 }  // namespace dmpc::svm::pages_in_place_test

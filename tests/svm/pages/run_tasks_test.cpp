@@ -6,9 +6,9 @@
 
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
+#include "svm/pages/observers/miss_curve.h"
+#include "svm/pages/observers/optimum.h"
 #include "svm/pages/task_program.h"
-#include "svm/pages/watch/miss_curve.h"
-#include "svm/pages/watch/optimum.h"
 #include "tests/svm/pages/page_rank.h"
 
 namespace dmpc::svm::run_tasks_test {
@@ -163,8 +163,10 @@ TEST_CASE("what is out of range is refused with what would do, and a memory that
   options.page_size_bytes = 65536;
   CHECK_THROWS_WITH_AS(run_with(options), doctest::Contains("expected whole pages of 65536"), core::UsageError);
   options = small_computer(2);
+  CHECK_THROWS_WITH_AS(TaskPlan(options, 0xffffffffULL * options.page_size_bytes, 1, {}),
+                       doctest::Contains("page_count=4294967295: expected 1 to 4294967294"), core::UsageError);
   options.computer.node_memory_bytes = 1000;
-  CHECK_THROWS_WITH_AS(run_with(options), doctest::Contains("a node takes "), core::RoomError);
+  CHECK_THROWS_WITH_AS(run_with(options), doctest::Contains("a node takes "), core::CapacityError);
 }
 
 TEST_CASE("a plan's memory is what a node takes, to the byte") {

@@ -7,13 +7,13 @@
 #include <span>
 #include <utility>
 
-#include "apps/edge/line/folded_text.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/real_load.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/folded_text.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/real_load.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/bench/error/findings.h"
 #include "apps/lab/bench/error/table.h"
 #include "apps/lab/study/engine/tabled_job.h"
@@ -148,7 +148,7 @@ void measure_all(const ErrorOptions& options, const TableFiles& files, const Int
   MeasureOptions measure = options.measure;
   measure.outputs = files.names();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
-  measure.told = [&](const SceneResult& result) { show_rows(result, shown); };
+  measure.reported = [&](const SceneResult& result) { show_rows(result, shown); };
   for (const std::string& scene : options.scenes) {
     measure_scene(scene, measure, interrupt, results.emplace_back());
   }
@@ -228,7 +228,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6");
   add_turned_options(set, options);
-  add_options(set, measure.picture.staging);
+  add_options(set, measure.picture.scene_setup);
   add_view_options(set, measure.picture);
   add_transport_options(set, measure.picture);
   set.add_text(

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/averages.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/averages.h"
 #include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {

@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/rounds.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/rounds.h"
 #include "apps/lab/bench/error/path_reference.h"
-#include "apps/lab/oracle/accurate/picture.h"
+#include "apps/lab/oracle/reference/picture.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/picture/film_image.h"
 #include "apps/scene/load_scene.h"
@@ -95,10 +95,10 @@ struct Rendered {
   std::uint64_t rays = 0, samples = 0, film_hash = 0;
 };
 
-Image accurate_image(const AccuratePicture& accurate) {
-  Image image(accurate.width, accurate.height);
+Image reference_image(const ReferencePicture& reference) {
+  Image image(reference.width, reference.height);
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-    image.rgb[i] = static_cast<float>(accurate.radiance[i / 3][i % 3]);
+    image.rgb[i] = static_cast<float>(reference.radiance[i / 3][i % 3]);
   }
   return image;
 }
@@ -124,7 +124,7 @@ class Bench {
 
   void measure() {
     find_reference();
-    find_accurate();
+    find_reference_picture();
     plan();
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
     round_by_round(options_.rounds, result_.measurements.size(), progress,
@@ -180,17 +180,17 @@ class Bench {
   }
 
   /// The base point in double precision, sample by sample, if that is asked for.
-  void find_accurate() {
+  void find_reference_picture() {
     if (!options_.knobs.contains(Knob::arithmetic)) {
       return;
     }
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + " in double precision:", "rows");
-    const AccurateScene scene = accurate_scene(scenes_.exact().scene);
-    const AccurateCamera camera(scenes_.exact().scene.view, result_.width, result_.height, scene.bounds);
-    const AccurateFinder finder(scene, camera.start());
+    const ReferenceScene scene = reference_scene(scenes_.exact().scene);
+    const ReferenceCamera camera(scenes_.exact().scene.view, result_.width, result_.height, scene.bounds);
+    const ReferenceFinder finder(scene, camera.start());
     const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
     const core::RenderSettings settings = settings_of(result_.base);
-    accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
+    reference_ = reference_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
   }
 
   core::RenderSettings settings_of(const Setting& setting) {
@@ -222,8 +222,8 @@ class Bench {
       judge(measurement, rendered.picture);
     }
     measurement.seconds.push_back(rendered.seconds);
-    if (measurement.seconds.size() == 1 && options_.told) {
-      options_.told(result_);
+    if (measurement.seconds.size() == 1 && options_.reported) {
+      options_.reported(result_);
     }
   }
 
@@ -231,8 +231,8 @@ class Bench {
     const Setting& setting = measurement.setting;
     if (setting == result_.base) {
       base_ = picture;
-      if (accurate_) {
-        result_.arithmetic = measure_error(picture, *accurate_);
+      if (reference_) {
+        result_.arithmetic = measure_error(picture, *reference_);
       }
     }
     measurement.error = measure_error(picture, result_.reference.picture);
@@ -245,7 +245,7 @@ class Bench {
   const Interrupt& interrupt_;
   SceneResult& result_;
   Scenes scenes_;
-  std::optional<Image> accurate_, base_;
+  std::optional<Image> reference_, base_;
 };
 
 }  // namespace

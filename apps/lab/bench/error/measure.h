@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/distinct_files.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/distinct_files.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/bench/error/result.h"
-#include "apps/lab/oracle/accurate/reference.h"
+#include "apps/lab/oracle/reference/reference.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/picture_options.h"
 
@@ -23,8 +23,8 @@ struct MeasureOptions {
   bool is_quick = false;
   std::size_t rounds = 3;
   ReferenceOptions reference;
-  std::function<void(const SceneResult&)> told;  ///< each time that a setting has been rendered for the first time
-  std::vector<NamedFile> outputs;                ///< none of which may be a file that a scene is read from
+  std::function<void(const SceneResult&)> reported;  ///< each time that a setting has been rendered for the first time
+  std::vector<NamedFile> outputs;                    ///< none of which may be a file that a scene is read from
 };
 
 /// `text` as a part of a file's name: letters, digits and hyphens; what else it has becomes a hyphen.

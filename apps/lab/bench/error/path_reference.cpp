@@ -4,7 +4,7 @@
 #include <chrono>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "core/base/expect.h"
 #include "core/database/parallel.h"
 #include "core/picture/render.h"
@@ -68,7 +68,7 @@ class RowRenderer {
 Reference path_reference(const core::Database& database, const core::RenderSettings& settings, std::uint32_t samples,
                          const Attendance& attendance) {
   core::expect(std::has_single_bit(samples) && samples >= 2 && samples <= path_reference_first,
-               "a path reference has two blocks of a sequence");
+               "a path reference has two leaves of a sequence");
   const auto start = std::chrono::steady_clock::now();
   const auto rows = static_cast<std::size_t>(settings.camera.height());
   Reference reference;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "apps/lab/oracle/accurate/reference.h"
+#include "apps/lab/oracle/reference/reference.h"
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 
@@ -14,7 +14,7 @@ inline constexpr std::uint32_t path_reference_first = 16384;
 
 /// So many samples of each pixel, a power of two from 2 to path_reference_first, by our own arithmetic on all cores, pixel by
 /// pixel and never refined. Chances are numbered from path_reference_first on: other ones than those of pictures with fewer
-/// samples. Halves are blocks of the pixels' sequences that follow each other; their difference is the reference's own error, as
+/// samples. Halves are leaves of the pixels' sequences that follow each other; their difference is the reference's own error, as
 /// in Reference. The bits are the same for any number of cores. Progress counts rows. Throws Interrupted when a stop is
 /// requested.
 Reference path_reference(const core::Database& database, const core::RenderSettings& settings, std::uint32_t samples,

@@ -10,7 +10,7 @@
 
 #include "apps/lab/bench/error/sweep.h"
 #include "apps/lab/difference/picture_error.h"
-#include "apps/lab/oracle/accurate/reference.h"
+#include "apps/lab/oracle/reference/reference.h"
 
 namespace dmpc::apps {
 

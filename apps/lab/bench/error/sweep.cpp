@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/words.h"
 #include "apps/scene/picture_options.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/scene/transport_options.h"
-#include "core/picture/path_step.h"
+#include "core/picture/surfaces/path_step.h"
 
 namespace dmpc::apps {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/table/averages.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/table/averages.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {

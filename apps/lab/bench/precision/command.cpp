@@ -6,12 +6,12 @@
 #include <iostream>
 #include <ostream>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/filled_columns.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/filled_columns.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/bench/precision/precision.h"
 #include "apps/lab/oracle/trial_line.h"
 #include "apps/lab/study/engine/tabled_job.h"
@@ -160,12 +160,12 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
   PictureOptions picture{.scene = name,
                          .resolution = options.resolution,
                          .depth = options.depth,
-                         .staging = options.staging,
+                         .scene_setup = options.scene_setup,
                          .transport = options.transport};
   if (options.transport.is_by_paths()) {
     picture.depth = options.transport.depth();
-    picture.staging.background =
-        options.transport.sky ? std::optional(options.transport.sky->horizon) : options.staging.background;
+    picture.scene_setup.background =
+        options.transport.sky ? std::optional(options.transport.sky->horizon) : options.scene_setup.background;
   }
   const core::Scene scene = load_scene_beside(picture, files.names());
   Progress progress(std::cerr, stderr_is_terminal(), name + " ", "rows");
@@ -204,7 +204,7 @@ struct Outcome {
 /// Pictures that are larger, smaller or deeper than measured, or seen or lit otherwise, are as any other.
 Expectation expected_of(const std::string& scene, const PrecisionOptions& options) {
   const bool is_as_measured = options.resolution.width == measured_side && options.resolution.height == measured_side &&
-                              options.depth == measured_depth && options.staging.is_as_scene() &&
+                              options.depth == measured_depth && options.scene_setup.is_as_scene() &&
                               !options.transport.is_by_paths();
   return options.expected ? Expectation{*options.expected, "by --expect"}
          : is_as_measured ? expectation_of(scene)
@@ -243,7 +243,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
   set.add_text(
       "--expect", "PERCENT", [&options](const std::string& text) { options.expected = parse_expectation(text); },
       "End with status 3 if fewer pixels have the same 8 bits; without it 99, and of families' own pictures what was measured");
-  add_options(set, options.staging);
+  add_options(set, options.scene_setup);
   add_options(set, options.transport);
   set.check_in_the_end([set, &options] {
     check(set, options.transport);

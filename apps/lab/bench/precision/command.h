@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
@@ -21,9 +21,9 @@ struct PrecisionOptions {
   /// Percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured. How many pixels may differ is
   /// rounded up.
   std::optional<double> expected;
-  Staging staging;     ///< of all scenes
-  TableOutput table;   ///< without a page and plots
-  bool quiet = false;  ///< no progress
+  SceneSetup scene_setup;  ///< of all scenes
+  TableOutput table;       ///< without a page and plots
+  bool quiet = false;      ///< no progress
 };
 
 /// Declares them.

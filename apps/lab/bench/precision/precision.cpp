@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/crowd/side_by_side.h"
-#include "apps/lab/oracle/accurate/emitters.h"
+#include "apps/lab/oracle/reference/emitters.h"
 #include "apps/lab/oracle/trial_line.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -55,14 +55,14 @@ bool same_bytes(const Vec3d& a, const Vec3d& b) {
 }
 
 /// Sets the errors, and returns the pixels that differ.
-std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std::vector<Vec3d>& accurate, Precision& precision) {
+std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std::vector<Vec3d>& reference, Precision& precision) {
   std::vector<std::uint32_t> differing;
   double squares = 0;
   for (std::uint32_t pixel = 0; pixel < product.size(); ++pixel) {
-    const Vec3d off = product[pixel] - accurate[pixel];
+    const Vec3d off = product[pixel] - reference[pixel];
     squares += dot(off, off);
     precision.largest = std::max(precision.largest, largest_component(off));
-    if (!same_bytes(product[pixel], accurate[pixel])) {
+    if (!same_bytes(product[pixel], reference[pixel])) {
       differing.push_back(pixel);
     }
   }
@@ -73,11 +73,11 @@ std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std:
 }
 
 /// Of pixels that differ by chance the mean differs by no more than a few of its standard errors.
-void judge_mean(const std::vector<Vec3d>& product, const std::vector<Vec3d>& accurate, Precision& precision) {
+void judge_mean(const std::vector<Vec3d>& product, const std::vector<Vec3d>& reference, Precision& precision) {
   constexpr double errors_allowed = 4, rounding = 1e-6;
   double sum = 0, squares = 0;
   for (std::size_t pixel = 0; pixel < product.size(); ++pixel) {
-    const Vec3d off = product[pixel] - accurate[pixel];
+    const Vec3d off = product[pixel] - reference[pixel];
     const double light = off.x + off.y + off.z;
     sum += light;
     squares += light * light;
@@ -109,14 +109,14 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
                            "renderer in double does not: expected a depth of at most " + std::to_string(core::crowd_depth));
   }
   const core::Camera& product_camera = subject.settings.camera;
-  AccurateScene accurate = accurate_scene(scene);
+  ReferenceScene reference = reference_scene(scene);
   if (picture.transport.is_by_paths()) {
-    aim_as_product(accurate, subject.database);
+    aim_as_product(reference, subject.database);
   }
-  const AccurateCamera camera(scene.view, product_camera.width(), product_camera.height(), accurate.bounds);
-  const AccurateFinder finder(accurate, camera.start());
-  const AccuratePicture right =
-      render_accurately(accurate, finder, camera, SamplePattern::of_product(1), subject.settings.shade, attendance);
+  const ReferenceCamera camera(scene.view, product_camera.width(), product_camera.height(), reference.bounds);
+  const ReferenceFinder finder(reference, camera.start());
+  const ReferencePicture right =
+      render_accurately(reference, finder, camera, SamplePattern::of_product(1), subject.settings.shade, attendance);
   Precision precision{.primitives = subject.database.primitives().size(), .rays = right.rays};
   const std::vector<Vec3d> product = product_radiance(subject);
   const std::vector<std::uint32_t> differing = compare(product, right.radiance, precision);
@@ -125,7 +125,7 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
     judge_mean(product, right.radiance, precision);
     return precision;
   }
-  const PixelJudge judge(subject.database, subject.settings, accurate, finder, camera, subject.loss);
+  const PixelJudge judge(subject.database, subject.settings, reference, finder, camera, subject.loss);
   side_by_side(differing.size(), [&](std::size_t index) {
     if (attendance.stop.stop_requested()) {
       throw Interrupted();

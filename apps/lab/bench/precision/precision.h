@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/oracle/accurate/picture.h"
-#include "apps/lab/oracle/accurate/pixel_judge.h"
+#include "apps/lab/oracle/reference/picture.h"
+#include "apps/lab/oracle/reference/pixel_judge.h"
 #include "apps/scene/picture_options.h"
 #include "core/scene/scene.h"
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
-#include "core/picture/background.h"
+#include "core/picture/camera/background.h"
 #include "core/trace/work.h"
 
 namespace dmpc::apps {
@@ -80,7 +80,7 @@ class AblationBench {
     matches_.measure(rounds, progress);
     for (std::size_t i = 0; i < cut.size(); ++i) {
       Comparison error = comparison_of("error", "with " + std::string(traced_cutoffs[i].name), Strategy::svm, "root mean square");
-      error.rival = "1/255";
+      error.baseline = "1/255";
       results_.push_back(error.once(error_between(*films_[cut[i]], *films_[by_pages]), 1.0 / 255));
     }
   }
@@ -115,7 +115,7 @@ class AblationBench {
             .what = what,
             .threads = strategy == Strategy::dataflow ? ray_nodes : page_nodes,
             .subject = subject,
-            .rival = std::string("with it, ") + name_of(strategy),
+            .baseline = std::string("with it, ") + name_of(strategy),
             .unit = unit};
   }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/real_load.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/system/real_load.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/study/engine/tabled_job.h"
@@ -97,7 +97,7 @@ void measure_all(const SpeedOptions& options, const TableFiles& files, const Int
 
 std::string title() {
   return std::string("Speed beside Embree ") + embree_version() +
-         " and of emulated computers; ratios are medians over rounds, subject over rival";
+         " and of emulated computers; ratios are medians over rounds, subject over baseline";
 }
 
 void add_notes(const SpeedOptions& options, double load, bool is_whole, Table& table) {

@@ -4,9 +4,9 @@
 #include <iosfwd>
 #include <set>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/lab/bench/speed/part.h"
 
 namespace dmpc::apps {

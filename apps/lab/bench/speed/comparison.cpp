@@ -4,28 +4,28 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/edge/table/averages.h"
-#include "apps/edge/table/rounds.h"
+#include "apps/frontend/table/averages.h"
+#include "apps/frontend/table/rounds.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
-std::size_t Figures::rounds() const { return std::min(subject.size(), rival.size()); }
+std::size_t Figures::rounds() const { return std::min(subject.size(), baseline.size()); }
 
 RatioSpread ratio_of(const Figures& figures) {
   std::vector<double> ratios(figures.rounds());
   for (std::size_t round = 0; round < ratios.size(); ++round) {
-    core::expect(figures.rival[round] > 0, "a ratio is taken to a figure above 0");
-    ratios[round] = figures.subject[round] / figures.rival[round];
+    core::expect(figures.baseline[round] > 0, "a ratio is taken to a figure above 0");
+    ratios[round] = figures.subject[round] / figures.baseline[round];
   }
   core::expect(!ratios.empty(), "a comparison has been measured at least once");
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
   return {median(ratios), *least, *most};
 }
 
-Comparison Comparison::once(double subject_figure, double rival_figure) const {
+Comparison Comparison::once(double subject_figure, double baseline_figure) const {
   Comparison measured = *this;
-  measured.figures = {{subject_figure}, {rival_figure}};
+  measured.figures = {{subject_figure}, {baseline_figure}};
   return measured;
 }
 
@@ -65,14 +65,14 @@ std::size_t Matches::add(Measure measure) {
   return contenders_.size() - 1;
 }
 
-void Matches::compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure) {
-  pairs_.push_back({subject, rival, figure, results_.size()});
+void Matches::compare(std::size_t subject, std::size_t baseline, Comparison comparison, std::size_t figure) {
+  pairs_.push_back({subject, baseline, figure, results_.size()});
   results_.push_back(std::move(comparison));
 }
 
-void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison comparison) {
-  pairs_.push_back({subject, rival, 1, results_.size(), &Comparison::processor});
-  compare(subject, rival, std::move(comparison));
+void Matches::compare_timed(std::size_t subject, std::size_t baseline, Comparison comparison) {
+  pairs_.push_back({subject, baseline, 1, results_.size(), &Comparison::processor});
+  compare(subject, baseline, std::move(comparison));
 }
 
 void Matches::measure(std::size_t rounds, Progress& progress) {
@@ -81,11 +81,11 @@ void Matches::measure(std::size_t rounds, Progress& progress) {
     figures[contender] = contenders_[contender]();
     for (const Pair& pair : pairs_) {
       if (pair.later() == contender) {
-        const double subject = figures[pair.subject][pair.figure], rival = figures[pair.rival][pair.figure];
-        if (!std::isnan(subject) && !std::isnan(rival)) {
+        const double subject = figures[pair.subject][pair.figure], baseline = figures[pair.baseline][pair.figure];
+        if (!std::isnan(subject) && !std::isnan(baseline)) {
           Figures& compared = results_[pair.comparison].*pair.figures;
           compared.subject.push_back(subject);
-          compared.rival.push_back(rival);
+          compared.baseline.push_back(baseline);
         }
       }
     }

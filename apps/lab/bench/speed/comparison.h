@@ -10,41 +10,41 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/stopwatch.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/bench/speed/part.h"
 
 namespace dmpc::apps {
 
 /// Figures by round; of each round's two the ratio is taken, so that a busy minute of the machine touches both.
 struct Figures {
-  std::vector<double> subject = {}, rival = {};
+  std::vector<double> subject = {}, baseline = {};
 
   /// Those that have both figures.
   std::size_t rounds() const;
 };
 
-/// The middle one of the rounds' ratios of subject to rival, and the outermost ones.
+/// The middle one of the rounds' ratios of subject to baseline, and the outermost ones.
 struct RatioSpread {
   double median = 0, least = 0, most = 0;
 };
-/// Requires a round, and figures of the rival above 0.
+/// Requires a round, and figures of the baseline above 0.
 RatioSpread ratio_of(const Figures& figures);
 
 struct Comparison {
   SpeedPart part{};
   std::string scene;
-  std::string what;            ///< "closest hit", "whole picture"
-  std::string detail = {};     ///< a kind of `what`, such as the class of rays; may be empty
-  std::uint32_t threads = 0;   ///< that worked, or nodes that rendered; 0: does not matter
-  std::string subject, rival;  ///< whose figures they are
-  std::string unit;            ///< of the figures: "Mray/s", "s"
-  Figures figures = {};        ///< times are by the wall clock, unless the unit says otherwise
-  Figures processor = {};      ///< the same in processor time, of what is timed by both clocks
+  std::string what;               ///< "closest hit", "whole picture"
+  std::string detail = {};        ///< a kind of `what`, such as the class of rays; may be empty
+  std::uint32_t threads = 0;      ///< that worked, or nodes that rendered; 0: does not matter
+  std::string subject, baseline;  ///< whose figures they are
+  std::string unit;               ///< of the figures: "Mray/s", "s"
+  Figures figures = {};           ///< times are by the wall clock, unless the unit says otherwise
+  Figures processor = {};         ///< the same in processor time, of what is timed by both clocks
 
   /// The same with one round, which has these figures.
-  Comparison once(double subject_figure, double rival_figure) const;
+  Comparison once(double subject_figure, double baseline_figure) const;
 };
 
 /// Some of what was measured, each outliving this.
@@ -71,21 +71,22 @@ class Matches {
 
   /// Returns the number by which the others know the contender.
   std::size_t add(Measure measure);
-  /// Adds `comparison` to the results: of each round a figure of the subject, against the same one of the rival. They may be one.
-  void compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
+  /// Adds `comparison` to the results: of each round a figure of the subject, against the same one of the baseline. They may be
+  /// one.
+  void compare(std::size_t subject, std::size_t baseline, Comparison comparison, std::size_t figure = 0);
   /// Does as the other, and takes the next figure for processor time, of those who have figures_of() their times.
-  void compare_timed(std::size_t subject, std::size_t rival, Comparison comparison);
+  void compare_timed(std::size_t subject, std::size_t baseline, Comparison comparison);
 
   /// All contenders, in the order in which they came, in every round. Throws what measuring throws.
   void measure(std::size_t rounds, Progress& progress);
 
  private:
   struct Pair {
-    std::size_t subject, rival, figure;
+    std::size_t subject, baseline, figure;
     std::size_t comparison;  ///< its place among the results
     Figures Comparison::*figures = &Comparison::figures;
 
-    std::size_t later() const { return std::max(subject, rival); }
+    std::size_t later() const { return std::max(subject, baseline); }
   };
 
   std::vector<Comparison>& results_;

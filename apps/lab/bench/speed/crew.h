@@ -13,7 +13,7 @@
 namespace dmpc::apps {
 
 /// Calls work(k) for each k below `count`, each on a thread of its own, all at once. Returns when all are over; rethrows the
-/// exception of the first k that has one. Throws core::RoomError if the computer lets dmpc start no so many threads.
+/// exception of the first k that has one. Throws core::CapacityError if the computer lets dmpc start no so many threads.
 inline void on_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::vector<std::future<void>> crew;  // those that are left when one throws are waited for
   try {
@@ -21,8 +21,8 @@ inline void on_threads(std::size_t count, const std::function<void(std::size_t)>
       crew.push_back(std::async(std::launch::async, work, crew.size()));
     }
   } catch (const std::system_error&) {
-    throw core::RoomError("this takes " + std::to_string(count) + " threads, and this computer lets dmpc start but " +
-                          std::to_string(crew.size()) + ": ask for a higher limit (ulimit -u, pids.max of a container)");
+    throw core::CapacityError("this takes " + std::to_string(count) + " threads, and this computer lets dmpc start but " +
+                              std::to_string(crew.size()) + ": ask for a higher limit (ulimit -u, pids.max of a container)");
   }
   for (std::future<void>& one : crew) {
     one.get();

@@ -1,10 +1,10 @@
-// Embree as a rival: asked as any renderer asks it, without what the oracle needs to name primitives beyond doubt.
+// Embree as a baseline: asked as any renderer asks it, without what the oracle needs to name primitives beyond doubt.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/oracle/embree.h"
 #include "apps/oracle/oracle.h"
 #include "core/database/database.h"

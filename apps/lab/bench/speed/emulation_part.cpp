@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/study/engine/timed_render.h"
@@ -16,7 +16,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t cache_node_count = 8;
-/// Of the database, in percent, in each node's cache. The first is the rival of the others.
+/// Of the database, in percent, in each node's cache. The first is the baseline of the others.
 constexpr std::array<int, 4> cache_percents = {100, 25, 10, 5};
 
 StrategyOptions with_cache(int percent, const core::Database& database) {
@@ -47,7 +47,7 @@ void measure_caches(const std::string& scene, const SpeedSettings& settings, con
                              .what = "cache",
                              .threads = cache_node_count,
                              .subject = std::to_string(percent) + " %",
-                             .rival = "100 %",
+                             .baseline = "100 %",
                              .unit = "s"});
     }
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/lab/bench/speed/crew.h"
 #include "core/base/expect.h"
 

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string>
 
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
 #include "apps/lab/bench/speed/part.h"
@@ -47,8 +47,8 @@ void check_hits(const Match& match) {
   for (const Contender subject : our_contenders) {
     core::expect(match.hits_of(subject) == hits, "our grid hits as much through the pager and in bundles as without them");
   }
-  for (const Contender rival : embree_contenders) {
-    const double apart = static_cast<double>(match.hits_of(rival)) - static_cast<double>(hits);
+  for (const Contender baseline : embree_contenders) {
+    const double apart = static_cast<double>(match.hits_of(baseline)) - static_cast<double>(hits);
     core::expect(std::fabs(apart) <= 0.02 * match.ray_count() + 16, "Embree hits about as much as our grid");
   }
 }
@@ -63,15 +63,15 @@ void add_contenders(Match& match, const Interrupt& interrupt, Matches& matches) 
     });
   }
   for (const Contender subject : our_contenders) {
-    for (const Contender rival : embree_contenders) {
-      matches.compare(numbers[static_cast<std::size_t>(subject)], numbers[static_cast<std::size_t>(rival)],
+    for (const Contender baseline : embree_contenders) {
+      matches.compare(numbers[static_cast<std::size_t>(subject)], numbers[static_cast<std::size_t>(baseline)],
                       {.part = SpeedPart::kernel,
                        .scene = match.arena.name(),
                        .what = name_of(match.query),
                        .detail = apps::name_of(match.ray_class),
                        .threads = match.threads,
                        .subject = apps::name_of(subject),
-                       .rival = apps::name_of(rival),
+                       .baseline = apps::name_of(baseline),
                        .unit = "Mray/s"});
     }
   }

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/unknown_option.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/system/real_load.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/unknown_option.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/system/real_load.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -106,7 +106,7 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
     picture.samples = path_samples;
     picture.transport = {.kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}};
     picture.depth = picture.transport.depth();
-    picture.staging.background = picture.transport.sky->horizon;
+    picture.scene_setup.background = picture.transport.sky->horizon;
   }
   return picture;
 }

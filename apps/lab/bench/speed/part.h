@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/distinct_files.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/distinct_files.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/scene/picture_options.h"
 #include "apps/scene/subject.h"
 #include "core/scene/scene.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/picture/emitter_light.h"
-#include "core/picture/sample_pair.h"
+#include "core/picture/lights/emitter_light.h"
+#include "core/picture/sampling/sample_pair.h"
 
 namespace dmpc::apps {
 
@@ -23,8 +23,8 @@ std::optional<PlainAim> plain_aim(const PlainStage& stage, const Vec3f& from, co
   return aim ? std::optional(PlainAim{*aim, record.radiance}) : std::nullopt;
 }
 
-float plain_density_met(const PlainStage& stage, const PlainSurface& surface, const Vec3f& from, const Vec3f& direction,
-                        const core::Color& radiance) {
+float plain_bsdf_density(const PlainStage& stage, const PlainSurface& surface, const Vec3f& from, const Vec3f& direction,
+                         const core::Color& radiance) {
   const auto density_on = static_cast<float>(core::density_on(stage.settings().header, radiance));
   const Vec3f way = surface.point - from;
   return surface.radius > 0 ? density_of_sphere(density_on, way - surface.geometric_normal * surface.radius, surface.radius)

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/lab/bench/speed/plain_asker.h"
-#include "core/picture/path_step.h"
-#include "core/picture/surface_response.h"
+#include "apps/lab/bench/speed/embree_queries.h"
+#include "core/picture/surfaces/path_step.h"
+#include "core/picture/surfaces/surface_response.h"
 
 namespace dmpc::apps {
 

@@ -7,7 +7,7 @@
 #include "apps/lab/bench/speed/plain_stage.h"
 #include "apps/lab/oracle/facet_lobes.h"
 #include "core/base/vec.h"
-#include "core/picture/sample_pair.h"
+#include "core/picture/sampling/sample_pair.h"
 
 namespace dmpc::apps {
 
@@ -19,8 +19,8 @@ struct PlainWay {
   float density = std::numeric_limits<float>::infinity();  ///< of the direction, per steradian; of mirror and glass infinite
 };
 
-/// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/path_step.h), or one of tiny
-/// mirrors over a matt part, as judges have it; ways are chosen by the shares of ours.
+/// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/surfaces/path_step.h), or
+/// one of tiny mirrors over a matt part, as judges have it; ways are chosen by the shares of ours.
 class PlainLobes {
  public:
   /// Of a hit by a ray that comes along `direction`. `material` and `surface` outlive it.

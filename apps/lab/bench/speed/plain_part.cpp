@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/system/stopwatch.h"
-#include "apps/edge/system/watched_process.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/system/stopwatch.h"
+#include "apps/frontend/system/watched_process.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
@@ -21,8 +21,8 @@
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/database/conversion.h"
-#include "core/database/light_spheres.h"
 #include "core/database/parallel.h"
+#include "core/database/shading/light_spheres.h"
 
 namespace dmpc::apps {
 namespace {
@@ -109,8 +109,8 @@ class PlainBench {
       matches.add([&] { return figures_of(render(contender)); });
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const std::size_t rival = part_ == SpeedPart::paths ? all[i].count - 1 : 1;
-      matches.compare_timed(i, rival, comparison_of("render", all[i], all[rival]));
+      const std::size_t baseline = part_ == SpeedPart::paths ? all[i].count - 1 : 1;
+      matches.compare_timed(i, baseline, comparison_of("render", all[i], all[baseline]));
     }
     for (const PlainContender& contender : all) {
       if (contender.is_command) {
@@ -131,11 +131,11 @@ class PlainBench {
   }
 
  private:
-  Comparison comparison_of(const char* what, const std::string& subject, const std::string& rival, const char* unit) const {
-    return {.part = part_, .scene = scene_, .what = what, .subject = subject, .rival = rival, .unit = unit};
+  Comparison comparison_of(const char* what, const std::string& subject, const std::string& baseline, const char* unit) const {
+    return {.part = part_, .scene = scene_, .what = what, .subject = subject, .baseline = baseline, .unit = unit};
   }
-  Comparison comparison_of(const char* what, const PlainContender& contender, const PlainContender& rival) const {
-    Comparison comparison = comparison_of(what, name_of(contender), name_of(rival), "s");
+  Comparison comparison_of(const char* what, const PlainContender& contender, const PlainContender& baseline) const {
+    Comparison comparison = comparison_of(what, name_of(contender), name_of(baseline), "s");
     comparison.threads = contender.count;
     return comparison;
   }

@@ -9,17 +9,17 @@
 #include <optional>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/bench/speed/crew.h"
-#include "apps/lab/bench/speed/plain_asker.h"
+#include "apps/lab/bench/speed/embree_queries.h"
 #include "apps/lab/bench/speed/plain_emitters.h"
 #include "apps/lab/bench/speed/plain_lobes.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
-#include "core/picture/emitter_light.h"
-#include "core/picture/path_step.h"
-#include "core/picture/sample_pair.h"
-#include "core/picture/surface_response.h"
+#include "core/picture/lights/emitter_light.h"
+#include "core/picture/sampling/sample_pair.h"
+#include "core/picture/surfaces/path_step.h"
+#include "core/picture/surfaces/surface_response.h"
 #include "core/record/sky.h"
 
 namespace dmpc::apps {
@@ -42,9 +42,9 @@ double square_noise_of(const core::Film& film, std::uint32_t pixel) {
 }
 
 /// One thread at work.
-class Painter : public PlainAsker {
+class Painter : public EmbreeQueries {
  public:
-  using PlainAsker::PlainAsker;
+  using EmbreeQueries::EmbreeQueries;
 
   Color light_along(const Vec3f& origin, const Vec3f& direction, int depth) {
     const std::optional<PlainSurface> surface = surface_along(origin, direction);
@@ -109,10 +109,12 @@ bool survives(const Walk& walk, float chance, int roulette_from, PlainWay& way) 
 float way_share(float own, float other) { return static_cast<float>(core::way_share(double{own}, double{other})); }
 
 /// One thread at work, by paths.
-class Walker : public PlainAsker {
+class Walker : public EmbreeQueries {
  public:
   explicit Walker(const PlainStage& stage)
-      : PlainAsker(stage), settings_(stage.settings()), ray_depth_max_(core::ray_depth_max(settings_.shade, settings_.header)) {}
+      : EmbreeQueries(stage),
+        settings_(stage.settings()),
+        ray_depth_max_(core::ray_depth_max(settings_.shade, settings_.header)) {}
 
   Color mean_of(int column, int row) {
     const auto pixel = static_cast<std::uint32_t>(row * settings_.camera.width() + column);
@@ -140,7 +142,7 @@ class Walker : public PlainAsker {
     Color light{};
     while (const std::optional<PlainSurface> surface = surface_along(walk.origin, walk.direction)) {
       const PlainMaterial& material = stage().materials()[surface->material];
-      light = light + walk.weight * material.emission * share_met(walk, *surface, material);
+      light = light + walk.weight * material.emission * mis_weight(walk, *surface, material);
       if (walk.depth > depth_max() || !step(walk, *surface, material, light)) {
         return light;
       }
@@ -149,10 +151,10 @@ class Walker : public PlainAsker {
   }
 
   /// Of what a surface shines with: the rest comes to the hit before, which has aimed at it.
-  float share_met(const Walk& walk, const PlainSurface& surface, const PlainMaterial& material) const {
-    const bool may_be_aimed_at = surface.material >= settings_.header.drawn_materials;
-    return may_be_aimed_at && walk.density < std::numeric_limits<float>::infinity()
-               ? way_share(walk.density, plain_density_met(stage(), surface, walk.origin, walk.direction, material.emission))
+  float mis_weight(const Walk& walk, const PlainSurface& surface, const PlainMaterial& material) const {
+    const bool may_be_light_sampled = surface.material >= settings_.header.drawn_materials;
+    return may_be_light_sampled && walk.density < std::numeric_limits<float>::infinity()
+               ? way_share(walk.density, plain_bsdf_density(stage(), surface, walk.origin, walk.direction, material.emission))
                : 1;
   }
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/scene/subject.h"
 #include "core/base/vec.h"
 #include "core/base/zeroed_array.h"
-#include "core/picture/film.h"
+#include "core/picture/film/film.h"
 
 namespace dmpc::apps {
 
@@ -25,10 +25,10 @@ struct PlainPicture {
 /// but rays and keeps no two pictures equal. The rays are ours: Haines' convention, the same offsets, the same left out for what
 /// they cannot bring. Spheres and cones, of which Embree knows nothing, are ours in double precision. No textures.
 ///
-/// By paths, where the subject's picture is: the numbers of chance are ours (core/picture/sample_pair.h), and for the same
-/// purposes, as are the places in pixels, the ways in which a surface sends light on, tiny mirrors included, what hits aim at and
-/// how that is weighed, roulette, sky and last looks; so sample for sample its light is ours, but where rounding leads a path
-/// elsewhere. No sky's picture. Else no more than one sample a pixel. Immutable; render() is thread-safe.
+/// By paths, where the subject's picture is: the numbers of chance are ours (core/picture/sampling/sample_pair.h), and for the
+/// same purposes, as are the places in pixels, the ways in which a surface sends light on, tiny mirrors included, what hits aim
+/// at and how that is weighed, roulette, sky and last looks; so sample for sample its light is ours, but where rounding leads a
+/// path elsewhere. No sky's picture. Else no more than one sample a pixel. Immutable; render() is thread-safe.
 class PlainRenderer {
  public:
   /// Builds the tree, of high quality, on all cores. `subject` outlives it.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/picture/hit_geometry.h"
+#include "core/picture/hits/hit_geometry.h"
 
 namespace dmpc::apps {
 
@@ -28,12 +28,13 @@ std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const
   }
   std::size_t count = materials.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (materials[i].has_finish()) {
+    if (materials[i].has_extension()) {
       const std::uint32_t place = materials[i].finish();
       count = std::min<std::size_t>(count, place);
-      const std::byte* const finish = records.find(core::advance(header.materials, place * sizeof(core::FinishRecord)));
+      const std::byte* const finish =
+          records.find(core::advance(header.materials, place * sizeof(core::MaterialExtensionRecord)));
       materials[i].has_microfacets() ? materials[i].add(core::read<core::MicrofacetRecord>(finish))
-                                     : materials[i].add(core::read<core::FinishRecord>(finish));
+                                     : materials[i].add(core::read<core::MaterialExtensionRecord>(finish));
     }
   }
   return materials;
@@ -60,9 +61,9 @@ PlainCamera::PlainCamera(const core::Camera& camera) : eye(camera.eye()) {
   corner = Vec3f(forward - rightward * middle_x - downward * middle_y);
 }
 
-void PlainMaterial::add(const core::FinishRecord& finish) {
+void PlainMaterial::add(const core::MaterialExtensionRecord& finish) {
   highlight = finish.specular + color * specular;
-  mirror = static_cast<float>(finish.mirror) / float{core::FinishRecord::share_max};
+  mirror = static_cast<float>(finish.mirror) / float{core::MaterialExtensionRecord::share_max};
   emission = finish.emission;
   refraction_index = finish.refraction_index;
 }
@@ -90,7 +91,7 @@ PlainStage::PlainStage(const Subject& subject)
   for (const std::uint32_t id : tree_.shapes().triangles) {
     core::HitState state;
     state.hit.lane = places_[id].lane;
-    core::read_geometry(state, records_.find(places_[id].block));
+    core::read_geometry(state, records_.find(places_[id].leaf));
     shading_.push_back(state.shading);
   }
 }
@@ -102,7 +103,7 @@ PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const V
   state.ray.direction = direction;
   state.hit.t = t;
   state.hit.lane = place.lane;
-  core::read_geometry(state, records_.find(place.block));
+  core::read_geometry(state, records_.find(place.leaf));
   return {Vec3f(state.point),  Vec3f(state.geometric_normal),
           Vec3f(state.normal), state.shading.material(),
           state.leaving,       static_cast<float>(state.clearance.radius)};

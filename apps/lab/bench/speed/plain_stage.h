@@ -45,7 +45,7 @@ struct PlainMaterial : core::MaterialRecord {
 
   explicit PlainMaterial(const core::MaterialRecord& record)
       : core::MaterialRecord(record), highlight{specular, specular, specular} {}
-  void add(const core::FinishRecord& finish);
+  void add(const core::MaterialExtensionRecord& finish);
   void add(const core::MicrofacetRecord& finish);
   bool is_glossy() const { return !(highlight == core::Color{}); }
   float inside_index() const { return refraction_index > 0 ? refraction_index : 1; }

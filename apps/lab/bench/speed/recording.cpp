@@ -7,8 +7,8 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/bundle_task.h"
-#include "core/picture/path_step.h"
 #include "core/picture/shade.h"
+#include "core/picture/surfaces/path_step.h"
 #include "svm/work_items.h"
 
 namespace dmpc::apps {
@@ -121,8 +121,8 @@ void BundleSample::offer(std::span<const core::Ray> bundle) {
     return;
   }
   kept_.push_back({hash, {bundle.begin(), bundle.end()}});
-  rays_kept_ += bundle.size();
-  while (rays_kept_ > most_) {
+  rays_buffered_ += bundle.size();
+  while (rays_buffered_ > most_) {
     halve();
   }
 }
@@ -130,8 +130,8 @@ void BundleSample::offer(std::span<const core::Ray> bundle) {
 void BundleSample::halve() {
   stride_ *= 2;
   std::erase_if(kept_, [this](const Numbered& numbered) { return !is_kept(numbered.hash); });
-  rays_kept_ = std::accumulate(kept_.begin(), kept_.end(), std::size_t{0},
-                               [](std::size_t sum, const Numbered& numbered) { return sum + numbered.rays.size(); });
+  rays_buffered_ = std::accumulate(kept_.begin(), kept_.end(), std::size_t{0},
+                                   [](std::size_t sum, const Numbered& numbered) { return sum + numbered.rays.size(); });
 }
 
 BundledRays BundleSample::bundles() const {

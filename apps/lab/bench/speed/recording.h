@@ -76,7 +76,7 @@ class BundleSample {
   std::size_t most_;
   std::uint64_t stride_ = 1;  ///< one of so many bundles is kept: a power of 2
   std::uint64_t shot_ = 0;
-  std::size_t rays_kept_ = 0;
+  std::size_t rays_buffered_ = 0;
   std::vector<Numbered> kept_;
 };
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/averages.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/averages.h"
+#include "apps/frontend/table/filled_columns.h"
 
 namespace dmpc::apps {
 namespace {
@@ -26,15 +26,15 @@ const FilledColumns<Comparison>& comparison_columns() {
       {{"detail"}, &C::detail},
       {{"threads or nodes"}, [](const C& c) { return c.threads == 0 ? Cell() : Cell(std::uint64_t{c.threads}); }},
       {{"subject"}, &C::subject},
-      {{"rival"}, &C::rival},
+      {{"baseline"}, &C::baseline},
       {{"unit"}, &C::unit},
       {{"subject's figure", "", 4}, [](const C& c) { return median_of(c.figures, &F::subject); }},
-      {{"rival's figure", "", 4}, [](const C& c) { return median_of(c.figures, &F::rival); }},
+      {{"baseline's figure", "", 4}, [](const C& c) { return median_of(c.figures, &F::baseline); }},
       {{"ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).median; }},
       {{"least ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).least; }},
       {{"largest ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).most; }},
       {{"subject's processor time", "s", 4}, [](const C& c) { return median_of(c.processor, &F::subject); }},
-      {{"rival's processor time", "s", 4}, [](const C& c) { return median_of(c.processor, &F::rival); }},
+      {{"baseline's processor time", "s", 4}, [](const C& c) { return median_of(c.processor, &F::baseline); }},
       {{"ratio in processor time", "", 3},
        [](const C& c) { return c.processor.rounds() > 0 ? Cell(ratio_of(c.processor).median) : Cell(); }},
       {{"rounds"}, [](const C& c) { return std::uint64_t{c.figures.rounds()}; }}};
@@ -42,7 +42,7 @@ const FilledColumns<Comparison>& comparison_columns() {
 }
 
 bool are_alike(const Comparison& a, const Comparison& b) {
-  return a.part == b.part && a.what == b.what && a.threads == b.threads && a.subject == b.subject && a.rival == b.rival;
+  return a.part == b.part && a.what == b.what && a.threads == b.threads && a.subject == b.subject && a.baseline == b.baseline;
 }
 
 Cell mean_of(const std::vector<double>& ratios) {
@@ -67,7 +67,7 @@ Table headline_of(std::span<const Comparison> comparisons, const std::string& ti
                       {"what"},
                       {"threads or nodes"},
                       {"subject"},
-                      {"rival"},
+                      {"baseline"},
                       {"ratio", "", 3},
                       {"least", "", 3},
                       {"most", "", 3},
@@ -79,7 +79,7 @@ Table headline_of(std::span<const Comparison> comparisons, const std::string& ti
     const std::vector<double> ratios = ratios_of(group);
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
     table.add_row({std::string(name_of(one.part)), one.what, one.threads == 0 ? Cell() : Cell(std::uint64_t{one.threads}),
-                   one.subject, one.rival, mean_of(ratios), *least, *most, mean_of(ratios_of(group, &Comparison::processor)),
+                   one.subject, one.baseline, mean_of(ratios), *least, *most, mean_of(ratios_of(group, &Comparison::processor)),
                    std::uint64_t{ratios.size()}, means_by_kind(group)});
   }
   return table;

@@ -1,4 +1,4 @@
-// Rays along axes and diagonals, from places where a walk is most easily confused, in a scene of boxes.
+// Rays along axes and diagonals, from places where a traversal is most easily confused, in a scene of boxes.
 #pragma once
 
 #include <array>
@@ -55,17 +55,17 @@ inline core::Scene crowded_scene() {
   return scene;
 }
 
-/// As many cells as cut crowded_scene() into 2x2x2 top cells.
+/// As many cells as cut crowded_scene() into 2x2x2 macro cells.
 inline const core::BuildOptions crowded_options{.cells_per_primitive = 4};
 
-/// A coordinate on a plane of the lattice, often one between cells or top cells, on the bound or on a face of crowded_scene(), or
-/// anywhere.
+/// A coordinate on a plane of the lattice, often one between cells or macro cells, on the bound or on a face of crowded_scene(),
+/// or anywhere.
 inline double awkward(const core::Database& database, std::size_t axis, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   const int cells = frame.resolution[axis] * core::finest_per_cell;
   switch (random.below(4)) {
     case 0: {
-      constexpr std::array<std::size_t, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
+      constexpr std::array<std::size_t, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_macro};
       const std::size_t plane = random.below(static_cast<std::size_t>(cells)), span = spans[random.below(spans.size())];
       return core::plane_at(frame, axis, static_cast<std::int32_t>(plane - plane % span));
     }

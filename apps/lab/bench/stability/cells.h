@@ -1,4 +1,4 @@
-// A grid fine enough that a small scene has several top cells.
+// A grid fine enough that a small scene has several macro cells.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace dmpc::apps {
 
-/// There is one top cell for some 4,096 primitives, so a smaller scene would be a single one, and no walk would go from one to
+/// There is one macro cell for some 4,096 primitives, so a smaller scene would be a single one, and no walk would go from one to
 /// another. With as many cells as primitives it has several, from about 500 primitives on; larger scenes have several anyway and
 /// keep their grid.
-inline core::BuildOptions several_top_cells(const core::Scene& scene) {
+inline core::BuildOptions several_macro_cells(const core::Scene& scene) {
   constexpr std::size_t many = 4096;
   core::BuildOptions options;
   if (scene.objects.size() < many) {

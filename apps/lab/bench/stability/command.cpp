@@ -3,11 +3,11 @@
 #include <iostream>
 #include <limits>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/words.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/filled_columns.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/filled_columns.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/bench/stability/run.h"
 #include "apps/lab/oracle/trial_line.h"
 #include "apps/lab/study/engine/tabled_job.h"

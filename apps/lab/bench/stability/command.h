@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 
 namespace dmpc::apps {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/lab/oracle/encounter.h"
+#include "apps/lab/oracle/exact_intersection.h"
 #include "apps/lab/oracle/referee.h"
 #include "core/database/database.h"
 #include "core/record/hit.h"
@@ -28,9 +28,9 @@ class Hearing {
   }
   /// Whether rounding can have given the distance of `hit`, which is admissible.
   bool distance_explained(const core::Hit& hit) const {
-    std::vector<Encounter> met;
-    add_encounters(ray_, database_.primitives()[hit.primitive], hit.primitive, met);
-    return std::any_of(met.begin(), met.end(), [&](const Encounter& seen) {
+    std::vector<ExactIntersection> met;
+    add_exact_intersections(ray_, database_.primitives()[hit.primitive], hit.primitive, met);
+    return std::any_of(met.begin(), met.end(), [&](const ExactIntersection& seen) {
       return std::fabs(double{hit.t} - seen.t) <= seen.t_error + level_share * std::fabs(seen.t);
     });
   }

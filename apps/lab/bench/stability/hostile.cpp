@@ -99,7 +99,7 @@ Ray usual_ray(const core::Database& database, Random& random) {
   return ray_through(origin, point());
 }
 
-/// Steps of the walk and tests of primitives.
+/// Steps of the traversal and tests of primitives.
 double work_of(const core::Database& database, const Ray& ray) {
   core::LocalRecords records(database.bytes());
   core::Cursor cursor;

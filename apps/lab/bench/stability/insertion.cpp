@@ -16,7 +16,7 @@ using core::Scene;
 using core::Vec3d;
 
 constexpr int primitive_count = 300;
-/// So many that 300 primitives have several top cells.
+/// So many that 300 primitives have several macro cells.
 constexpr double cells_per_primitive = 4;
 /// How far a sample point is off, and a little: without a pad a point may belong to the neighbour.
 constexpr double sample_error = 1e-12;

@@ -18,7 +18,7 @@ namespace dmpc::apps {
 
 /// Immutable once made, so any thread may trace in it.
 struct StabilitySubject {
-  explicit StabilitySubject(const core::Scene& scene) : StabilitySubject(scene, several_top_cells(scene)) {}
+  explicit StabilitySubject(const core::Scene& scene) : StabilitySubject(scene, several_macro_cells(scene)) {}
   StabilitySubject(const core::Scene& scene, const core::BuildOptions& options)
       : database(core::build_database(scene, options)), voxels(core::build_database(scene, with_voxels(options))) {}
 
@@ -38,18 +38,18 @@ struct StabilitySubject {
 
 /// The first ten answer any ray; the others are asked by the tests that are about them.
 enum class StabilityKernel : std::uint8_t {
-  grid,           ///< the walk with vectors of 8 triangles
-  scalar,         ///< the walk with the scalar twin
-  plain,          ///< the walk that leaves empty space cell by cell
-  resumed,        ///< the walk stopped by an absent record before each of its steps
-  bundle,         ///< the walk beside three others
+  grid,           ///< the traversal with vectors of 8 triangles
+  scalar,         ///< the traversal with the scalar twin
+  plain,          ///< the traversal that leaves empty space cell by cell
+  resumed,        ///< the traversal stopped by an absent record before each of its steps
+  bundle,         ///< the traversal beside three others
   any_hit,        ///< as a shadow ray: only whether there is a hit
-  voxels,         ///< the walk of a plain grid of voxels with lists, over the same scene
+  voxels,         ///< the traversal of a plain grid of voxels with lists, over the same scene
   voxels_bundle,  ///< the same beside three others
   embree_fast,    ///< Embree without its robust flag
   embree_robust,  ///< Embree with it
-  regions,        ///< the walk from owner to owner of a space cut into regions
-  planes,         ///< the walk's planes alone, finest cell by finest cell
+  regions,        ///< the traversal from owner to owner of a space cut into regions
+  planes,         ///< the traversal's planes alone, finest cell by finest cell
   listing,        ///< no walk: which primitives the boxes around a point list
   certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };

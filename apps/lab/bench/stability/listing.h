@@ -1,4 +1,4 @@
-// Which primitives a ray through a point may be tested against: the records read back, independently of the walk.
+// Which primitives a ray through a point may be tested against: the records read back, independently of the traversal.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class Listing {
  public:
   explicit Listing(const core::Database& database) : database_(&database) {}
 
-  /// Ids in the blocks whose boxes, and those of all bricks above them, hold the local point `at`; empty outside the grid.
+  /// Ids in the leaves whose boxes, and those of all BVH nodes above them, hold the local point `at`; empty outside the grid.
   std::vector<std::uint32_t> around(const core::Vec3d& at) const {
     std::array<std::int32_t, 3> cell{};
     const core::GridFrame& frame = database_->header().frame;
@@ -35,9 +35,9 @@ class Listing {
     std::vector<std::uint32_t> ids;
     if (!entry.empty() && database_->header().has_voxels()) {
       core::LocalRecords records(database_->bytes());
-      core::for_each_listed(records, database_->header(), entry, [&](core::Address block) { append(block, ids); });
+      core::for_each_listed(records, database_->header(), entry, [&](core::Address leaf) { append(leaf, ids); });
     } else if (!entry.empty()) {
-      collect(entry.brick(), at, ids);
+      collect(entry.bvh_node(), at, ids);
     }
     return ids;
   }
@@ -51,31 +51,31 @@ class Listing {
   const std::byte* record(core::Address address) const { return database_->bytes().data() + core::byte_offset(address); }
 
   void collect(core::Address address, const core::Vec3d& at, std::vector<std::uint32_t>& ids) const {
-    const auto brick = core::read<core::Brick>(record(address));
-    for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (!holds(brick, child, at)) {
+    const auto bvh_node = core::read<core::BvhNode>(record(address));
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      if (!holds(bvh_node, child, at)) {
         continue;
       }
-      if (brick.child[child].is_block()) {
-        append(brick.child[child].address(), ids);
+      if (bvh_node.child[child].is_leaf()) {
+        append(bvh_node.child[child].address(), ids);
       } else {
-        collect(brick.child[child].address(), at, ids);
+        collect(bvh_node.child[child].address(), at, ids);
       }
     }
   }
 
-  static bool holds(const core::Brick& brick, std::size_t child, const core::Vec3d& at) {
+  static bool holds(const core::BvhNode& bvh_node, std::size_t child, const core::Vec3d& at) {
     bool inside = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = (at[axis] - double{brick.origin[axis]}) / double{brick.unit};
-      inside = inside && place >= brick.bounds[axis][child] && place <= brick.bounds[axis + 3][child];
+      const double place = (at[axis] - double{bvh_node.origin[axis]}) / double{bvh_node.unit};
+      inside = inside && place >= bvh_node.bounds[axis][child] && place <= bvh_node.bounds[axis + 3][child];
     }
     return inside;
   }
 
-  void append(core::Address block, std::vector<std::uint32_t>& ids) const {
-    const auto header = core::read<core::BlockHeader>(record(block));
-    const std::byte* first = core::ids_of(header, record(block));
+  void append(core::Address leaf, std::vector<std::uint32_t>& ids) const {
+    const auto header = core::read<core::LeafHeader>(record(leaf));
+    const std::byte* first = core::ids_of(header, record(leaf));
     for (std::size_t lane = 0; lane < header.count; ++lane) {
       ids.push_back(core::read<std::uint32_t>(first + 4 * lane));
     }

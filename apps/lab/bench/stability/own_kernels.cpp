@@ -6,29 +6,29 @@
 
 #include "apps/lab/bench/stability/rays.h"
 #include "apps/lab/bench/stability/walk.h"
-#include "core/trace/bundle_walk.h"
+#include "core/trace/bundle_traversal.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::apps {
 namespace {
 
-void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const BlockView& block, core::Hit& best) {
-  float times[core::block_lanes] = {};
-  core::hit_shared_faces(sheared, block.record, core::no_primitive, ray.t_max, times);
-  for (std::size_t lane = 0; lane < block.count; ++lane) {
-    const bool is_shared = (block.shared_lanes >> lane & 1U) != 0;
-    const float t = is_shared ? times[lane] : core::intersect_triangle(sheared, block.rows, block.count, lane);
-    if (t > 0.0F && t < ray.t_max && nearer(t, block.ids[lane], best) && block.ids[lane] != ray.ignored_primitive) {
+void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const LeafView& leaf, core::Hit& best) {
+  float times[core::leaf_lanes] = {};
+  core::hit_shared_faces(sheared, leaf.record, core::no_primitive, ray.t_max, times);
+  for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+    const bool is_shared = (leaf.shared_lanes >> lane & 1U) != 0;
+    const float t = is_shared ? times[lane] : core::intersect_triangle(sheared, leaf.rows, leaf.count, lane);
+    if (t > 0.0F && t < ray.t_max && nearer(t, leaf.ids[lane], best) && leaf.ids[lane] != ray.ignored_primitive) {
       best.t = t;
-      best.primitive = block.ids[lane];
+      best.primitive = leaf.ids[lane];
     }
   }
 }
 
 core::Hit shoot_scalar(const core::Database& database, const core::Ray& ray) {
   const core::ShearedRay sheared(ray);
-  return walk_blocks(database, ray, core::meet_children_scalar,
-                     [&](const BlockView& block, core::Hit& best) { test_scalar(ray, sheared, block, best); });
+  return walk_leaves(database, ray, core::meet_children_scalar,
+                     [&](const LeafView& leaf, core::Hit& best) { test_scalar(ray, sheared, leaf, best); });
 }
 
 core::Hit shoot_resumed(const core::Database& database, const core::Ray& ray) {

@@ -19,7 +19,7 @@ using core::Ray;
 using core::Vec3d;
 
 struct Kernels {
-  core::BrickKernel meet;
+  core::BvhNodeKernel meet;
   core::TriangleKernel hit;
 };
 
@@ -27,13 +27,13 @@ struct Kernels {
 std::size_t hits_on_way(const core::Database& database, const Ray& ray, const Kernels& kernels) {
   std::vector<std::uint32_t> ids;
   const core::ShearedRay sheared(ray);
-  walk_blocks(database, ray, kernels.meet, [&](const BlockView& block, core::Hit&) {
-    std::array<float, core::block_lanes> times{};
+  walk_leaves(database, ray, kernels.meet, [&](const LeafView& leaf, core::Hit&) {
+    std::array<float, core::leaf_lanes> times{};
     const std::uint32_t hits =
-        kernels.hit(sheared, {block.rows, block.count}, core::no_primitive, std::numeric_limits<float>::infinity(), times.data());
-    for (std::size_t lane = 0; lane < block.count; ++lane) {
+        kernels.hit(sheared, {leaf.rows, leaf.count}, core::no_primitive, std::numeric_limits<float>::infinity(), times.data());
+    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
       if ((hits >> lane & 1U) != 0) {
-        ids.push_back(block.ids[lane]);
+        ids.push_back(leaf.ids[lane]);
       }
     }
   });
@@ -43,8 +43,8 @@ std::size_t hits_on_way(const core::Database& database, const Ray& ray, const Ke
 
 /// Whether rounding decides nothing: a ray within rounding of an edge may meet both its triangles.
 bool is_generic(const Referee& referee, const Ray& ray) {
-  const std::vector<Encounter> met = referee.encounters(ray);
-  return std::all_of(met.begin(), met.end(), [](const Encounter& seen) { return seen.certain(Renderer::grid); });
+  const std::vector<ExactIntersection> met = referee.exact_intersections(ray);
+  return std::all_of(met.begin(), met.end(), [](const ExactIntersection& seen) { return seen.certain(Renderer::grid); });
 }
 
 void judge_parity(const StabilitySubject& subject, const Ray& ray, bool inside, const Kernels& kernels, StabilityCounts& count) {

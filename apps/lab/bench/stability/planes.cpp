@@ -1,5 +1,5 @@
-// R5: the sequence of finest cells that the walk's planes give, against the true line in long double: each point where it enters
-// a cell lies in that cell within the pad, each step leads to a neighbour, and forward.
+// R5: the sequence of finest cells that the traversal's planes give, against the true line in long double: each point where it
+// enters a cell lies in that cell within the pad, each step leads to a neighbour, and forward.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

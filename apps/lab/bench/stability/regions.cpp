@@ -23,8 +23,8 @@ using core::Region;
 using core::Traced;
 using core::Vec3d;
 
-/// A top cell in sixteen, in finest cells.
-constexpr std::int32_t slice = core::finest_per_top / 16;
+/// A macro cell in sixteen, in finest cells.
+constexpr std::int32_t slice = core::finest_per_macro / 16;
 constexpr std::size_t slices_per_cell = core::finest_per_cell / slice;
 
 /// Cuts the grid into `count` boxes at random planes between slices.
@@ -68,7 +68,7 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
   return scene;
 }
 
-/// Several top cells. The grid's resolution must not depend on the walls, so it does not depend on their number, either.
+/// Several macro cells. The grid's resolution must not depend on the walls, so it does not depend on their number, either.
 core::BuildOptions options_for(std::size_t region_count) { return {.cells_per_primitive = region_count > 8 ? 4.0 : 1.0}; }
 
 core::Scene scene_with_walls(const core::BuildOptions& options) {

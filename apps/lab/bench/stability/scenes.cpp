@@ -17,7 +17,7 @@ using core::Ray;
 using core::Scene;
 using core::Vec3d;
 
-/// Many enough for several blocks in one place, few enough for the referee, who takes the square of it.
+/// Many enough for several leaves in one place, few enough for the referee, who takes the square of it.
 constexpr int coincident_copies = 40;
 
 using MakeRay = Ray (*)(const StabilitySubject& subject, Random& random);

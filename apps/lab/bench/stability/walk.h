@@ -1,4 +1,4 @@
-// The walk of the grid with tests of triangles of one's own: the scalar twin's, or ones that collect every hit.
+// The traversal of the grid with tests of triangles of one's own: the scalar twin's, or ones that collect every hit.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace dmpc::apps {
 
-/// A block of primitives as a record holds it.
-struct BlockView {
+/// A leaf of primitives as a record holds it.
+struct LeafView {
   core::PrimitiveKind kind{};
   std::size_t count = 0;
   const float* rows = nullptr;
@@ -19,30 +19,30 @@ struct BlockView {
   const std::byte* record = nullptr;
 };
 
-inline BlockView view_block(const std::byte* record) {
-  const auto header = core::read<core::BlockHeader>(record);
+inline LeafView view_leaf(const std::byte* record) {
+  const auto header = core::read<core::LeafHeader>(record);
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
   return {header.kind,         header.count, rows, reinterpret_cast<const std::uint32_t*>(core::ids_of(header, record)),
           header.shared_lanes, record};
 }
 
-/// Calls test(block, best) for each block of triangles that `ray` meets, by `meet`, before the walk knows its nearest hit.
+/// Calls test(leaf, best) for each leaf of triangles that `ray` meets, by `meet`, before the traversal knows its nearest hit.
 /// Spheres and cones have but one kernel, which tests them. Returns the best of both.
 template <class Test>
-core::Hit walk_blocks(const core::Database& database, const core::Ray& ray, core::BrickKernel meet, const Test& test) {
+core::Hit walk_leaves(const core::Database& database, const core::Ray& ray, core::BvhNodeKernel meet, const Test& test) {
   const core::ShearedRay sheared(ray);
   core::LocalRecords records(database.bytes());
   core::Cursor cursor;
   core::Operations operations;
   const auto test_any = [&](const std::byte* record, core::Address address, core::Hit& best) {
-    const BlockView block = view_block(record);
-    if (block.kind == core::PrimitiveKind::triangle) {
-      test(block, best);
+    const LeafView leaf = view_leaf(record);
+    if (leaf.kind == core::PrimitiveKind::triangle) {
+      test(leaf, best);
     } else {
-      core::test_block(ray, sheared, record, address, best, operations);
+      core::test_leaf(ray, sheared, record, address, best, operations);
     }
   };
-  core::RayWalk(ray, cursor, records, operations).trace(database.header(), {}, meet, test_any);
+  core::RayTraversal(ray, cursor, records, operations).trace(database.header(), {}, meet, test_any);
   return cursor.best;
 }
 

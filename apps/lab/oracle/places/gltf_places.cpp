@@ -5,24 +5,24 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/edge/system/base64.h"
 #include "apps/formats/view_faults.h"
+#include "apps/frontend/system/base64.h"
 #include "apps/lab/oracle/places/file_places.h"
 
 namespace dmpc::apps {
 namespace {
 
 using core::Vec3d;
-using Json = nlohmann::json;
+using PlacesJson = nlohmann::json;
 using Numbers = std::vector<double>;
-using JsonPointer = Json::json_pointer;
+using JsonPointer = PlacesJson::json_pointer;
 
 struct GltfFile {
-  Json json;
+  PlacesJson json;
   std::string chunk;
   const BytesOfNamed& bytes_of;
   FilePlaces& places;
-  std::map<const Json*, std::string> buffers = {};
+  std::map<const PlacesJson*, std::string> buffers = {};
   std::multimap<std::size_t, core::View> cameras = {};  ///< by their places in the document, then as the tree has them
 };
 
@@ -34,7 +34,7 @@ std::size_t whole(double number) {
 }
 
 /// What the document lists, and a member of `part` names.
-const Json& listed(const GltfFile& file, const char* list, const Json& part, const char* name) {
+const PlacesJson& listed(const GltfFile& file, const char* list, const PlacesJson& part, const char* name) {
   return file.json.at(list).at(whole(part.at(name).get<double>()));
 }
 
@@ -52,8 +52,8 @@ double number_at(const char* bytes, std::size_t type, bool is_normalized) {
   return is_normalized ? std::max(value / (half - 1), -1.0) : value;
 }
 
-const std::string& buffer_of(GltfFile& file, const Json& view) {
-  const Json& buffer = listed(file, "buffers", view, "buffer");
+const std::string& buffer_of(GltfFile& file, const PlacesJson& view) {
+  const PlacesJson& buffer = listed(file, "buffers", view, "buffer");
   const auto [known, is_new] = file.buffers.try_emplace(&buffer, file.chunk);
   if (is_new && buffer.contains("uri")) {
     const auto& uri = buffer.at("uri").get_ref<const std::string&>();
@@ -69,8 +69,8 @@ const std::string& buffer_of(GltfFile& file, const Json& view) {
 
 /// Calls take(i, bytes) for `count` elements that lie where `part` says.
 template <class Take>
-void for_each_element(GltfFile& file, const Json& part, std::size_t count, std::size_t element_bytes, const Take& take) {
-  const Json& view = listed(file, "bufferViews", part, "bufferView");
+void for_each_element(GltfFile& file, const PlacesJson& part, std::size_t count, std::size_t element_bytes, const Take& take) {
+  const PlacesJson& view = listed(file, "bufferViews", part, "bufferView");
   const std::string& all = buffer_of(file, view);
   const std::size_t begin = whole(view.value("byteOffset", 0.0)), room = whole(view.at("byteLength").get<double>());
   const std::size_t end = std::min(begin + room, all.size()), step = std::min(whole(view.value("byteStride", 0.0)), all.size());
@@ -84,8 +84,8 @@ void for_each_element(GltfFile& file, const Json& part, std::size_t count, std::
 }
 
 /// All of the accessor that `part` names, `width` for each of its elements.
-Numbers numbers_of(GltfFile& file, const Json& part, const char* name, std::size_t width) {
-  const Json& accessor = listed(file, "accessors", part, name);
+Numbers numbers_of(GltfFile& file, const PlacesJson& part, const char* name, std::size_t width) {
+  const PlacesJson& accessor = listed(file, "accessors", part, name);
   const std::size_t count = whole(accessor.at("count").get<double>()), type = whole(accessor.at("componentType").get<double>());
   file.places.spend(count);
   Numbers numbers(count * width);
@@ -98,7 +98,7 @@ Numbers numbers_of(GltfFile& file, const Json& part, const char* name, std::size
     for_each_element(file, accessor, count, width * bytes_of_type(type), put);
   }
   if (accessor.contains("sparse")) {
-    const Json &sparse = accessor.at("sparse"), &replaced = sparse.at("indices");
+    const PlacesJson &sparse = accessor.at("sparse"), &replaced = sparse.at("indices");
     const std::size_t some = whole(sparse.at("count").get<double>()), index = whole(replaced.at("componentType").get<double>());
     file.places.spend(some);
     std::vector<std::size_t> indices;
@@ -122,7 +122,7 @@ struct NodeAxes {
 };
 
 /// Turned by a quaternion (q, w), v is v + 2 w (q x v) + 2 q x (q x v).
-NodeAxes axes_of_node(const Json& node) {
+NodeAxes axes_of_node(const PlacesJson& node) {
   const auto vector = [](const Numbers& from, std::size_t i) { return Vec3d{from.at(i), from.at(i + 1), from.at(i + 2)}; };
   if (node.contains("matrix")) {
     const Numbers m = node.at("matrix");
@@ -136,14 +136,14 @@ NodeAxes axes_of_node(const Json& node) {
 }
 
 /// Of a mask that no texture raises to its cutoff nothing is there.
-bool is_cut_away(const GltfFile& file, const Json& primitive) {
-  static const Json plain = Json::object();
-  const Json& material = primitive.contains("material") ? listed(file, "materials", primitive, "material") : plain;
+bool is_cut_away(const GltfFile& file, const PlacesJson& primitive) {
+  static const PlacesJson plain = PlacesJson::object();
+  const PlacesJson& material = primitive.contains("material") ? listed(file, "materials", primitive, "material") : plain;
   const double alpha = material.value(JsonPointer("/pbrMetallicRoughness/baseColorFactor/3"), 1.0);
   return material.value("alphaMode", "OPAQUE") == "MASK" && std::min(alpha, 1.0) < material.value("alphaCutoff", 0.5);
 }
 
-void add_primitive(GltfFile& file, const Json& primitive, const NodeAxes& axes) {
+void add_primitive(GltfFile& file, const PlacesJson& primitive, const NodeAxes& axes) {
   const std::size_t mode = whole(primitive.value("mode", 4.0));  // from 4 on: a list of triangles, a strip, a fan
   file.places.spend(1);
   if (mode < 4 || !primitive.at("attributes").contains("POSITION") || is_cut_away(file, primitive)) {
@@ -162,7 +162,7 @@ void add_primitive(GltfFile& file, const Json& primitive, const NodeAxes& axes) 
 }
 
 /// Its angle goes from edge to edge of the vertical, a view's between the middles of the outer pixels of the shorter side.
-core::View view_of_camera(const Json& camera, const NodeAxes& axes, const Resolution& size) {
+core::View view_of_camera(const PlacesJson& camera, const NodeAxes& axes, const Resolution& size) {
   const double angle = camera.value(JsonPointer("/perspective/yfov"), 0.0);
   const double slope = std::tan(angle / 2) * std::max(1, std::min(size.width, size.height) - 1) / size.height;
   const double far = std::max(1.0, largest_component(axes.origin));  // so that the place leaves the direction its digits
@@ -173,9 +173,9 @@ core::View view_of_camera(const Json& camera, const NodeAxes& axes, const Resolu
 }
 
 /// With all below it. A hidden one has nothing to show.
-void add_node(GltfFile& file, const Json& index, const NodeAxes& above, const Resolution& size, int level) {
+void add_node(GltfFile& file, const PlacesJson& index, const NodeAxes& above, const Resolution& size, int level) {
   constexpr int levels_max = 2000;
-  const Json& node = file.json.at("nodes").at(whole(index.get<double>()));
+  const PlacesJson& node = file.json.at("nodes").at(whole(index.get<double>()));
   file.places.spend(1);
   if (level > levels_max) {
     throw core::InputError("its nodes hang below each other more than 2000 deep");
@@ -189,12 +189,12 @@ void add_node(GltfFile& file, const Json& index, const NodeAxes& above, const Re
                          view_of_camera(listed(file, "cameras", node, "camera"), axes, size));
   }
   if (node.contains("mesh")) {
-    for (const Json& primitive : listed(file, "meshes", node, "mesh").at("primitives")) {
+    for (const PlacesJson& primitive : listed(file, "meshes", node, "mesh").at("primitives")) {
       add_primitive(file, primitive, axes);
     }
   }
   if (node.contains("children")) {
-    for (const Json& child : node.at("children")) {
+    for (const PlacesJson& child : node.at("children")) {
       add_node(file, child, axes, size, level + 1);
     }
   }
@@ -225,10 +225,10 @@ void read_gltf_places(const std::string& file, const BytesOfNamed& bytes_of, dou
   if (text.size() > std::size_t{1} << 26U) {
     throw core::InputError("it has more than 64 MiB of JSON");
   }
-  GltfFile read{.json = Json::parse(text.begin(), text.end()), .chunk = {}, .bytes_of = bytes_of, .places = places};
+  GltfFile read{.json = PlacesJson::parse(text.begin(), text.end()), .chunk = {}, .bytes_of = bytes_of, .places = places};
   read.chunk = is_binary ? chunk_at(file, 20 + text.size()) : std::string_view();
-  const Json& scene = read.json.at("scenes").at(whole(read.json.value("scene", 0.0)));
-  for (const Json& root : scene.value("nodes", Json::array())) {
+  const PlacesJson& scene = read.json.at("scenes").at(whole(read.json.value("scene", 0.0)));
+  for (const PlacesJson& root : scene.value("nodes", PlacesJson::array())) {
     add_node(read, root, {{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, {}}, size, 0);
   }
   for (const auto& [index, view] : read.cameras) {  // the first that makes a picture

@@ -8,13 +8,13 @@
 #include <iterator>
 #include <limits>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/small_letters.h"
 #include "apps/formats/named_file.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/small_letters.h"
 #include "apps/lab/crowd/side_by_side.h"
-#include "apps/lab/oracle/accurate/camera.h"
-#include "apps/lab/oracle/accurate/finder.h"
 #include "apps/lab/oracle/places/file_places.h"
+#include "apps/lab/oracle/reference/camera.h"
+#include "apps/lab/oracle/reference/finder.h"
 #include "apps/lab/oracle/trial_line.h"
 
 namespace dmpc::apps {
@@ -39,9 +39,9 @@ std::string bytes_of_opened(const std::vector<fs::path>& meant, const OpenedFile
 void read_places(const PictureOptions& picture, const Resolution& size, const OpenedFiles& opened, FilePlaces& places) {
   const fs::path path = picture.scene;
   const std::string ending = in_small_letters(path.extension().string());
-  const double scale = picture.staging.mesh.scale.value_or(1);
+  const double scale = picture.scene_setup.mesh.scale.value_or(1);
   const auto bytes_of = [&](const std::string& name) { return bytes_of_opened(files_meant(path.parent_path(), name), opened); };
-  if (picture.staging.mesh.animation || (ending != ".obj" && ending != ".gltf" && ending != ".glb")) {
+  if (picture.scene_setup.mesh.animation || (ending != ".obj" && ending != ".gltf" && ending != ".glb")) {
     throw core::InputError("the oracle reads OBJ and glTF alone, and nothing that moves");
   }
   const std::string bytes = bytes_of_opened({path}, opened);
@@ -61,23 +61,23 @@ struct Spot {
 class FirstHits {
  public:
   FirstHits(const core::Scene& faces, const core::View& view, const Resolution& size)
-      : scene_(accurate_scene(faces)), camera_(view, size.width, size.height, scene_.bounds), finder_(scene_, camera_.start()) {}
+      : scene_(reference_scene(faces)), camera_(view, size.width, size.height, scene_.bounds), finder_(scene_, camera_.start()) {}
 
   Spot at(double column, double row) const {
-    const AccurateRay ray = camera_.ray_through(column, row);
-    const AccurateHit hit = finder_.closest(ray);
+    const ReferenceRay ray = camera_.ray_through(column, row);
+    const ReferenceHit hit = finder_.closest(ray);
     if (!hit.found()) {
       return {};
     }
-    const AccurateSurface surface = surface_at(scene_.bodies[hit.body], ray, hit.t);
+    const ReferenceSurface surface = surface_at(scene_.bodies[hit.body], ray, hit.t);
     const double pixel = narrow_angle(ray) * (ray.cone + hit.t), slant = std::fabs(dot(surface.normal, ray.direction));
     return {surface.point, pixel, pixel * ray_beside * (1 + 1 / slant) + place_rounding * length(surface.point)};
   }
 
  private:
-  AccurateScene scene_;
-  AccurateCamera camera_;
-  AccurateFinder finder_;
+  ReferenceScene scene_;
+  ReferenceCamera camera_;
+  ReferenceFinder finder_;
 };
 
 /// In pixels; 0 for one place. An edge may lie so near to the ray that rounding decides which side it passes: then a ray beside
@@ -116,7 +116,7 @@ PlaceFindings judge_places(const core::Scene& read, const PictureOptions& pictur
     return {.not_judged = why.what()};
   }
   const FirstHits as_read(product.scene, read.view, size);
-  const FirstHits as_said(own.scene, own.view && !picture.staging.camera ? *own.view : read.view, size);
+  const FirstHits as_said(own.scene, own.view && !picture.scene_setup.camera ? *own.view : read.view, size);
   const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<double> apart(width * height);
   side_by_side(height, [&](std::size_t row) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/scene/picture_options.h"
 #include "core/scene/scene.h"
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/system/bounded_text.h"
-#include "apps/edge/system/watched_process.h"
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/system/bounded_text.h"
+#include "apps/frontend/system/watched_process.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -31,7 +31,7 @@ std::optional<std::string> misfit_of(const WatchedProcess& process) {
   if (process.status == -SIGKILL) {
     return "It was killed, as a computer without memory to spare does";
   }
-  if (process.status == no_room_status) {
+  if (process.status == no_capacity_status) {
     return sentence_of(process.complaint);
   }
   if (process.status == input_status) {

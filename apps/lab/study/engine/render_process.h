@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/scratch_folder.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/system/scratch_folder.h"
 #include "apps/lab/figures/figures_file.h"
 
 namespace dmpc::apps {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::apps {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/table/table.h"
 #include "apps/scene/database_options.h"
 
 namespace dmpc::apps {

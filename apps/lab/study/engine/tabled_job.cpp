@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/edge/show/page/origin.h"
+#include "apps/frontend/show/page/origin.h"
 #include "apps/show/page/sweep_page.h"
 
 namespace dmpc::apps {

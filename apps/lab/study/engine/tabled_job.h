@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/show/page/page.h"
-#include "apps/edge/system/attempts.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/show/page/page.h"
+#include "apps/frontend/system/attempts.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/show/page/forecast_view.h"
 #include "core/base/expect.h"
 
@@ -49,11 +49,11 @@ struct StudyFindings {
 };
 TableResult study_result(StudyFindings findings, TableFormat format);
 
-/// Throws core::RoomError if none of the results has `figures`, for the reason that is the first one's `misfit`.
+/// Throws core::CapacityError if none of the results has `figures`, for the reason that is the first one's `misfit`.
 template <class Results>
 void check_any_fits(const Results& results) {
   if (std::none_of(results.begin(), results.end(), [](const auto& result) { return result.figures.has_value(); })) {
-    throw core::RoomError(results.front().misfit);
+    throw core::CapacityError(results.front().misfit);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/edge/run/time_parts.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/run/time_parts.h"
+#include "apps/frontend/table/filled_columns.h"
 
 namespace dmpc::apps {
 

@@ -1,8 +1,8 @@
 // A render whose phase `render` is timed, by nobody watched.
 #pragma once
 
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/stopwatch.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/system/stopwatch.h"
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 #include "core/database/database.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/paper/catalogue.h"
 #include "nodes/machine.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 
@@ -162,8 +162,8 @@ void add_foils(Catalogue& catalogue) {
     run.pages.work_item_side = item_sides[size];
     catalogue.items[size] = size == article_item ? timed : catalogue.add(run);
     if (item_sides[size] > 0) {
-      run.pages.work_giver = svm::WorkGiver::host;
-      catalogue.items_dealt[size] = catalogue.add(run);
+      run.pages.work_donor = svm::WorkDonor::host;
+      catalogue.items_assigned[size] = catalogue.add(run);
     }
   }
   PaperRun by_rays = catalogue.runs[catalogue.rings_by_rays[1][last]],

@@ -91,7 +91,7 @@ struct Catalogue {
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
   /// Those that ask the host for items; nothing of size 0.
-  std::array<std::size_t, item_sides.size()> items_dealt{};
+  std::array<std::size_t, item_sides.size()> items_assigned{};
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
   /// Rings4 on 64 nodes, by size: its shared memory in software, and in hardware.
   std::array<std::size_t, page_sizes_bytes.size()> paged{}, paged_by_hardware{};

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/lab/study/paper/runs.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/claim_rows.h"
 #include "apps/lab/study/paper/tables.h"
 
@@ -229,8 +229,8 @@ void claim_items(Claims& rows, const Catalogue& catalogue, const PaperResults& r
 void claim_scheduling(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& none = results[catalogue.items.front()];
   const auto& ring = results[catalogue.items[article_item]];
-  const auto& host = results[catalogue.items_dealt[article_item]];
-  const auto& pixels = results[catalogue.items_dealt[1]];
+  const auto& host = results[catalogue.items_assigned[article_item]];
+  const auto& pixels = results[catalogue.items_assigned[1]];
   if (none && ring && host && pixels) {
     const double ratio = ring->seconds() / std::min({none->seconds(), host->seconds(), pixels->seconds()});
     rows.add("Submaps and then items on request do better than either alone (Rings4, 64 nodes)",

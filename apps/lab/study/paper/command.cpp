@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/attempts.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/output_set.h"
-#include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/system/attempts.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/system/output_set.h"
+#include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/paper/calibration.h"
 #include "apps/lab/study/paper/catalogue.h"
@@ -49,8 +49,8 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"table_2", table_2(catalogue, results, subjects)},
           {"table_3", table_3(catalogue, results)},
           {"calibration", calibration(catalogue, results)},
-          {"law", beside_law(catalogue, results)},
-          {"against_law", against_law(catalogue, results)},
+          {"law", beside_model(catalogue, results)},
+          {"against_model", against_model(catalogue, results)},
           {"memories", memories(catalogue, results)},
           {"losses", losses(catalogue, results)},
           {"algorithms", algorithms(catalogue, results)},

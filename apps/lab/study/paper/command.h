@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/sensitivity.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 
 namespace dmpc::apps {
 namespace {
@@ -99,11 +99,11 @@ std::string on_calibration(const Table& table) {
                                 texts_of(table, *sizes.of_most)[0] + ").";
 }
 
-std::string on_law(const Table& table) {
-  const Sizes ours = sizes_of(table, "our difference"), law = sizes_of(table, "the law's difference");
-  return ours.count == 0 || law.count == 0 ? ""
-                                           : "Over these cells we are " + points_text(ours.mean()) +
-                                                 " off in the mean, the law " + points_text(law.mean()) + ".";
+std::string on_model(const Table& table) {
+  const Sizes ours = sizes_of(table, "our difference"), model = sizes_of(table, "the law's difference");
+  return ours.count == 0 || model.count == 0 ? ""
+                                             : "Over these cells we are " + points_text(ours.mean()) +
+                                                   " off in the mean, the law " + points_text(model.mean()) + ".";
 }
 
 std::string on_errors(const Table& table) {
@@ -111,13 +111,13 @@ std::string on_errors(const Table& table) {
     return "";
   }
   const auto ours = number_in(table, table.rows()[0], "our mean error"),
-             law = number_in(table, table.rows()[0], "the law's mean error");
-  if (!ours || !law) {
+             model = number_in(table, table.rows()[0], "the law's mean error");
+  if (!ours || !model) {
     return "";
   }
-  return "Over " + texts_of(table, table.rows()[0])[0] + " " + (*ours < *law ? "we are" : "the law is") +
-         " nearer: " + points_text(std::min(*ours, *law)) + " off in the mean, against " + points_text(std::max(*ours, *law)) +
-         ".";
+  return "Over " + texts_of(table, table.rows()[0])[0] + " " + (*ours < *model ? "we are" : "the law is") +
+         " nearer: " + points_text(std::min(*ours, *model)) + " off in the mean, against " +
+         points_text(std::max(*ours, *model)) + ".";
 }
 
 /// The columns behind the printed one are ways to choose memories.
@@ -277,8 +277,8 @@ constexpr std::array<Conclusion, 21> conclusions = {{{"voxel_table_2", on_table_
                                                      {"table_2", on_table_2},
                                                      {"table_3", on_table_3},
                                                      {"calibration", on_calibration},
-                                                     {"law", on_law},
-                                                     {"against_law", on_errors},
+                                                     {"law", on_model},
+                                                     {"against_model", on_errors},
                                                      {"memories", on_memories},
                                                      {"losses", on_losses},
                                                      {"algorithms", on_algorithms},

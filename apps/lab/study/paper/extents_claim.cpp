@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/claim_rows.h"
 
 namespace dmpc::apps {

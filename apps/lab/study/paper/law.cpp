@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/tables.h"
 
 namespace dmpc::apps {
@@ -14,11 +14,11 @@ double share_elsewhere(std::uint32_t node_count) { return static_cast<double>(no
 /// A cell that we predict, and what the law says of it.
 struct Comparison {
   CellOfTable3 cell;
-  double by_law = 0;  ///< efficiency in percent
-  bool is_fitted_by_law = false;
+  double by_model = 0;  ///< efficiency in percent
+  bool is_fitted_by_model = false;
 
   double our_difference() const { return cell.efficiency - cell.printed_efficiency; }
-  double difference_of_law() const { return by_law - cell.printed_efficiency; }
+  double difference_of_model() const { return by_model - cell.printed_efficiency; }
 };
 
 /// Every predicted cell is in a row with a base, so its scene has a law.
@@ -26,12 +26,13 @@ std::vector<Comparison> comparisons_of(const Catalogue& catalogue, const PaperRe
   std::vector<Comparison> comparisons;
   for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
     const PaperScene& scene = paper_scenes[cell.scene];
-    const std::optional<PaperLaw> law = law_of(scene);
-    if (cell.is_predicted() && law) {
+    const std::optional<PaperModel> model = model_of(scene);
+    if (cell.is_predicted() && model) {
       const std::uint32_t base_count = paper_node_counts[scene.base()];
-      comparisons.push_back({.cell = cell,
-                             .by_law = efficiency(law->seconds(base_count), base_count, law->seconds(cell.nodes), cell.nodes),
-                             .is_fitted_by_law = cell.nodes <= paper_node_counts[scene.base() + law_cell_count - 1]});
+      comparisons.push_back(
+          {.cell = cell,
+           .by_model = efficiency(model->seconds(base_count), base_count, model->seconds(cell.nodes), cell.nodes),
+           .is_fitted_by_model = cell.nodes <= paper_node_counts[scene.base() + model_cell_count - 1]});
     }
   }
   return comparisons;
@@ -40,9 +41,9 @@ std::vector<Comparison> comparisons_of(const Catalogue& catalogue, const PaperRe
 /// Every scene has a base; of the calibration's cells one is that.
 std::size_t predicted_cell_count() { return printed_cell_count() - paper_scenes.size() - (calibration_cell_count - 1); }
 
-void add_scenes_without_law(Table& table) {
+void add_scenes_without_model(Table& table) {
   for (const PaperScene& scene : paper_scenes) {
-    if (!law_of(scene)) {
+    if (!model_of(scene)) {
       const std::uint64_t nodes = paper_node_counts[scene.base()];
       table.add_row({scene.title, nodes, 100.0, {}, {}, {}, {}, "one printed cell: nothing to predict or to fit a law to"});
     }
@@ -51,25 +52,25 @@ void add_scenes_without_law(Table& table) {
 
 template <class Condition>
 void add_summary(Table& table, const char* cells, const std::vector<Comparison>& comparisons, const Condition& is_meant) {
-  Differences ours, of_law;
+  Differences ours, of_model;
   for (const Comparison& comparison : comparisons) {
     if (is_meant(comparison)) {
       ours.add(comparison.our_difference());
-      of_law.add(comparison.difference_of_law());
+      of_model.add(comparison.difference_of_model());
     }
   }
   if (ours.count > 0) {
-    table.add_row({cells, std::uint64_t{ours.count}, ours.mean(), of_law.mean(), ours.worst, of_law.worst});
+    table.add_row({cells, std::uint64_t{ours.count}, ours.mean(), of_model.mean(), ours.worst, of_model.worst});
   }
 }
 
 }  // namespace
 
-double PaperLaw::seconds(std::uint32_t node_count) const {
+double PaperModel::seconds(std::uint32_t node_count) const {
   return one_node * (1 + dearer * share_elsewhere(node_count)) / node_count;
 }
 
-std::optional<PaperLaw> law_of(const PaperScene& scene) {
+std::optional<PaperModel> model_of(const PaperScene& scene) {
   const std::size_t first = scene.base(), second = first + 1;
   if (second >= paper_node_counts.size()) {
     return std::nullopt;
@@ -80,10 +81,10 @@ std::optional<PaperLaw> law_of(const PaperScene& scene) {
   // A straight line in the share of references elsewhere.
   const double slope = (at_more - at_fewer) / (share_elsewhere(more) - share_elsewhere(fewer));
   const double one_node = at_fewer - slope * share_elsewhere(fewer);
-  return PaperLaw{.one_node = one_node, .dearer = slope / one_node};
+  return PaperModel{.one_node = one_node, .dearer = slope / one_node};
 }
 
-Table beside_law(const Catalogue& catalogue, const PaperResults& results) {
+Table beside_model(const Catalogue& catalogue, const PaperResults& results) {
   Table table("Table 3 by our model and by a law of two parameters", {{"scene"},
                                                                       {"nodes"},
                                                                       {"efficiency printed", "%", 1},
@@ -94,25 +95,26 @@ Table beside_law(const Catalogue& catalogue, const PaperResults& results) {
                                                                       {"the law"}});
   for (const Comparison& comparison : comparisons_of(catalogue, results)) {
     const CellOfTable3& cell = comparison.cell;
-    table.add_row({cell.title, std::uint64_t{cell.nodes}, cell.printed_efficiency, cell.efficiency, comparison.by_law,
-                   comparison.our_difference(), comparison.difference_of_law(),
-                   comparison.is_fitted_by_law ? "fitted" : "predicted"});
+    table.add_row({cell.title, std::uint64_t{cell.nodes}, cell.printed_efficiency, cell.efficiency, comparison.by_model,
+                   comparison.our_difference(), comparison.difference_of_model(),
+                   comparison.is_fitted_by_model ? "fitted" : "predicted"});
   }
   const std::size_t found = table.rows().size();
-  add_scenes_without_law(table);
+  add_scenes_without_model(table);
   note_missing_rows(table, predicted_cell_count() + table.rows().size() - found);
   table.add_note(
       "The law: N nodes take A (1 + c (N - 1) / N) node-seconds. A and c go through the two smallest printed machines "
       "of each scene, eight cells in all; our model was fitted to two, both of Mountain.");
   for (const PaperScene& scene : paper_scenes) {
-    if (const auto law = law_of(scene)) {
-      table.add_note(std::string(scene.title) + ": A = " + fixed(law->one_node, 0) + " s, c = " + fixed(law->dearer, 3) + ".");
+    if (const auto model = model_of(scene)) {
+      table.add_note(std::string(scene.title) + ": A = " + fixed(model->one_node, 0) + " s, c = " + fixed(model->dearer, 3) +
+                     ".");
     }
   }
   return table;
 }
 
-Table against_law(const Catalogue& catalogue, const PaperResults& results) {
+Table against_model(const Catalogue& catalogue, const PaperResults& results) {
   Table table("Our model against the law", {{"cells"},
                                             {"number"},
                                             {"our mean error", "points", 2},
@@ -122,7 +124,8 @@ Table against_law(const Catalogue& catalogue, const PaperResults& results) {
   const std::vector<Comparison> all = comparisons_of(catalogue, results);
   const auto on_64 = [](const Comparison& one) { return one.cell.nodes == paper_node_counts.back(); };
   add_summary(table, "all that we predict", all, [](const Comparison&) { return true; });
-  add_summary(table, "of them, those that the law was not fitted to", all, [](const auto& one) { return !one.is_fitted_by_law; });
+  add_summary(table, "of them, those that the law was not fitted to", all,
+              [](const auto& one) { return !one.is_fitted_by_model; });
   add_summary(table, "those of up to 32 nodes", all, [&](const Comparison& one) { return !on_64(one); });
   add_summary(table, "those of 64 nodes", all, on_64);
   add_summary(table, "those of 64 nodes, Mountain's apart", all,

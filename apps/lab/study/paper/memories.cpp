@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/tables.h"
 
 namespace dmpc::apps {

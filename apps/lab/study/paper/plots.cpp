@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "apps/edge/run/time_parts.h"
+#include "apps/frontend/run/time_parts.h"
 #include "apps/lab/study/paper/catalogue.h"
 
 namespace dmpc::apps {
@@ -66,12 +66,12 @@ PaperPlot plot_of_losses() {
             .is_stacked = true};
   constexpr std::array<const char*, time_part_count> words = {"computing",
                                                               "page wait",
-                                                              "work wait",
+                                                              "starvation",
                                                               "token wait",
                                                               "credit wait",
                                                               "film wait",
                                                               "other waits",
-                                                              "stolen by others' requests",
+                                                              "service while busy by others' requests",
                                                               "lent to others' requests",
                                                               "messages",
                                                               "idle at the end"};

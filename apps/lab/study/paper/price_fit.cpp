@@ -129,7 +129,7 @@ double RayTime::milliseconds(const VoxelPrices& prices) const {
 
 RayTime ray_time_of(const PaperResult& result) {
   const auto part = [&](TimePart which) { return static_cast<double>(result.parts.ns[static_cast<std::size_t>(which)]); };
-  const double computing = part(TimePart::computing), idle = part(TimePart::work_wait) + part(TimePart::idle_at_end);
+  const double computing = part(TimePart::computing), idle = part(TimePart::starvation) + part(TimePart::idle_at_end);
   const double longer = computing > 0 ? 1 + idle / computing : 1;
   const double rays = static_cast<double>(result.rays);
   RayTime time{.per_price = {}, .rest = 1e-6 * (static_cast<double>(result.parts.total_ns()) - computing - idle) / rays};

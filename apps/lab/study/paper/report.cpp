@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "apps/edge/line/folded_text.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/table/plot_program.h"
+#include "apps/frontend/line/folded_text.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/system/output_file.h"
+#include "apps/frontend/table/plot_program.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/show/page/sweep_page.h"
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/attempts.h"
-#include "apps/edge/system/output_set.h"
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/system/attempts.h"
+#include "apps/frontend/system/output_set.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 
 namespace dmpc::apps {
 

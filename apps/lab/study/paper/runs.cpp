@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "apps/edge/system/progress.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/paper/hot_spots.h"
 #include "apps/run/report.h"
@@ -47,7 +47,7 @@ PictureOptions picture_of(const PaperRun& run) {
   }
   if (run.has_inner_light) {
     picture.skips.empty_regions = false;
-    picture.staging.lights = {inner_light};
+    picture.scene_setup.lights = {inner_light};
   }
   return picture;
 }
@@ -142,7 +142,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
 }
 
 void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
-               PaperResults& results, const std::function<void()>& told) {
+               PaperResults& results, const std::function<void()>& reported) {
   core::expect(results.size() == runs.size(), "every run has a place for its result");
   std::map<std::tuple<std::string, std::uint32_t, bool>, std::uint64_t> films;  // by scene, size and light
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
@@ -164,7 +164,7 @@ void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> sub
       const auto film = films.try_emplace({run.scene, run.resolution, run.has_inner_light}, result->film_hash).first;
       core::expect(film->second == result->film_hash, "every run of a scene gives the same film");
       results[index] = result;
-      told();
+      reported();
       done_pixels += pixels_of(run);
       progress.update(done_pixels, all_pixels);
     }

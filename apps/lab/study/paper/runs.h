@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/run/time_parts.h"
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/run/time_parts.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/subject.h"
@@ -105,7 +105,7 @@ using PaperResults = std::vector<std::optional<PaperResult>>;
 /// runs of one scene and size give different films, and whatever a run throws: `results` has what was finished before.
 void carry_out(
     std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
-    const std::function<void()>& told = [] {});
+    const std::function<void()>& reported = [] {});
 
 struct Catalogue;
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/tables.h"
 #include "core/trace/charge.h"
 
@@ -20,7 +20,7 @@ std::uint64_t& price(Machine& machine, Charge charge) { return machine.cost_ps[s
 
 /// The charges of what has a price that Table 3's runs pay.
 constexpr std::pair<Charge, const char*> charges[] = {
-    {Charge::ray_setup, "ray set-up"},        {Charge::cell_step, "cell step"}, {Charge::brick_read, "brick read"},
+    {Charge::ray_setup, "ray set-up"},        {Charge::cell_step, "cell step"}, {Charge::bvh_node_read, "BVH node read"},
     {Charge::triangle_test, "triangle test"}, {Charge::shading, "shading"},     {Charge::cached_lookup, "cached look-up"},
     {Charge::page_install, "page install"}};
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/paper/catalogue.h"
 #include "nodes/machine.h"
 

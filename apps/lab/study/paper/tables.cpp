@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "core/base/expect.h"
 #include "core/record/record.h"
 
@@ -234,14 +234,14 @@ Table work_items(const Catalogue& catalogue, const PaperResults& results) {
                                                                                    {"seconds", "s", 0},
                                                                                    {"computing", "%", 1},
                                                                                    {"data wait", "%", 2},
-                                                                                   {"work wait", "%", 2},
+                                                                                   {"starvation", "%", 2},
                                                                                    {"messages", "%", 2},
                                                                                    {"idle at the end", "%", 2},
                                                                                    {"faults"}});
-  const auto add_row = [&](std::uint32_t side, const char* giver, std::size_t run) {
+  const auto add_row = [&](std::uint32_t side, const char* donor, std::size_t run) {
     if (const auto& result = results[run]) {
-      table.add_row({item_text(side), giver, result->seconds(), result->percent(TimePart::computing),
-                     result->percent(TimePart::data_wait), result->percent(TimePart::work_wait),
+      table.add_row({item_text(side), donor, result->seconds(), result->percent(TimePart::computing),
+                     result->percent(TimePart::data_wait), result->percent(TimePart::starvation),
                      result->percent(TimePart::messages), result->percent(TimePart::idle_at_end), result->faults});
     }
   };
@@ -249,7 +249,7 @@ Table work_items(const Catalogue& catalogue, const PaperResults& results) {
     add_row(item_sides[size], item_sides[size] == 0 ? "nobody" : "ring", catalogue.items[size]);
   }
   for (std::size_t size = 1; size < item_sides.size(); ++size) {
-    add_row(item_sides[size], "host", catalogue.items_dealt[size]);
+    add_row(item_sides[size], "host", catalogue.items_assigned[size]);
   }
   table.add_note(
       "Static: every node renders its own submap, whatever the others have left. By the ring a node asks for items when its "
@@ -302,7 +302,7 @@ Table caches(const Catalogue& catalogue, const PaperResults& results) {
                                                                                             {"miss ratio", "%", 3},
                                                                                             {"page traffic a node", "bytes/s", 0},
                                                                                             {"page wait", "%", 1},
-                                                                                            {"stolen", "%", 1}});
+                                                                                            {"service_busy", "%", 1}});
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
     const auto& base = results[catalogue.cache_base[scene]];
     for (std::size_t size = 0; size < cache_size_count; ++size) {
@@ -311,7 +311,7 @@ Table caches(const Catalogue& catalogue, const PaperResults& results) {
                        std::uint64_t{result->cache_pages}, 100 * cache_scenes[scene].share(size),
                        efficiency(base->seconds(), 1, result->seconds(), cache_node_count), result->faults,
                        100 * result->miss_ratio(), result->page_rate(cache_node_count), result->percent(TimePart::data_wait),
-                       result->percent(TimePart::stolen)});
+                       result->percent(TimePart::service_busy)});
       }
     }
   }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/run/time_parts.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/run/time_parts.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/price_fit.h"
 #include "apps/lab/study/paper/runs.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/claim_rows.h"
 #include "apps/lab/study/paper/tables.h"
 

@@ -1,7 +1,7 @@
 // What the article shows of caches and of the load of regions, on its own structure.
 #include <string>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/lab/study/paper/tables.h"
 
 namespace dmpc::apps {
@@ -15,7 +15,7 @@ Table voxel_caches(const Catalogue& catalogue, const PaperResults& results) {
                {"miss ratio", "%", 3},
                {"page traffic a node", "bytes/s", 0},
                {"page wait", "%", 1},
-               {"stolen", "%", 1}});
+               {"service_busy", "%", 1}});
   std::size_t expected = 0;
   for (std::size_t i = 0; i < voxel_caches_tried.size(); ++i) {
     const auto& [scene, pages] = voxel_caches_tried[i];
@@ -26,7 +26,7 @@ Table voxel_caches(const Catalogue& catalogue, const PaperResults& results) {
         table.add_row({paper_scenes[scene].title, std::uint64_t{pages[size]},
                        efficiency(base->seconds(), 1, result->seconds(), cache_node_count), result->faults,
                        100 * result->miss_ratio(), result->page_rate(cache_node_count), result->percent(TimePart::data_wait),
-                       result->percent(TimePart::stolen)});
+                       result->percent(TimePart::service_busy)});
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 #include "core/trace/work.h"
@@ -30,10 +30,10 @@ nodes::Machine voxel_machine(const VoxelPrices& prices) {
     machine.cost_ps[static_cast<std::size_t>(charge)] = scaled_price(factor, measured_ps);
   };
   set(Charge::cell_step, prices.walk, measured.cell_step_ps);
-  set(Charge::brick_read, prices.walk, measured.brick_read_ps);
-  set(Charge::triangle_test, prices.walk, measured.brick_read_ps + measured.primitive_test_ps[0]);
-  set(Charge::sphere_test, prices.walk, measured.brick_read_ps + measured.primitive_test_ps[1]);
-  set(Charge::cone_test, prices.walk, measured.brick_read_ps + measured.primitive_test_ps[2]);
+  set(Charge::bvh_node_read, prices.walk, measured.bvh_node_read_ps);
+  set(Charge::triangle_test, prices.walk, measured.bvh_node_read_ps + measured.primitive_test_ps[0]);
+  set(Charge::sphere_test, prices.walk, measured.bvh_node_read_ps + measured.primitive_test_ps[1]);
+  set(Charge::cone_test, prices.walk, measured.bvh_node_read_ps + measured.primitive_test_ps[2]);
   set(Charge::ray_setup, prices.rays, measured.ray_ps);
   set(Charge::shading, prices.rays, measured.shading_ps);
   set(Charge::cached_lookup, prices.cached_lookup, operation_costs_ps(1)[static_cast<std::size_t>(Charge::cached_lookup)]);

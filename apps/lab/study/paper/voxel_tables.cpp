@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "apps/lab/study/paper/tables.h"
 #include "core/base/expect.h"
 

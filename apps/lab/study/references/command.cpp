@@ -6,11 +6,11 @@
 #include <mutex>
 #include <optional>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/show/references/reference_file.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/geometric_sizes.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/show/references/reference_file.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/geometric_sizes.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/references/gzip_text.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/show/references/reference_file.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/show/references/reference_file.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 
 namespace dmpc::apps {
 
@@ -26,7 +26,7 @@ struct ReferencesOptions {
 void add_options(OptionSet set, ReferencesOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for references that
-/// cannot be read and outputs that cannot be made, core::RoomError for more than there is memory for.
+/// cannot be read and outputs that cannot be made, core::CapacityError for more than there is memory for.
 int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

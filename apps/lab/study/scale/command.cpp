@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/system/real_load.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/system/real_load.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/scale/measure.h"
 #include "apps/lab/study/scale/table.h"

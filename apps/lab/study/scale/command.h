@@ -3,9 +3,9 @@
 
 #include <iosfwd>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/lab/study/scale/settings.h"
 
 namespace dmpc::apps {
@@ -20,7 +20,7 @@ struct ScaleOptions {
 void add_options(OptionSet set, ScaleOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for scenes that
-/// there are not, for outputs that cannot be made, or if no run found room (core::RoomError); and as measure_scale().
+/// there are not, for outputs that cannot be made, or if no run found room (core::CapacityError); and as measure_scale().
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,6 +1,6 @@
 #include "apps/lab/study/scale/figures.h"
 
-#include "apps/edge/table/averages.h"
+#include "apps/frontend/table/averages.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 

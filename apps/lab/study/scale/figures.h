@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/figures/figures_file.h"
 
 namespace dmpc::apps {

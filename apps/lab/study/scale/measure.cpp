@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/watched_process.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/watched_process.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 

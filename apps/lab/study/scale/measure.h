@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/study/scale/figures.h"
 #include "apps/lab/study/scale/settings.h"
 

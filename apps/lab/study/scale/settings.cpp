@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
 

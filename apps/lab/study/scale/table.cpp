@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/table/filled_columns.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/table/filled_columns.h"
 #include "apps/lab/study/scale/figures.h"
 
 namespace dmpc::apps {

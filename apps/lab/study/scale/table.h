@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
 #include "apps/lab/study/scale/measure.h"
 #include "apps/lab/study/scale/settings.h"
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/words.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/table/shown_rows.h"
-#include "apps/edge/table/table_files.h"
+#include "apps/frontend/line/words.h"
+#include "apps/frontend/system/progress.h"
+#include "apps/frontend/table/shown_rows.h"
+#include "apps/frontend/table/table_files.h"
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/sweep/forecast.h"

@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/table/table_options.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/system/interrupt.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/lab/study/sweep/settings.h"
 
 namespace dmpc::apps {
@@ -23,7 +23,7 @@ struct StudySweepOptions {
 void add_options(OptionSet set, StudySweepOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for a combination that `render` would not take,
-/// core::InputError for bad input, core::RoomError if no run found room.
+/// core::InputError for bad input, core::CapacityError if no run found room.
 int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

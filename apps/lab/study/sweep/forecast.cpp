@@ -5,8 +5,8 @@
 #include <iterator>
 #include <string>
 
-#include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/system/text_input.h"
+#include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/system/text_input.h"
 #include "apps/lab/study/engine/render_process.h"
 
 namespace dmpc::apps {

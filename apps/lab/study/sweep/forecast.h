@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/study/sweep/measure.h"
 #include "apps/lab/study/sweep/settings.h"
 #include "apps/show/page/forecast_view.h"

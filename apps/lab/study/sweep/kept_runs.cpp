@@ -13,11 +13,11 @@
 #include <utility>
 #include <variant>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/system/companion_path.h"
-#include "apps/edge/system/descriptor.h"
-#include "apps/edge/system/digest.h"
-#include "apps/edge/system/output_file.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/companion_path.h"
+#include "apps/frontend/system/descriptor.h"
+#include "apps/frontend/system/digest.h"
+#include "apps/frontend/system/output_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

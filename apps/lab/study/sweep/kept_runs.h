@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/lab/figures/figures_file.h"
 #include "apps/lab/study/sweep/settings.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "apps/lab/figures/figures_file.h"
 #include "apps/lab/study/sweep/settings.h"
 

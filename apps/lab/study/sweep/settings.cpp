@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/edge/line/command_line.h"
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/unknown_option.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/unknown_option.h"
+#include "apps/frontend/line/words.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"

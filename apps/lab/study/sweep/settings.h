@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_description.h"
-#include "apps/edge/system/opened_files.h"
+#include "apps/frontend/line/command_description.h"
+#include "apps/frontend/system/opened_files.h"
 #include "apps/run/render_options.h"
 
 namespace dmpc::apps {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
-#include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/words.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/words.h"
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
@@ -236,8 +236,8 @@ std::vector<Plot> sweep_plots(const SweepSettings& settings, const std::vector<S
   }
   std::vector<Plot> plots;
   for (const std::string& figure : figures_of(settings, runs)) {
-    const bool is_told_apart = along == nullptr || curves_of(settings.variations, along).size() <= plot_color_count;
-    if (is_number(figure) && is_told_apart) {
+    const bool is_distinguished = along == nullptr || curves_of(settings.variations, along).size() <= plot_color_count;
+    if (is_number(figure) && is_distinguished) {
       plots.push_back(plot_of(figure, settings, along));
     }
   }

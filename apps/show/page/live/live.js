@@ -3,7 +3,7 @@
 // step; where one looks round, whole pictures, and where the camera is to be, which the server is told.
 const byId = (id) => document.getElementById(id);
 const looksRound = document.querySelector("main").className === "view";
-const colors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", control: "#8c6d46"};
+const colors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", overhead: "#8c6d46"};
 const triesMax = 3;  // of EventSource, one every few seconds
 let head = null, shot = null, raster = null, shares = [], doublings = 0, tries = 0, hasEnded = false;
 
@@ -44,8 +44,8 @@ const sized = (canvas, width, height) => {
 };
 
 // Another picture, or the same again, for who was away.
-const begin = (told) => {
-  head = told;
+const begin = (reported) => {
+  head = reported;
   doublings = 0;
   shot = sized(byId("shot"), head.width, head.height);
   if (looksRound) camera = cameraOf(head.home);
@@ -70,48 +70,48 @@ const imageOf = ({width, height, rgb}) => {
   for (let i = 0, from = 0; i < image.data.length; ++i) image.data[i] = i % 4 === 3 ? 255 : letters.charCodeAt(from++);
   return image;
 };
-const drawTile = (told) => shot.putImageData(imageOf(told), told.x, told.y);
+const drawTile = (reported) => shot.putImageData(imageOf(reported), reported.x, reported.y);
 
 // A whole picture, perhaps of fewer pixels.
-const drawShot = (told) => {
-  const part = new OffscreenCanvas(told.width, told.height);
-  part.getContext("2d").putImageData(imageOf(told), 0, 0);
+const drawShot = (reported) => {
+  const part = new OffscreenCanvas(reported.width, reported.height);
+  part.getContext("2d").putImageData(imageOf(reported), 0, 0);
   shot.drawImage(part, 0, 0, head.width, head.height);
-  facts([["Picture", `${told.width}x${told.height}`], ["Time", `${Math.round(told.ms)} ms`], ["Camera", told.camera],
-    ["Film", told.film || "the camera moves"]]);
-  if (!told.moving) copyable(told.command);
-  if (!drag && !next && !isSending && !rests) camera = cameraOf(told.camera);  // somebody else may have moved it
+  facts([["Picture", `${reported.width}x${reported.height}`], ["Time", `${Math.round(reported.ms)} ms`], ["Camera", reported.camera],
+    ["Film", reported.film || "the camera moves"]]);
+  if (!reported.moving) copyable(reported.command);
+  if (!drag && !next && !isSending && !rests) camera = cameraOf(reported.camera);  // somebody else may have moved it
 };
 
 // A column of the raster: of each node the work that took most, the paler the less it did in all. Those of another frame, or from
 // before steps became longer, come late and are passed over.
-const drawStep = (told) => {
-  if (told.frame !== head.frame || told.doublings < doublings) return;
-  if (told.doublings > doublings) clear();
-  doublings = told.doublings;
-  const letters = atob(told.cells), height = raster.canvas.height / head.nodes, image = new ImageData(1, raster.canvas.height);
+const drawStep = (reported) => {
+  if (reported.frame !== head.frame || reported.doublings < doublings) return;
+  if (reported.doublings > doublings) clear();
+  doublings = reported.doublings;
+  const letters = atob(reported.cells), height = raster.canvas.height / head.nodes, image = new ImageData(1, raster.canvas.height);
   for (let y = 0; y < image.height; ++y) {
     const cell = letters.charCodeAt(Math.floor(y / height)), color = parseInt(colors[head.works[cell % head.works.length]].slice(1), 16);
     const share = Math.floor(cell / head.works.length) / head.levels;
     image.data.set([color >> 16, color >> 8 & 255, color & 255, Math.round(255 * share)], 4 * y);
   }
-  raster.putImageData(image, told.step, 0);
-  byId("until").textContent = `${Math.round(told.ms / 1000 / (told.step + 1) * head.steps)} s`;
+  raster.putImageData(image, reported.step, 0);
+  byId("until").textContent = `${Math.round(reported.ms / 1000 / (reported.step + 1) * head.steps)} s`;
 };
 
-const tellState = (told) => {
-  say(told.said);
+const reportState = (reported) => {
+  say(reported.said);
   tries = 0;
-  [byId("done").max, byId("done").value] = [Math.max(1, told.total), told.done];
+  [byId("done").max, byId("done").value] = [Math.max(1, reported.total), reported.done];
   if (looksRound) return;
-  const rows = [["Time by the wall clock", `${amount(told.ms / 1000)} s`], ["Pixels done", `${amount(told.done)} of ${amount(told.total)}`]];
-  if (told.pass > 1) rows.push(["Pass", String(told.pass)]);
+  const rows = [["Time by the wall clock", `${amount(reported.ms / 1000)} s`], ["Pixels done", `${amount(reported.done)} of ${amount(reported.total)}`]];
+  if (reported.pass > 1) rows.push(["Pass", String(reported.pass)]);
   if (head && head.nodes) {
-    if (head.modelled) rows.push(["Virtual time", `${amount(told.ns / 1e6)} ms`]);
-    rows.push(["Packets sent", amount(told.packets)], ["Bytes sent", inUnits(told.bytes, "B")]);
+    if (head.modelled) rows.push(["Virtual time", `${amount(reported.ns / 1e6)} ms`]);
+    rows.push(["Packets sent", amount(reported.packets)], ["Bytes sent", inUnits(reported.bytes, "B")]);
   }
   facts(rows);
-  told.shares.forEach((share, i) => { if (shares[i]) shares[i].textContent = `${(100 * share).toFixed(1)} %`; });
+  reported.shares.forEach((share, i) => { if (shares[i]) shares[i].textContent = `${(100 * share).toFixed(1)} %`; });
 };
 
 const post = async (place, what) => {
@@ -255,8 +255,8 @@ const finish = ({said, figures, page}) => {
   if (page) location.reload();
 };
 on("head", begin);
-on("state", tellState);
-for (const [name, draw] of [["step", drawStep], ["tile", drawTile], ["picture", drawShot]]) on(name, (told) => { if (head) draw(told); });
+on("state", reportState);
+for (const [name, draw] of [["step", drawStep], ["tile", drawTile], ["picture", drawShot]]) on(name, (reported) => { if (head) draw(reported); });
 on("end", finish);
 source.onerror = () => {
   if (source.readyState === EventSource.CLOSED) {

@@ -104,6 +104,6 @@ const heatColors = Uint32Array.from({length: 256}, (unused, i) => {
 /// Nodes have twelve hues, neighbours apart.
 const nodeColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#a03030", "#8c6d46", "#6a4fb0", "#86b300", "#2f7f8f", "#d98f8f"].map(packedHex);
 /// Work strong, waits pale.
-const workColors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", control: "#8c6d46", "page wait": "#009e7370", "answer wait": "#009e7370",
-  "ray wait": "#cc79a780", "work wait": "#e6c30070", "token wait": "#6a4fb080", "credit wait": "#d55e0080", "film wait": "#56b4e980", "other waits": "#80808080", "idle at the end": "#80808040"};
+const workColors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", overhead: "#8c6d46", "page wait": "#009e7370", "answer wait": "#009e7370",
+  "ray wait": "#cc79a780", "starvation": "#e6c30070", "token wait": "#6a4fb080", "credit wait": "#d55e0080", "film wait": "#56b4e980", "other waits": "#80808080", "idle at the end": "#80808040"};
 const colorOf = (name) => workColors[name] || "#80808060";

@@ -56,8 +56,8 @@ const msText = (ns) => (ns / 1e6).toFixed(totalMs < 1 ? 6 : totalMs < 1000 ? 4 :
 const stepText = (run, {node, wait, to, from}) => {
   const {causes} = run, name = (number) => nodeName(run, number), busy = to > from ? `, then was at work for ${msText(to - from)}, until ${msText(to)}` : "";
   if (wait < 0) return `From the start ${name(node)} was at work until ${msText(to)}.`;
-  const end = endOf(run, wait), request = causes.kinds[causes.request[wait]], asker = causes.from[wait], at = msText(end - causes.at[wait]);
-  const asked = !request ? "" : asker === node ? `, which answered a ${request} that it had sent at ${at}` : `, which had been serving others since a ${request} that ${name(asker)} had sent at ${at}`;
+  const end = endOf(run, wait), request = causes.kinds[causes.request[wait]], requester = causes.from[wait], at = msText(end - causes.at[wait]);
+  const asked = !request ? "" : requester === node ? `, which answered a ${request} that it had sent at ${at}` : `, which had been serving others since a ${request} that ${name(requester)} had sent at ${at}`;
   return `${name(node)} waited for ${msText(causes.length[wait])} until ${msText(end)}, for a ${causes.kinds[causes.kind[wait]]} that ${name(causes.peer[wait])} sent at ${msText(end - causes.left[wait])}${asked}${busy}.`;
 };
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/frontend/line/number_text.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/pbrt_scenes.h"
 #include "tests/support/read_mesh.h"

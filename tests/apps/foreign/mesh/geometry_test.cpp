@@ -159,9 +159,9 @@ TEST_CASE("a face with more corners than an object has room for is refused by it
 TEST_CASE("a scene has room for as many corners as 32 bits count, and no more") {
   CHECK_NOTHROW(SceneTotals().ask({.triangles = 1, .faces = 1, .corners = 4'294'967'294}));
   CHECK_THROWS_WITH_AS(SceneTotals().ask({.triangles = 1, .faces = 1, .corners = 4'294'967'295}),
-                       doctest::Contains("there can be 4,294,967,294 corners at most"), core::RoomError);
+                       doctest::Contains("there can be 4,294,967,294 corners at most"), core::CapacityError);
   CHECK_THROWS_WITH_AS(SceneTotals().ask(size_of_faces(1'431'655'765, 4'294'967'295)),
-                       doctest::Contains("1,431,655,765 triangles"), core::RoomError);
+                       doctest::Contains("1,431,655,765 triangles"), core::CapacityError);
 }
 
 TEST_CASE("a scene has as much memory as it is given, and no more") {
@@ -175,19 +175,20 @@ TEST_CASE("a scene has as much memory as it is given, and no more") {
   CHECK_NOTHROW(enough.ask(size_of_faces(1, 3)));
   CHECK_NOTHROW(enough.add(size_of_faces(1, 3), where));  // what was asked for was not added
   CHECK_THROWS_WITH_AS(little.add(size_of_faces(1, 3), where),
-                       doctest::Contains("a.pbrt:3:1: its 2 triangles so far take at least"), core::RoomError);
+                       doctest::Contains("a.pbrt:3:1: its 2 triangles so far take at least"), core::CapacityError);
 }
 
-TEST_CASE("a place of a mesh that is kept once takes as much as a place, and that of a small one its copy, too") {
+TEST_CASE("a place of a base mesh takes as much as a place, and that of a small one its copy, too") {
   const GeometrySize large = size_of_faces(65, 195), small = size_of_faces(64, 192);
   const SceneTotals kept(0, core::Copies::left_out), copied(0);
   CHECK(kept.size_of_place(large).bytes == size_of_places(1).bytes);
   CHECK(kept.size_of_place(small).bytes == size_of_places(1).bytes + small.bytes);
   CHECK(copied.size_of_place(large).bytes == size_of_places(1).bytes + large.bytes);
   CHECK(size_of_places(1).bytes < 256);
-  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("with 2 further places of meshes"), core::RoomError);
-  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("(--instances=keep)"), core::RoomError);
-  CHECK_THROWS_WITH_AS(kept.ask(size_of_places(2)), doctest::Contains("make the scene smaller, or divide it"), core::RoomError);
+  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("with 2 further places of meshes"), core::CapacityError);
+  CHECK_THROWS_WITH_AS(copied.ask(size_of_places(2)), doctest::Contains("(--instances=keep)"), core::CapacityError);
+  CHECK_THROWS_WITH_AS(kept.ask(size_of_places(2)), doctest::Contains("make the scene smaller, or divide it"),
+                       core::CapacityError);
 }
 
 TEST_CASE("what vertices have makes the scene that it makes where each corner has it") {

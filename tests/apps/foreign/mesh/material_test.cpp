@@ -78,7 +78,7 @@ TEST_CASE("highlight and mirror have the colour of Ks, and what is grey has none
   const Material gold = from_phong({.specular = {0.8, 0.6, 0.2}, .shine = 20, .illumination = 3});
   CHECK(gold.specular == Approx(0.8));
   CHECK(near(gold.specular_color, {1, 0.75, 0.25}));
-  CHECK(!from_phong({.specular = {0.3, 0.3, 0.3}, .shine = 20, .illumination = 3}).has_finish());
+  CHECK(!from_phong({.specular = {0.3, 0.3, 0.3}, .shine = 20, .illumination = 3}).has_extension());
 }
 
 TEST_CASE("Ke is light of the surface's own") {
@@ -129,7 +129,7 @@ TEST_CASE("glTF: smooth things reflect, metals in their colour, others as glass 
   CHECK(smooth("1").tinted_specular == 1);
   CHECK(smooth("1").diffuse == 0);
   CHECK(smooth("0").specular == Approx(0.04));
-  CHECK(!smooth("0").has_finish());
+  CHECK(!smooth("0").has_extension());
   CHECK(smooth("0.5").specular == Approx(0.02));
   CHECK(smooth("0.5").tinted_specular == Approx(0.5));
 }

@@ -7,7 +7,7 @@
 
 #include "apps/formats/landscape/terrain.h"
 #include "core/base/vec.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/base_meshes.h"
 
 namespace dmpc::apps::grove_test {
 

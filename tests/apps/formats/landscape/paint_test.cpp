@@ -26,12 +26,12 @@ TEST_CASE("the ground is painted the same every time, and not alike everywhere")
 }
 
 TEST_CASE("how many rows are painted is told until all are, which changes no colour") {
-  std::vector<std::uint64_t> told;
-  const Image image = ground_picture(300, [&told](std::uint64_t done, std::uint64_t total) {
+  std::vector<std::uint64_t> reported;
+  const Image image = ground_picture(300, [&reported](std::uint64_t done, std::uint64_t total) {
     CHECK(total == 300);
-    told.push_back(done);
+    reported.push_back(done);
   });
-  CHECK(told == std::vector<std::uint64_t>{256, 300});
+  CHECK(reported == std::vector<std::uint64_t>{256, 300});
   CHECK(image.rgb == ground_picture(300).rgb);
 }
 

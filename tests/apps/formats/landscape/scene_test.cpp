@@ -86,7 +86,7 @@ TEST_CASE("ten million instanced triangles are no memory to speak of, and a grov
   const Scene left = landscape_scene("grove-7", Copies::left_out);
   CHECK(object_count(left) > 10'000'000);
   CHECK(left.vertices.size() < 4'000'000);
-  const std::string text = tests::complaint_of<core::RoomError>([] { landscape_scene("grove-10", Copies::put); });
+  const std::string text = tests::complaint_of<core::CapacityError>([] { landscape_scene("grove-10", Copies::put); });
   CHECK(tests::contains(text, "grove-10: its 740,014,080 triangles need a database of at least"));
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/edge/line/exit_status.h"
+#include "apps/frontend/line/exit_status.h"
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
 #include "tests/support/gray.h"
@@ -83,7 +83,7 @@ TEST_CASE("pictures that lie further apart than a limit end with a status of its
 }
 
 TEST_CASE("counters that differ are printed with both values, with a status of their own") {
-  Compared two(R"({"format": 1, "pages": {"faults": 2, "misses": 3}})", R"({"format": 1, "pages": {"faults": 2, "misses": 4}})");
+  Compared two(R"({"format": 2, "pages": {"faults": 2, "misses": 3}})", R"({"format": 2, "pages": {"faults": 2, "misses": 4}})");
   CHECK(two.compare() == differs_status);
   CHECK(tests::contains(two.text, "pages.misses  A 3  B 4\n3 figures compared, 1 differs\n"));
   two.options.reference = two.options.a;
@@ -92,16 +92,16 @@ TEST_CASE("counters that differ are printed with both values, with a status of t
 }
 
 TEST_CASE("counters that differ come as JSON, too, without the side where there is none") {
-  Compared two(R"({"format": 1, "x": null})", R"({"format": 1, "x": 2, "y": "z"})");
+  Compared two(R"({"format": 2, "x": null})", R"({"format": 2, "x": 2, "y": "z"})");
   two.options.format = CompareFormat::json;
   CHECK(two.compare() == differs_status);
-  CHECK(two.json()["format"] == 1);
+  CHECK(two.json()["format"] == 2);
   CHECK(two.json()["compared"] == 3);
   CHECK(two.json()["differences"].dump() == R"([{"a":null,"b":2,"figure":"x"},{"b":"z","figure":"y"}])");
 }
 
 TEST_CASE("of many differences a hundred are shown as text") {
-  std::string a = R"({"format": 1, "x": [)", b = a;
+  std::string a = R"({"format": 2, "x": [)", b = a;
   for (int i = 0; i < 150; ++i) {
     a += "1,";
     b += "2,";

@@ -14,7 +14,7 @@ using Names = std::vector<std::string>;
 
 /// The comparison of two objects, "format" put before what they have.
 FigureComparison compared(const std::string& a, const std::string& b, const FigureChoice& choice = {}) {
-  const auto figures = [](const std::string& text) { return parse_figures("{\"format\": 1, " + text + "}", "f.json"); };
+  const auto figures = [](const std::string& text) { return parse_figures("{\"format\": 2, " + text + "}", "f.json"); };
   return compare_figures(figures(a), figures(b), choice);
 }
 

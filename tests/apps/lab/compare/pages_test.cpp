@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "apps/edge/line/exit_status.h"
+#include "apps/frontend/line/exit_status.h"
 #include "apps/lab/compare/command.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
@@ -31,12 +31,12 @@ void render(const std::string& page, const std::string& cache) {
   REQUIRE_MESSAGE(program.status() == 0, program.errors());
 }
 
-struct Told {
+struct Reported {
   int status;
   std::string output;
 };
 
-Told compared(const CompareOptions& options) {
+Reported compared(const CompareOptions& options) {
   std::ostringstream output;
   Interrupt interrupt;
   const int status = compare_command(options, interrupt, output);
@@ -56,9 +56,9 @@ TEST_CASE("of two pages the counters are compared as those of --stats are, and -
   render(folder / "b.html", "2");
   CompareOptions options{folder / "a.html", folder / "b.html"};
   options.report = folder / "ab.html";
-  const Told told = compared(options);
-  CHECK(told.status == differs_status);
-  CHECK(contains(told.output, "pages.faults"));
+  const Reported reported = compared(options);
+  CHECK(reported.status == differs_status);
+  CHECK(contains(reported.output, "pages.faults"));
   const std::string page = file_text(folder / "ab.html");
   CHECK(contains(page, "The pictures are the same in all 192 pixels, as eight bits a colour."));
   CHECK(contains(page, "Counters that differ"));

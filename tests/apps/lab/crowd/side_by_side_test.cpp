@@ -32,12 +32,12 @@ TEST_CASE("every piece is worked on once, and they are finished in order, one at
 }
 
 TEST_CASE("an exception of a piece or its finish comes out, and not all others are begun") {
-  for (const bool in_finish : {false, true}) {
+  for (const bool in_extension : {false, true}) {
     std::atomic<int> worked = 0;
     CHECK_THROWS_AS(side_by_side(10'000,
                                  [&](std::size_t index) -> std::function<void()> {
                                    ++worked;
-                                   if (index == 5 && !in_finish) {
+                                   if (index == 5 && !in_extension) {
                                      throw std::out_of_range("five");
                                    }
                                    return [index] {

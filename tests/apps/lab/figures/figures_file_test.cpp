@@ -24,19 +24,19 @@ std::string names_and_values(const std::vector<Figure>& figures) {
 
 TEST_CASE("every value of a file is a figure, called by the keys and places that lead to it, in the file's order") {
   const auto figures = parse_figures(
-      R"({"format": 1, "z": {"b": 2, "a": [3, {"c": null}]}, "real": 0.5, "below": -1, "is": true, "name": "svm"})", "f.json");
-  CHECK(names_and_values(figures) == "format=1 z.b=2 z.a.0=3 z.a.1.c=null real=0.5 below=-1 is=true name=svm ");
+      R"({"format": 2, "z": {"b": 2, "a": [3, {"c": null}]}, "real": 0.5, "below": -1, "is": true, "name": "svm"})", "f.json");
+  CHECK(names_and_values(figures) == "format=2 z.b=2 z.a.0=3 z.a.1.c=null real=0.5 below=-1 is=true name=svm ");
 }
 
 TEST_CASE("what has nothing in it has no figures") {
-  CHECK(names_and_values(parse_figures(R"({"format": 1, "none": {}, "empty": []})", "f.json")) == "format=1 ");
+  CHECK(names_and_values(parse_figures(R"({"format": 2, "none": {}, "empty": []})", "f.json")) == "format=2 ");
 }
 
 TEST_CASE("a file of another format, or of none, is refused with what was expected") {
-  CHECK_THROWS_WITH_AS(parse_figures("{\"format\": 2}", "f.json"),
-                       "f.json: expected \"format\": 1, as dmpc render --stats writes it, got 2", core::InputError);
+  CHECK_THROWS_WITH_AS(parse_figures("{\"format\": 3}", "f.json"),
+                       "f.json: expected \"format\": 2, as dmpc render --stats writes it, got 3", core::InputError);
   for (const std::string text : {"{}", "[1]", "7", "{\"format\": \"1\"}"}) {
-    CHECK_THROWS_WITH_AS(parse_figures(text, "f.json"), doctest::Contains("expected \"format\": 1"), core::InputError);
+    CHECK_THROWS_WITH_AS(parse_figures(text, "f.json"), doctest::Contains("expected \"format\": 2"), core::InputError);
   }
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("what is no JSON is refused by the name of the file") {
 
 TEST_CASE("objects deeper in each other than any of ours are refused") {
   const auto nested = [](std::size_t depth) {
-    return "{\"format\": 1, \"a\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
+    return "{\"format\": 2, \"a\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
   };
   CHECK(parse_figures(nested(31), "f.json").size() == 1);
   CHECK_THROWS_WITH_AS(parse_figures(nested(100'000), "f.json"), doctest::Contains("at most 32"), core::InputError);

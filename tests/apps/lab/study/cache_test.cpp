@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
-#include "apps/edge/table/geometric_sizes.h"
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/table/geometric_sizes.h"
 #include "core/base/expect.h"
 #include "tests/support/study_subject.h"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/show/page/escaped.h"
+#include "apps/frontend/show/page/escaped.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"

@@ -55,7 +55,7 @@ TEST_CASE("speedup is concluded with the last row that has figures, and its larg
                                                    {"speedup", 24.0},
                                                    {"efficiency", 75.0},
                                                    {"computing", 75.0},
-                                                   {"stolen", 5.0},
+                                                   {"service_busy", 5.0},
                                                    {"data_wait", 20.0}},
                                                   {{"nodes", std::uint64_t{64}}}});
   CHECK(SpeedupStudy{}.conclusion(table) ==

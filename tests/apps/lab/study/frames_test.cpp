@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/study_subject.h"
 
@@ -26,7 +26,7 @@ FramesStudy study_of(double degrees) {
           .build_tree = build_tree};
 }
 
-constexpr std::size_t quarter = 0, share = 1, working_set = 2, all_kept = 3, questions = 4, rays = 5, what_travels = 6;
+constexpr std::size_t quarter = 0, share = 1, working_set = 2, all_instanced = 3, questions = 4, rays = 5, what_travels = 6;
 
 }  // namespace
 
@@ -47,9 +47,9 @@ TEST_CASE("frames has rows of pages with four caches, one of questions and one o
 TEST_CASE("a camera that stands still finds all that it fetched, where caches hold the working set; cold nodes fetch it anew") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(study_of(0));
-  CHECK(real(table, all_kept, "faults cold") > 0);
-  CHECK(real(table, all_kept, "faults warm") == 0);
-  CHECK(real(table, all_kept, "warm faults") == 0);
+  CHECK(real(table, all_instanced, "faults cold") > 0);
+  CHECK(real(table, all_instanced, "faults warm") == 0);
+  CHECK(real(table, all_instanced, "warm faults") == 0);
   CHECK(real(table, rays, "traffic warm") == real(table, rays, "traffic cold"));
 }
 
@@ -64,11 +64,11 @@ TEST_CASE("questions leave nothing behind: warm nodes ask as many, in as long, a
 TEST_CASE("where all is kept a warm frame has no more faults than a cold one, sends less, and takes no longer") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(study_of(2));
-  CHECK(real(table, all_kept, "faults warm") < real(table, all_kept, "faults cold"));
-  CHECK(real(table, all_kept, "worst warm faults") < 100);
-  CHECK(real(table, all_kept, "messages warm") < real(table, all_kept, "messages cold"));
-  CHECK(real(table, all_kept, "time warm") < real(table, all_kept, "time cold"));
-  CHECK(real(table, working_set, "faults cold") >= real(table, all_kept, "faults cold"));
+  CHECK(real(table, all_instanced, "faults warm") < real(table, all_instanced, "faults cold"));
+  CHECK(real(table, all_instanced, "worst warm faults") < 100);
+  CHECK(real(table, all_instanced, "messages warm") < real(table, all_instanced, "messages cold"));
+  CHECK(real(table, all_instanced, "time warm") < real(table, all_instanced, "time cold"));
+  CHECK(real(table, working_set, "faults cold") >= real(table, all_instanced, "faults cold"));
 }
 
 TEST_CASE("single frames have rows that their means follow, and the first is as cold as it can be") {
@@ -78,7 +78,7 @@ TEST_CASE("single frames have rows that their means follow, and the first is as 
   const Table table = subject.measure(study);
   constexpr std::size_t rows_each = 4;  // three frames and their means
   REQUIRE(table.rows().size() == rows_each * what_travels);
-  const std::size_t first = rows_each * all_kept;
+  const std::size_t first = rows_each * all_instanced;
   CHECK(text(table, first, "frames") == "1");
   CHECK(text(table, first + 3, "frames") == "2 to 3");
   CHECK(real(table, first, "warm faults") == 100);
@@ -98,7 +98,7 @@ TEST_CASE("each machine and each number of nodes has its rows, and faults do not
   CHECK(text(table, 0, "machine") == "ipsc2");
   CHECK(whole(table, what_travels, "nodes") == 3);
   CHECK(text(table, 2 * what_travels, "machine") == "hdr");
-  CHECK(real(table, all_kept, "time warm") > 100 * real(table, 2 * what_travels + all_kept, "time warm"));
+  CHECK(real(table, all_instanced, "time warm") > 100 * real(table, 2 * what_travels + all_instanced, "time warm"));
   CHECK(contains(study.conclusion(table), "On 3 nodes of hdr a warm frame has of a cold one's faults "));
 }
 

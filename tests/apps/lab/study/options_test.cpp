@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/command_line.h"
+#include "apps/frontend/line/command_line.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 
@@ -63,7 +63,7 @@ TEST_CASE("every study goes along paths, too, with the options that render has")
     const PictureOptions picture = study(name, {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"}).picture;
     CHECK(text_of(picture.transport) == "paths, 3 bounces, sky 1,1,1/0,0,1");
     CHECK(picture.depth == 4);
-    CHECK(picture.staging.background == core::Vec3d{1, 1, 1});
+    CHECK(picture.scene_setup.background == core::Vec3d{1, 1, 1});
   }
   CHECK_FALSE(study("traffic").picture.transport.is_by_paths());
   const std::vector<std::string> mesh = {"study", "traffic", "a.glb"};

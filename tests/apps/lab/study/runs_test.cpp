@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "tests/support/study_subject.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/edge/picture/color_map.h"
+#include "apps/frontend/picture/color_map.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::heat_picture_test {

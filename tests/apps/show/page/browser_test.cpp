@@ -42,7 +42,7 @@ TEST_CASE("a browser shows the page whole, on a screen and on a telephone, light
     for (const bool is_dark : {false, true}) {
       CAPTURE(width);
       CAPTURE(is_dark);
-      tests::check_shown_whole(tests::told_by_browser(page, width, is_dark, folder / "shot.png"), page, width, is_dark);
+      tests::check_shown_whole(tests::reported_by_browser(page, width, is_dark, folder / "shot.png"), page, width, is_dark);
       const Image picture = read_image(folder / "shot.png");
       REQUIRE(picture.width == width);
       CHECK(is_dark == (brightness(picture, 2) < 0.1));

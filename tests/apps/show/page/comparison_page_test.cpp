@@ -23,7 +23,7 @@ namespace dmpc::apps::html::comparison_page_test {
 namespace {
 
 using nlohmann::json;
-using tests::told;
+using tests::reported;
 
 ComparedPage page_of(const Watched& watched, const std::string& file) {
   std::ostringstream complaints;
@@ -123,15 +123,15 @@ TEST_CASE("on one clock the pixels of either run are lit that it had done by the
                                                [now](std::uint64_t part) { return static_cast<double>(part) <= now + 1e-6; })) +
                   " ";
     }
-    CHECK(told(page, "", "lit('shot')+' '+lit('shot1')+' '", state_at(ms)) == expected);
+    CHECK(reported(page, "", "lit('shot')+' '+lit('shot1')+' '", state_at(ms)) == expected);
   }
 }
 
 TEST_CASE("a run that is over does nothing any more while the other goes on" * doctest::test_suite("slow")) {
   const Comparison comparison = four_and_eight();
   REQUIRE(comparison.pages[1].run.total_ns() < comparison.pages[0].run.total_ns());
-  const std::string said = told(text_of(comparison), "", "id('said').textContent",
-                                state_at((comparison.pages[1].run.total_ns() / 1e6 + total_ms(comparison)) / 2) + "&node=0");
+  const std::string said = reported(text_of(comparison), "", "id('said').textContent",
+                                    state_at((comparison.pages[1].run.total_ns() / 1e6 + total_ms(comparison)) / 2) + "&node=0");
   CHECK(tests::contains(said, "A: Node 0, at "));
   CHECK(tests::contains(said, "B: Node 0, at "));
   CHECK(tests::contains(said.substr(said.find("B: ")), "ms: idle at the end 100.0 %."));
@@ -140,29 +140,29 @@ TEST_CASE("a run that is over does nothing any more while the other goes on" * d
 TEST_CASE("by keys alone a pixel of the second run is chosen, said of both, and the address brings the view back" *
           doctest::test_suite("slow")) {
   const std::string page = text_of(four_and_eight());
-  const std::string chosen = told(page, "key(id('shot1'),'ArrowRight')", "id('said').textContent+w.location.hash");
+  const std::string chosen = reported(page, "key(id('shot1'),'ArrowRight')", "id('said').textContent+w.location.hash");
   CHECK(tests::contains(chosen, "A: Pixel 8, 6: node "));
   CHECK(tests::contains(chosen, "B: Pixel 8, 6: node "));
   CHECK(tests::contains(chosen, "run=1"));
   const std::string state = chosen.substr(chosen.find('#'));
-  CHECK(told(page, "", "id('said').textContent+w.location.hash", state) == chosen);
+  CHECK(reported(page, "", "id('said').textContent+w.location.hash", state) == chosen);
   const std::string shown =
       "[...p.querySelectorAll('#player .cards section')].filter(s=>!s.hidden).map(s=>s.textContent[0]).join('')";
-  CHECK(tests::contains(told(page, "", shown, "#run=0"), "A"));
-  CHECK_FALSE(tests::contains(told(page, "", shown, "#run=0"), "B"));
-  CHECK_FALSE(tests::contains(told(page, "", shown, "#run=1"), "A"));
-  CHECK(told(page, "", "id('command').textContent", "#run=1") == "dmpc render b.html");
-  CHECK(told(page, "", "!!p.documentElement.dataset.loaded", "#run=7&link=1e9&page=1e9&peer=1e9&why=1e9&x=1e9") == "true");
+  CHECK(tests::contains(reported(page, "", shown, "#run=0"), "A"));
+  CHECK_FALSE(tests::contains(reported(page, "", shown, "#run=0"), "B"));
+  CHECK_FALSE(tests::contains(reported(page, "", shown, "#run=1"), "A"));
+  CHECK(reported(page, "", "id('command').textContent", "#run=1") == "dmpc render b.html");
+  CHECK(reported(page, "", "!!p.documentElement.dataset.loaded", "#run=7&link=1e9&page=1e9&peer=1e9&why=1e9&x=1e9") == "true");
 }
 
 TEST_CASE("a name that would be script does nothing, and of a script in which a byte is changed nothing runs" *
           doctest::test_suite("slow")) {
   const std::string name = "</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>";
   std::string page = text_of(four_and_eight(name));
-  CHECK(told(page, "", "[!!id('player'),p.querySelectorAll('img[onerror]').length,p.title.startsWith('Two runs')]") ==
+  CHECK(reported(page, "", "[!!id('player'),p.querySelectorAll('img[onerror]').length,p.title.startsWith('Two runs')]") ==
         "true,0,true");
   page[page.find("\"The runs, on one clock\"") + 1] = 't';
-  CHECK(told(page, "", "!!id('player')") == "false");
+  CHECK(reported(page, "", "!!id('player')") == "false");
 }
 
 TEST_CASE("a browser shows the page of two runs whole, on a screen and on a telephone, and asks nobody for more" *
@@ -170,13 +170,14 @@ TEST_CASE("a browser shows the page of two runs whole, on a screen and on a tele
   const tests::TemporaryFolder folder;
   const std::string page = text_of(four_and_eight());
   for (const int width : {1280, 400}) {
-    tests::check_shown_whole(tests::told_by_browser(page, width, width == 400, folder / "shot.png"), page, width, width == 400);
+    tests::check_shown_whole(tests::reported_by_browser(page, width, width == 400, folder / "shot.png"), page, width,
+                             width == 400);
   }
 }
 
 TEST_CASE("each part of the page of two runs has a name of its own, and words for those who do not see it" *
           doctest::test_suite("slow")) {
-  CHECK(told(text_of(four_and_eight()), "", tests::broken_rules) == "0,0,0,0,0");
+  CHECK(reported(text_of(four_and_eight()), "", tests::broken_rules) == "0,0,0,0,0");
 }
 
 TEST_CASE("a run in virtual time and one by the wall clock have no time in common") {

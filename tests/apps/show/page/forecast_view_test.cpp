@@ -44,14 +44,15 @@ std::string sweep_page_of(const ForecastView& view) {
 }
 
 /// What the page says of the size that its address asks for, and how many dots there are.
-std::string told(const std::string& page, const std::string& address, int wide = 1280) {
+std::string reported(const std::string& page, const std::string& address, int wide = 1280) {
   const tests::TemporaryFolder folder;
-  return tests::told_by_browser(page, wide, false, folder / "shot.png",
-                                "<script>addEventListener('load',()=>setTimeout(()=>{const p=document.querySelector('iframe')."
-                                "contentDocument;document.title=p.querySelector('#what-if output').textContent+' '+"
-                                "p.querySelectorAll('.dot').length+' dots, '+p.querySelectorAll('.band').length+' bands'},1000))"
-                                "</script>",
-                                address);
+  return tests::reported_by_browser(
+      page, wide, false, folder / "shot.png",
+      "<script>addEventListener('load',()=>setTimeout(()=>{const p=document.querySelector('iframe')."
+      "contentDocument;document.title=p.querySelector('#what-if output').textContent+' '+"
+      "p.querySelectorAll('.dot').length+' dots, '+p.querySelectorAll('.band').length+' bands'},1000))"
+      "</script>",
+      address);
 }
 
 }  // namespace
@@ -105,13 +106,13 @@ TEST_CASE("a band that is wider than a tenth is not in the table, which says of 
 TEST_CASE("by script a page says in words what is asked for in its address, with dots that a switch hides" *
           doctest::test_suite("slow")) {
   const std::string page = sweep_page_of(four_pages());
-  CHECK(told(page, "") == "4 pages: the run from which all else is predicted, 10 ms. 3 dots, 2 bands");
-  CHECK(told(page, "#cache=2") == "2 pages: predicted 20 to 21 ms, with 500 faults; a run took 20.5 ms. 3 dots, 2 bands");
-  CHECK(told(page, "#cache=2&dots=0") == "2 pages: predicted 20 to 21 ms, with 500 faults. 0 dots, 2 bands");
-  CHECK(told(page, "#cache=9") ==
+  CHECK(reported(page, "") == "4 pages: the run from which all else is predicted, 10 ms. 3 dots, 2 bands");
+  CHECK(reported(page, "#cache=2") == "2 pages: predicted 20 to 21 ms, with 500 faults; a run took 20.5 ms. 3 dots, 2 bands");
+  CHECK(reported(page, "#cache=2&dots=0") == "2 pages: predicted 20 to 21 ms, with 500 faults. 0 dots, 2 bands");
+  CHECK(reported(page, "#cache=9") ==
         "8 pages: not predicted, as the two readings lie 20.0 % apart, more than 10.0 %. 3 dots, 2 bands");
-  CHECK(contains(told(page, "#cache=nan&dots=-1&__proto__=1"), "4 pages: the run"));
-  CHECK(contains(told(page_of(Watched(starved(modelled()))), "#cache=1e9"), " 1 dots, "));
+  CHECK(contains(reported(page, "#cache=nan&dots=-1&__proto__=1"), "4 pages: the run"));
+  CHECK(contains(reported(page_of(Watched(starved(modelled()))), "#cache=1e9"), " 1 dots, "));
 }
 
 }  // namespace dmpc::apps::html::forecast_view_test

@@ -26,7 +26,7 @@ tell('drawStep',{frame:2,doublings:0,step:7,ms:2000,cells:'8PA='});
 tell('drawStep',{frame:2,doublings:1,step:3,ms:2000,cells:'8AE='});
 tell('drawStep',{frame:1,doublings:1,step:5,ms:9000,cells:'8PA='});
 tell('drawStep',{frame:2,doublings:0,step:6,ms:9000,cells:'8PA='});
-tell('tellState',{said:'It comes.',ms:1500,ns:2000000,done:3,total:8,pass:1,packets:7,bytes:5120000,shares:[0.5,0,0,0,0,0]});
+tell('reportState',{said:'It comes.',ms:1500,ns:2000000,done:3,total:8,pass:1,packets:7,bytes:5120000,shares:[0.5,0,0,0,0,0]});
 document.title=`${text('said')} shot ${pixel('shot',1,0)} ${pixel('shot',0,0)} steps ${[3,5,6,7].map(x=>pixel('raster',x,0))} idle `+
 `${pixel('raster',3,200)} until ${text('until')} facts ${text('facts')} shares ${text('shares')} wide `+
 `${page.document.documentElement.scrollWidth} of ${page.innerWidth}`})</script>)";
@@ -50,10 +50,10 @@ setTimeout(()=>{document.title=`${element('shot').getAttribute('role')} pixel ${
 TEST_CASE("in a browser who looks round sees pictures of any size, and moves the camera, which rests where it was left") {
   const TemporaryFolder folder;
   for (const int width : {400, 1280}) {
-    const std::string told = told_by_browser(html::live_page("dmpc view x", html::LiveKind::view).html, width, width == 400,
-                                             folder / "shot.png", looking_round);
+    const std::string reported = reported_by_browser(html::live_page("dmpc view x", html::LiveKind::view).html, width,
+                                                     width == 400, folder / "shot.png", looking_round);
     const std::string camera = "\"3.984779,0.348623,0/0,0,0/0,0,1/45\"", wide = std::to_string(width);
-    CHECK(told ==
+    CHECK(reported ==
           "application pixel 255,0,0,255 figures dmpc facts Picture2x1Time7 msCamera4,0,0/1,0,0/0,0,1/45Filmf stop false "
           "nodes false moves true sent camera {\"camera\":" +
               camera + ",\"moving\":true} then camera {\"camera\":" + camera + ",\"moving\":false} wide " + wide + " of " + wide);
@@ -64,10 +64,10 @@ TEST_CASE("in a browser the live page shows tiles, steps and figures as it is to
           doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   for (const int width : {400, 1280}) {
-    const std::string told = told_by_browser(html::live_page("dmpc render x", html::LiveKind::run).html, width, width == 400,
-                                             folder / "shot.png", telling);
+    const std::string reported = reported_by_browser(html::live_page("dmpc render x", html::LiveKind::run).html, width,
+                                                     width == 400, folder / "shot.png", telling);
     const std::string wide = std::to_string(width);
-    CHECK(told ==
+    CHECK(reported ==
           "It comes. shot 255,0,0,255 0,0,0,0 steps 0,114,178,255,0,0,0,0,0,0,0,0,0,0,0,0 idle 0,0,0,0 until 120 s facts "
           "Time by the wall clock1.5 sPixels done3 of 8Virtual time2 msPackets sent7Bytes sent5.1 MB shares "
           "tracing50.0 %shading0.0 %paging0.0 %packing0.0 %messages0.0 %control0.0 % wide " +

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/run/work.h"
+#include "apps/frontend/run/work.h"
 #include "apps/show/page/player.h"
 #include "apps/show/stats/stats.h"
 #include "tests/apps/show/page/numbers_in.h"
@@ -55,7 +55,7 @@ TEST_CASE("sums of what a page plays are the run's counters") {
   for (const RenderOptions& options : {starved(small()), starved(modelled())}) {
     const Watched watched(options);
     const json data = json::parse(text_of(watched)), stats = json::parse(stats_json(watched.record()));
-    CHECK(data["format"] == 2);
+    CHECK(data["format"] == 3);
     CHECK(sum_of(named(data["fields"], "rays")["values"]) == stats["rays"]["total"]);
     CHECK(sum_of(named(data["fields"], "references")["values"]) == stats["pages"]["references"]);
     CHECK(sum_of(named(data["fields"], "faults")["values"]) == stats["pages"]["faults"]);
@@ -82,7 +82,7 @@ TEST_CASE("in virtual time the steps of all nodes add up to what they did, to ha
   for (const json& node : stats["nodes"]) {
     const json& times = node["virtual_seconds"];
     computed_ns += 1e9 * times["computing"].get<double>();
-    served_ns += 1e9 * (times["stolen"].get<double>() + times["lent"].get<double>());
+    served_ns += 1e9 * (times["service_busy"].get<double>() + times["service_idle"].get<double>());
   }
   CHECK(work_ns(data) - named(data["works"], "messages")["ns"].get<double>() ==
         doctest::Approx(computed_ns + served_ns).epsilon(1e-9));
@@ -157,10 +157,10 @@ TEST_CASE("what passed over time adds up to pages fetched, by pair and by page, 
   const svm::Fetches& fetches = *watched.view().fetches;
   const auto sum = [](std::span<const std::uint64_t> row) { return std::accumulate(row.begin(), row.end(), std::uint64_t{0}); };
   const std::size_t node_count = watched.options.computer.node_count;
-  for (std::uint32_t asker = 0; asker < node_count; ++asker) {
+  for (std::uint32_t requester = 0; requester < node_count; ++requester) {
     for (std::uint32_t home = 0; home < node_count; ++home) {
-      CHECK(sum(exchange.pairs().row(asker * static_cast<std::uint32_t>(node_count + 1) + home)) ==
-            fetches.by_pair[asker * fetches.peer_count + home]);
+      CHECK(sum(exchange.pairs().row(requester * static_cast<std::uint32_t>(node_count + 1) + home)) ==
+            fetches.by_pair[requester * fetches.peer_count + home]);
     }
   }
   for (std::uint32_t page = 0; page < fetches.by_page.size(); ++page) {

@@ -31,13 +31,13 @@ inline std::string acting_script(const std::string& act, const std::string& expr
 
 /// Of a page without a player what there is is told in the end. On a busy computer the browser's clock runs ahead of what it
 /// does: then it is asked again, and given more of it.
-inline std::string told(const std::string& page, const std::string& act, const std::string& expression,
-                        const std::string& state = "") {
+inline std::string reported(const std::string& page, const std::string& act, const std::string& expression,
+                            const std::string& state = "") {
   const TemporaryFolder folder;
   std::string said;
   for (const int tenths : {30, 300, 3000}) {
-    said = told_by_browser(page, 1280, false, folder / "shot.png", acting_script(act, expression, tenths), state,
-                           std::chrono::milliseconds(100 * tenths + 2000));
+    said = reported_by_browser(page, 1280, false, folder / "shot.png", acting_script(act, expression, tenths), state,
+                               std::chrono::milliseconds(100 * tenths + 2000));
     if (!said.empty() && !said.starts_with(not_there)) {
       return said;
     }

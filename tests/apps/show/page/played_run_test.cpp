@@ -68,12 +68,12 @@ TEST_CASE("a page that plays no run is refused, with what it is") {
   CHECK(contains(refusal("<html><p>Nothing.</p></html>"), "a.html: this page plays no run; expected a page that dmpc render"));
   CHECK(contains(refusal(page_with(R"({"runs": []})")), "two runs side by side already"));
   CHECK(contains(refusal(page_with(R"({"forecast": {}})")), "the page of a study, which plays no run"));
-  CHECK(contains(refusal(page_with(R"({"format": 7})")), "its data have format 7, expected format 2; compare it with the dmpc"));
+  CHECK(contains(refusal(page_with(R"({"format": 7})")), "its data have format 7, expected format 3; compare it with the dmpc"));
   CHECK(contains(refusal(page_with("[1]")), "no object of JSON"));
   CHECK(contains(refusal(page_with("{")), "no object of JSON"));
   CHECK(contains(refusal(page_with("{\"a\":" + std::string(100'000, '['))), "objects in each other"));
   CHECK(
-      contains(refusal("<script type=\"application/json\" id=\"data\">{\"format\": 2"), "ends within its data, it was cut off"));
+      contains(refusal("<script type=\"application/json\" id=\"data\">{\"format\": 3"), "ends within its data, it was cut off"));
 }
 
 TEST_CASE("data that do not hold together are refused, with where, and no browser sees them") {

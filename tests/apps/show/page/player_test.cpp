@@ -14,7 +14,7 @@
 
 namespace dmpc::apps::html::player_test {
 
-using tests::told;
+using tests::reported;
 
 namespace {
 
@@ -39,7 +39,7 @@ TEST_CASE("the pixels that are lit at a time are those that were done by then" *
     std::ostringstream state;
     state.precision(17);
     state << "#t=" << ms;
-    CHECK(told(page, "", "lit()", state.str()) == std::to_string(count));
+    CHECK(reported(page, "", "lit()", state.str()) == std::to_string(count));
   }
 }
 
@@ -47,23 +47,24 @@ TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and t
           doctest::test_suite("slow")) {
   const std::string page = page_of();
   const std::string chosen =
-      told(page, "key(id('shot'),'ArrowRight');key(id('shot'),'ArrowDown')", "id('said').textContent+w.location.hash");
+      reported(page, "key(id('shot'),'ArrowRight');key(id('shot'),'ArrowDown')", "id('said').textContent+w.location.hash");
   CHECK(contains(chosen, "Pixel 8, 7: node "));
   CHECK(contains(chosen, "x=8"));
-  CHECK(contains(told(page, "key(id('shot'),'ArrowRight');key(p.body,'Escape')", "id('said').textContent"), "Point at a pixel"));
-  CHECK(told(page, "key(id('raster'),'Home')", "lit()") == "0");
-  CHECK(contains(told(page, "key(id('raster'),'ArrowDown')", "id('said').textContent"), "Node 0"));
-  CHECK(contains(told(page, "key(id('pairs'),'ArrowDown')", "id('said').textContent"), "fetched by node 0 from node 1"));
-  CHECK(contains(told(page, "key(id('machine'),'ArrowDown')", "id('said').textContent"), "Link from "));
-  CHECK(contains(told(page, "key(id('pages'),'ArrowRight')", "id('said').textContent"), "of the hottest: at home on node "));
-  CHECK(told(page, "key(p.body,' ')", "id('play').textContent") == "Pause");
+  CHECK(contains(reported(page, "key(id('shot'),'ArrowRight');key(p.body,'Escape')", "id('said').textContent"),
+                 "Point at a pixel"));
+  CHECK(reported(page, "key(id('raster'),'Home')", "lit()") == "0");
+  CHECK(contains(reported(page, "key(id('raster'),'ArrowDown')", "id('said').textContent"), "Node 0"));
+  CHECK(contains(reported(page, "key(id('pairs'),'ArrowDown')", "id('said').textContent"), "fetched by node 0 from node 1"));
+  CHECK(contains(reported(page, "key(id('machine'),'ArrowDown')", "id('said').textContent"), "Link from "));
+  CHECK(contains(reported(page, "key(id('pages'),'ArrowRight')", "id('said').textContent"), "of the hottest: at home on node "));
+  CHECK(reported(page, "key(p.body,' ')", "id('play').textContent") == "Pause");
 }
 
 TEST_CASE("the chain of causes leads back to the start, from a wait by key and from the end of the run by address" *
           doctest::test_suite("slow")) {
   const std::string page = page_of();
   const std::string last = "p.querySelector('#why li:last-child').textContent";
-  const std::string path = told(page, "", "id('why-sum').textContent+" + last + "+id('path').textContent", "#why=1e9");
+  const std::string path = reported(page, "", "id('why-sum').textContent+" + last + "+id('path').textContent", "#why=1e9");
   CHECK(contains(path, "The run ended when it did after "));
   CHECK((contains(path, "From the start node ") || contains(path, "From the start the host ") ||
          contains(path, "more, back to the start.")));
@@ -74,34 +75,34 @@ TEST_CASE("the chain of causes leads back to the start, from a wait by key and f
         << static_cast<double>(tests::numbers_in(data["causes"]["begin"])[0] +
                                tests::numbers_in(data["causes"]["length"])[0] / 2) /
                1e6;
-  CHECK(contains(told(page, "key(id('raster'),'w')", "id('why-sum').textContent+w.location.hash", state.str()),
+  CHECK(contains(reported(page, "key(id('raster'),'w')", "id('why-sum').textContent+w.location.hash", state.str()),
                  "The wait ended when it did"));
 }
 
 TEST_CASE("the view's command has its heat map and window") {
-  CHECK(told(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
+  CHECK(reported(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
         "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.pftrace --trace-window=1.000000,2.000000");
 }
 
 TEST_CASE("of a script in which a byte is changed nothing runs" * doctest::test_suite("slow")) {
   std::string page = page_of();
-  CHECK(told(page, "", "!!id('player')") == "true");
+  CHECK(reported(page, "", "!!id('player')") == "true");
   const std::size_t at = page.find("\"The run, as it went\"");
   REQUIRE(at != std::string::npos);
   page[at + 1] = 't';
-  CHECK(told(page, "", "!!id('player')") == "false");
+  CHECK(reported(page, "", "!!id('player')") == "false");
 }
 
 TEST_CASE("names that would be script do nothing") {
   const std::string counts = "[!!id('player'),p.querySelectorAll('img[onerror]').length,p.querySelectorAll('script').length]";
   const std::string hostile =
-      told(page_of("</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>"), "", counts);
-  CHECK(hostile == told(page_of(), "", counts));
+      reported(page_of("</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>"), "", counts);
+  CHECK(hostile == reported(page_of(), "", counts));
   CHECK(hostile.starts_with("true,0,"));
 }
 
 TEST_CASE("each part of the page has a name of its own, and words for those who do not see it" * doctest::test_suite("slow")) {
-  CHECK(told(page_of(), "", tests::broken_rules) == "0,0,0,0,0");
+  CHECK(reported(page_of(), "", tests::broken_rules) == "0,0,0,0,0");
 }
 
 TEST_CASE("a page has the scripts of what it plays, and no others") {
@@ -120,7 +121,7 @@ TEST_CASE("a page has the scripts of what it plays, and no others") {
 }
 
 TEST_CASE("an address that says nonsense is taken as far as it makes sense" * doctest::test_suite("slow")) {
-  CHECK(told(page_of(), "", "!!p.documentElement.dataset.loaded", "#t=nan&x=1e9&node=-7&heat=__proto__&mix=-5&from=9&to=3") ==
+  CHECK(reported(page_of(), "", "!!p.documentElement.dataset.loaded", "#t=nan&x=1e9&node=-7&heat=__proto__&mix=-5&from=9&to=3") ==
         "true");
 }
 

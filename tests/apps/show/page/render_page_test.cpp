@@ -66,7 +66,7 @@ TEST_CASE("heat maps are shown if they are asked for") {
   CHECK_FALSE(contains(text, "Heat map of depth"));
 }
 
-TEST_CASE("what onlookers have seen is shown") {
+TEST_CASE("what observers have seen is shown") {
   std::ostringstream complaints;
   const std::string text = render_page(Watched(starved(modelled())).record(), origin(), complaints);
   for (const char* const part :

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/edge/show/page/data_url.h"
+#include "apps/frontend/show/page/data_url.h"
 #include "core/base/expect.h"
 #include "tests/apps/show/page/numbers_in.h"
 

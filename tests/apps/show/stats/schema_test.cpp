@@ -97,9 +97,9 @@ RenderOptions staged(const TemporaryFolder& folder) {
   RenderOptions options = small();
   tests::write_text(folder / "a.obj", tests::triangle_obj);
   options.picture.scene = folder / "a.obj";
-  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
-                             .lights = {parse_light("1,2,3")},
-                             .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
+  options.picture.scene_setup = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
+                                 .lights = {parse_light("1,2,3")},
+                                 .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
   return options;
 }
 
@@ -154,9 +154,9 @@ TEST_CASE("the schema has each option of strategies in the order of --stats, and
   const nlohmann::ordered_json& render = schema["$defs"]["render"]["properties"];
   const nlohmann::ordered_json& options = render["options"];
   auto property = options["properties"].find("cache_pages");
-  for (const ToldKey& told : told_keys()) {
+  for (const ReportedKey& reported : reported_keys()) {
     REQUIRE(property != options["properties"].end());
-    CHECK(property.key() == told.key);
+    CHECK(property.key() == reported.key);
     ++property;
   }
   CHECK(property == options["properties"].end());
@@ -180,7 +180,7 @@ TEST_CASE("a figure that the schema does not know, one that is missing and one o
       {"sent", [](auto& json) { json["packets"].erase("sent"); }},
       {"-1", [](auto& json) { json["rays"]["primary"] = -1; }},
       {"film_hash", [](auto& json) { json["film_hash"] = nullptr; }},
-      {"format", [](auto& json) { json["format"] = 2; }},
+      {"format", [](auto& json) { json["format"] = 3; }},
       {"99", [](auto& json) { json["links"]["rows"][0].push_back(99); }},
   };
   for (const auto& [named, change] : changes) {

@@ -1,5 +1,5 @@
 #include "apps/show/stats/stats.h"
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 
 #include <doctest/doctest.h>
 
@@ -99,16 +99,16 @@ TEST_CASE("how the scene is placed, seen and lit is told where the command line 
   const TemporaryFolder folder;
   tests::write_text(folder / "a.obj", tests::triangle_obj);
   options.picture.scene = folder / "a.obj";
-  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
-                             .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
-                             .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
-  const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
-  CHECK(told["camera"] == "0,0,9/0,0,0/0,1,0");
-  CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
-  CHECK(told["scale"] == 2);
-  CHECK(told["up"] == "-z");
-  CHECK(told["smooth"] == 30);
-  CHECK(told["missing"] == "plain");
+  options.picture.scene_setup = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
+                                 .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
+                                 .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
+  const auto reported = nlohmann::json::parse(Rendered(options).json())["options"];
+  CHECK(reported["camera"] == "0,0,9/0,0,0/0,1,0");
+  CHECK(reported["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
+  CHECK(reported["scale"] == 2);
+  CHECK(reported["up"] == "-z");
+  CHECK(reported["smooth"] == 30);
+  CHECK(reported["missing"] == "plain");
 }
 
 TEST_CASE("every node has an entry of its own") {
@@ -133,7 +133,7 @@ TEST_CASE("chaos is told by its seed and what it did, and only where there was s
   options.computer.chaos = nodes::Chaos{.seed = ~std::uint64_t{0}, .held_percent = 100};
   const std::string json = Rendered(options).json();
   CHECK(value(json, "seed") == "18446744073709551615");
-  CHECK(std::stoi(value(json, "packets_held")) > 0);
+  CHECK(std::stoi(value(json, "packets_delayed")) > 0);
   CHECK(value(json, "quanta_sat_out") == "0");
 }
 
@@ -232,9 +232,9 @@ TEST_CASE("what was left out is told skip by skip, with its unit, and whether it
 TEST_CASE("the records of the database are told by kind") {
   const Rendered rendered(small());
   const std::string json = rendered.json();
-  CHECK(value(json, "bricks") == std::to_string(rendered.database.records().bricks));
-  CHECK(value(json, "sphere_blocks") != "0");
-  CHECK(value(json, "cone_blocks") == "0");
+  CHECK(value(json, "bvh_nodes") == std::to_string(rendered.database.records().bvh_nodes));
+  CHECK(value(json, "sphere_leaves") != "0");
+  CHECK(value(json, "cone_leaves") == "0");
   CHECK(value(json, "voxel_references") == "0");
   RenderOptions with_voxels = small();
   with_voxels.database.build.structure = core::Structure::voxels;

@@ -20,7 +20,7 @@ StrategyStats stats_of(const Rendered& rendered) {
 StrategyStats stats_of(const RenderOptions& options) { return stats_of(Rendered(options)); }
 
 /// What --stats says of the options.
-Json told_options_of(const RenderOptions& options) { return Json::parse(Rendered(options).json()).at("options"); }
+Json reported_options_of(const RenderOptions& options) { return Json::parse(Rendered(options).json()).at("options"); }
 
 /// The sum of what stands at `path` in every node's object.
 std::uint64_t sum_over_nodes(const StrategyStats& stats, const char* path) {
@@ -92,20 +92,20 @@ TEST_CASE("loads are predicted where there was a subsampled picture") {
   CHECK(equal.all["load"]["predicted_ps"].is_null());
   CHECK(equal.all["load"]["average_predicted"].is_null());
   CHECK(equal.nodes[0]["load"]["predicted_ps"].is_null());
-  const Json told = told_options_of(options);
-  CHECK(told["balance"] == "equal-size");
-  CHECK(told["cuts"] == "longer-side");
-  CHECK(told["backpressure"] == true);
+  const Json reported = reported_options_of(options);
+  CHECK(reported["balance"] == "equal-size");
+  CHECK(reported["cuts"] == "longer-side");
+  CHECK(reported["backpressure"] == true);
 }
 
 TEST_CASE("regions that are scattered have a count and no order of cuts, and together all of the grid") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays.balance = {.balance = dataflow::Balance::scattered, .regions_a_node = 3};
   const StrategyStats stats = stats_of(options);
-  const Json told = told_options_of(options);
-  CHECK(told["balance"] == "scattered");
-  CHECK(told["regions_a_node"] == 3);
-  CHECK(told["cuts"].is_null());
+  const Json reported = reported_options_of(options);
+  CHECK(reported["balance"] == "scattered");
+  CHECK(reported["regions_a_node"] == 3);
+  CHECK(reported["cuts"].is_null());
   double share = 0;
   for (const Json& node : stats.nodes) {
     CHECK(node["region"]["regions"] == 3);
@@ -119,9 +119,9 @@ TEST_CASE("regions that move tell of their units, asks and bytes, others of none
   CHECK(stats_of(options).all["travel"]["movement"].is_null());
   options.rays.balance = {.balance = dataflow::Balance::moving, .regions_a_node = 4};
   const StrategyStats stats = stats_of(options);
-  const Json told = told_options_of(options);
-  CHECK(told["balance"] == "moving");
-  CHECK(told["cuts"] == "longer-side");
+  const Json reported = reported_options_of(options);
+  CHECK(reported["balance"] == "moving");
+  CHECK(reported["cuts"] == "longer-side");
   CHECK(at(stats.all, "/travel/movement/units") == 4 * stats.nodes.size());
   for (const char* const figure : {"units", "units_given", "units_taken", "asks", "refusals", "pages_sent", "pages_installed",
                                    "records_walked", "primary_rays_given", "primary_rays_taken", "rays_sent_on", "bytes"}) {
@@ -139,9 +139,9 @@ TEST_CASE("without credits all rays go by way of the host, which keeps them") {
   CHECK(stats.all["travel"]["overflow"]["share"] == 1.0);
   CHECK(at(stats.all, "/travel/overflow/rays") == at(stats.all, "/travel/rays_out/total"));
   CHECK(stats.packets_overflowed == at(stats.all, "/travel/packets"));
-  CHECK(at(stats.host, "/rays_kept_max") > 0);
-  CHECK(at(stats.host, "/kept_bytes_max") > at(stats.host, "/rays_kept_max"));
-  CHECK(told_options_of(options)["ray_credits"] == 0);
+  CHECK(at(stats.host, "/rays_buffered_max") > 0);
+  CHECK(at(stats.host, "/buffered_bytes_max") > at(stats.host, "/rays_buffered_max"));
+  CHECK(reported_options_of(options)["ray_credits"] == 0);
 }
 
 TEST_CASE("one node sends no ray to another") {
@@ -182,9 +182,9 @@ TEST_CASE("pages and work of svm are counted by node, and a cache has svm alone"
   const StrategyStats stats = stats_of(small());
   CHECK(at(stats.all, "/pages/faults") == sum_over_nodes(stats, "/pages/faults"));
   CHECK(at(stats.all, "/work/pixels") == 192);
-  const Json told = told_options_of(small()), replicated = told_options_of(small(Strategy::replicated));
-  CHECK(told.at("cache_pages") > 0);
-  CHECK(told.at("replacement") == "lru");
+  const Json reported = reported_options_of(small()), replicated = reported_options_of(small(Strategy::replicated));
+  CHECK(reported.at("cache_pages") > 0);
+  CHECK(reported.at("replacement") == "lru");
   CHECK(replicated.at("cache_pages").is_null());
   CHECK(replicated.at("replacement").is_null());
   CHECK(stats.packets_overflowed == 0);

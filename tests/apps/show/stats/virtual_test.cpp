@@ -1,12 +1,12 @@
 #include "apps/show/stats/virtual.h"
-#include "apps/edge/line/number_text.h"
+#include "apps/frontend/line/number_text.h"
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machine_file.h"
+#include "apps/frontend/machine/machine_file.h"
 #include "tests/apps/show/rendered.h"
 
 namespace dmpc::apps::stats_virtual_test {
@@ -83,7 +83,7 @@ TEST_CASE("waits for pages and for rays are waits for data") {
   };
   CHECK(percent(pages, "page_reply") > 0);
   CHECK(pages["time_percent"]["data_wait"] == doctest::Approx(percent(pages, "page_reply")));
-  CHECK(pages["time_percent"]["work_wait"] == doctest::Approx(percent(pages, "work_request") + percent(pages, "work_reply")));
+  CHECK(pages["time_percent"]["starvation"] == doctest::Approx(percent(pages, "work_request") + percent(pages, "work_reply")));
   CHECK(percent(rays, "rays") > 0);
   CHECK(rays["time_percent"]["data_wait"] == doctest::Approx(percent(rays, "rays") + percent(rays, "forwarded")));
   CHECK(counters(modelled(Strategy::replicated))["time_percent"]["data_wait"] == 0.0);

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/trace/file.h"
-#include "nodes/watch/trace.h"
+#include "nodes/observers/trace.h"
 
 namespace dmpc::apps {
 

@@ -102,7 +102,7 @@ TEST_CASE(
       CHECK(results[i].figures.rounds() == 2);
       CHECK(results[i].figures.subject.front() > 0);
       figures[results[i].subject].insert(results[i].figures.subject);
-      figures[results[i].rival].insert(results[i].figures.rival);
+      figures[results[i].baseline].insert(results[i].figures.baseline);
     }
     CHECK(figures.size() == 6);
     for (const auto& [contender, its] : figures) {
@@ -120,7 +120,7 @@ TEST_CASE("caches of each size are held against one that has all pages") {
   const auto of = [&](const std::string& subject) {
     return *std::find_if(results.begin(), results.end(), [&](const Comparison& one) { return one.subject == subject; });
   };
-  CHECK(of("5 %").figures.rival == of("25 %").figures.rival);
+  CHECK(of("5 %").figures.baseline == of("25 %").figures.baseline);
   CHECK(of("5 %").figures.subject.size() == 2);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("an ablation renders without each skip, without all, and with cutoffs,
     const bool is_control = one.what == "counted work" && one.subject == "the same again";
     CHECK((!is_control || std::abs(ratio_of(one.figures).median - 1) < 0.02));
   }
-  CHECK(results.front().figures.rival == results[2].figures.rival);
+  CHECK(results.front().figures.baseline == results[2].figures.baseline);
 }
 
 TEST_CASE("skips that a scene needs not are worth nothing there, others are") {

@@ -28,7 +28,7 @@ TEST_CASE("a round that only one of two has ended does not count") {
   CHECK(ratio_of(figures).most == 2);
 }
 
-TEST_CASE("nothing is compared before a round has ended or with a rival that took nothing") {
+TEST_CASE("nothing is compared before a round has ended or with a baseline that took nothing") {
   CHECK(Figures{}.rounds() == 0);
   CHECK_THROWS_AS(ratio_of(Figures{{1}, {}}), core::InternalError);
   CHECK_THROWS_AS(ratio_of(Figures{{1}, {0}}), core::InternalError);
@@ -61,24 +61,24 @@ TEST_CASE("contenders take turns round by round, and each has one figure of a ro
   apps::Progress progress(silent, false, "");
   matches.measure(2, progress);
   CHECK(results[0].figures.subject == Each{1, 3});
-  CHECK(results[0].figures.rival == Each{1, 3});
+  CHECK(results[0].figures.baseline == Each{1, 3});
   CHECK(results[1].figures.subject == Each{2, 4});
-  CHECK(results[1].figures.rival == Each{1, 3});
+  CHECK(results[1].figures.baseline == Each{1, 3});
 }
 
 TEST_CASE("a round in which a figure could not be told is none of the comparisons that ask for it, and the others keep theirs") {
   std::vector<Comparison> results;
   apps::Matches matches(results);
   double round = 0;
-  const auto rival = matches.add([&] { return std::vector{++round, 10.0}; });
+  const auto baseline = matches.add([&] { return std::vector{++round, 10.0}; });
   const auto subject = matches.add([&] { return std::vector{round == 2 ? apps::no_figure : 2 * round, 5 * round}; });
-  matches.compare(subject, rival, {});
-  matches.compare(subject, rival, {}, 1);
+  matches.compare(subject, baseline, {});
+  matches.compare(subject, baseline, {}, 1);
   std::ostringstream silent;
   apps::Progress progress(silent, false, "");
   matches.measure(3, progress);
   CHECK(results[0].figures.subject == Each{2, 6});
-  CHECK(results[0].figures.rival == Each{1, 3});
+  CHECK(results[0].figures.baseline == Each{1, 3});
   CHECK(results[1].figures.subject == Each{5, 10, 15});
 }
 

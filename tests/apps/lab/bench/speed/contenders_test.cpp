@@ -1,4 +1,4 @@
-// Those who trace in `bench speed`: Embree as a rival, a pager with all pages, threads.
+// Those who trace in `bench speed`: Embree as a baseline, a pager with all pages, threads.
 
 #include <doctest/doctest.h>
 
@@ -37,7 +37,7 @@ std::uint64_t hits_of(const std::vector<core::Ray>& rays, R& records, const core
 
 }  // namespace
 
-TEST_CASE("the rival hits as many primary rays as our grid, triangles and spheres, closest and any") {
+TEST_CASE("the baseline hits as many primary rays as our grid, triangles and spheres, closest and any") {
   for (const char* scene : {"tetra-3", "balls-2"}) {
     CAPTURE(std::string(scene));
     const apps::Subject subject = small_subject(scene, {32, 32});
@@ -46,11 +46,11 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
     const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
     REQUIRE(hits > 100);
     for (const EmbreeMode mode : {EmbreeMode::robust, EmbreeMode::fast}) {
-      const EmbreeTree rival(subject.database.primitives(), mode);
-      CHECK(rival.trace(rays, Query::closest) == hits);
-      CHECK(rival.trace(rays, Query::any) == hits);
-      CHECK(rival.trace({}, Query::any) == 0);
-      CHECK(rival.build_times().wall_seconds > 0);
+      const EmbreeTree baseline(subject.database.primitives(), mode);
+      CHECK(baseline.trace(rays, Query::closest) == hits);
+      CHECK(baseline.trace(rays, Query::any) == hits);
+      CHECK(baseline.trace({}, Query::any) == 0);
+      CHECK(baseline.build_times().wall_seconds > 0);
     }
   }
 }
@@ -69,22 +69,22 @@ TEST_CASE("all contenders hit about as much of every class, ours the same") {
       CHECK(arena.trace(ours, ray_class, Query::closest, 1).hits == hits);
       CHECK(arena.trace(ours, ray_class, Query::any, 2).hits == hits);
     }
-    for (const Contender rival : {Contender::robust, Contender::fast}) {
-      const auto its = static_cast<double>(arena.trace(rival, ray_class, Query::closest, 2).hits);
+    for (const Contender baseline : {Contender::robust, Contender::fast}) {
+      const auto its = static_cast<double>(arena.trace(baseline, ray_class, Query::closest, 2).hits);
       CHECK(its == doctest::Approx(static_cast<double>(hits)).epsilon(0.02));
     }
   }
 }
 
-TEST_CASE("the rival looks no farther than a ray goes") {
+TEST_CASE("the baseline looks no farther than a ray goes") {
   const apps::Subject subject = small_subject("balls-2", {32, 32});
   auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary).rays;
   for (core::Ray& ray : rays) {
     ray.t_max = 1e-3F;
   }
-  const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust);
-  CHECK(rival.trace(rays, Query::closest) == 0);
-  CHECK(rival.trace(rays, Query::any) == 0);
+  const EmbreeTree baseline(subject.database.primitives(), EmbreeMode::robust);
+  CHECK(baseline.trace(rays, Query::closest) == 0);
+  CHECK(baseline.trace(rays, Query::any) == 0);
 }
 
 TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {

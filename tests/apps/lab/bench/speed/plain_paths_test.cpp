@@ -26,7 +26,7 @@ apps::PictureOptions picture_by_paths(const std::string& scene, int bounces, boo
   picture.transport = {.kind = core::TransportKind::paths, .bounces = bounces};
   if (has_sky) {
     picture.transport.sky = apps::SkyChoice{{1, 1, 1}, core::Vec3d{0.2, 0.4, 0.8}};
-    picture.staging.background = picture.transport.sky->horizon;
+    picture.scene_setup.background = picture.transport.sky->horizon;
   }
   picture.depth = picture.transport.depth();
   return picture;
@@ -145,9 +145,9 @@ TEST_CASE("part paths holds ours against the plain path tracer on as many thread
   REQUIRE(results.size() == 2 * 6);
   CHECK(results[0].subject == "plain on 1 thread");
   CHECK(results[2].subject == "replicated on 1 node");
-  CHECK(results[2].rival == "plain on 1 thread");
+  CHECK(results[2].baseline == "plain on 1 thread");
   CHECK(results[3].subject == "svm on 2 nodes");
-  CHECK(results[3].rival == "plain on 2 threads");
+  CHECK(results[3].baseline == "plain on 2 threads");
   CHECK(results[3].figures.rounds() == 2);
   CHECK(results[3].processor.rounds() == 2);
   CHECK(results[4].what == "rays");

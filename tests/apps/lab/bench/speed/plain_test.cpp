@@ -115,13 +115,13 @@ TEST_CASE("every renderer is held against the plain one in every round, which is
     CAPTURE(one->subject);
     CHECK(one->figures.subject.size() == 2);
     CHECK(one->processor.subject.size() == 2);
-    CHECK(one->rival == "plain on 2 threads");
-    CHECK(one->figures.rival == renders[1]->figures.subject);
+    CHECK(one->baseline == "plain on 2 threads");
+    CHECK(one->figures.baseline == renders[1]->figures.subject);
   }
   CHECK(renders[1]->subject == "plain on 2 threads");
   CHECK(renders.back()->subject == "svm on 64 nodes, virtual");
   REQUIRE(of(results, "rays").size() == 1);
-  CHECK(of(results, "rays")[0]->figures.subject == of(results, "rays")[0]->figures.rival);
+  CHECK(of(results, "rays")[0]->figures.subject == of(results, "rays")[0]->figures.baseline);
   CHECK(of(results, "build").size() == 1);
   CHECK(of(results, "distance").size() == 1);
 }

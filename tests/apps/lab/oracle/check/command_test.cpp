@@ -102,7 +102,7 @@ TEST_CASE("check sends rays into meshes that are kept, and says so") {
   options.certify = 100;
   const Said said = check(options);
   CHECK(said.status == 0);
-  CHECK(said.text.find("40x30 pixels, our extents with kept meshes against Embree ") != std::string::npos);
+  CHECK(said.text.find("40x30 pixels, our extents with base meshes against Embree ") != std::string::npos);
   CHECK(said.text.find("Failed: nothing.") != std::string::npos);
 }
 

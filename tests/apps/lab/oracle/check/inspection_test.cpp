@@ -11,8 +11,8 @@
 #include "core/families/scenes.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
+#include "tests/support/base_mesh_scenes.h"
 #include "tests/support/close_faces.h"
-#include "tests/support/kept_scenes.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::inspection_test {
@@ -21,7 +21,7 @@ namespace {
 /// A built-in scene, its database and how it is looked at: `side` x `side` pixels.
 struct Looked {
   explicit Looked(const std::string& name, int side) : Looked(core::built_in_scene(core::parse_scene_name(name)), side) {}
-  Looked(core::Scene looked_at, int side) : Looked(looked_at, side, apps::several_top_cells(looked_at)) {}
+  Looked(core::Scene looked_at, int side) : Looked(looked_at, side, apps::several_macro_cells(looked_at)) {}
   Looked(core::Scene looked_at, int side, const core::BuildOptions& build)
       : scene(std::move(looked_at)),
         database(core::build_database(scene, build)),
@@ -73,7 +73,7 @@ TEST_CASE("every ray is explained where faces lie so near to each other that dou
   }
 }
 
-TEST_CASE("every ray that may go into kept meshes is explained, by Embree among their copies and by every copy in double") {
+TEST_CASE("every ray that may go into base meshes is explained, by Embree among their copies and by every copy in double") {
   for (const Arrangement arrangement : {Arrangement::apart, Arrangement::deep_in_each_other}) {
     const Looked looked(balls_in_places(0.4, arrangement, 6), scaled_edge(48), with_instances());
     REQUIRE(looked.database.records().instances == 18);
@@ -84,7 +84,7 @@ TEST_CASE("every ray that may go into kept meshes is explained, by Embree among 
   }
 }
 
-TEST_CASE("an oracle that lacks a triangle of one place is found out where the mesh is kept, in favour of the walk") {
+TEST_CASE("an oracle that lacks a triangle of one place is found out where the mesh is kept, in favour of the traversal") {
   const Looked looked(balls_in_places(0.4, Arrangement::apart, 6), 48, with_instances());
   std::vector<core::PrimitiveValues> without(looked.database.primitives().begin(), looked.database.primitives().end());
   const std::vector<core::Database::Place> places = looked.database.find_places();
@@ -184,7 +184,7 @@ core::Film render_by_embree(const Looked& looked, core::Operations& operations) 
   return core::render(tracer, looked.settings, operations);
 }
 
-TEST_CASE("with Embree naming the primitives the picture of kept meshes has the bits of their copies") {
+TEST_CASE("with Embree naming the primitives the picture of base meshes has the bits of their copies") {
   core::Scene ball = lit_scene();
   ball.textures = {leaves(16), leaves(9)};
   add_patched_ball(ball, 8);
@@ -200,7 +200,7 @@ TEST_CASE("with Embree naming the primitives the picture of kept meshes has the 
   CHECK(by_embree.rays == by_walk.rays);
 }
 
-TEST_CASE("where Embree names a triangle of a kept mesh the hit is the walk's, with its t, its block and its instance") {
+TEST_CASE("where Embree names a triangle of a base mesh the hit is the traversal's, with its t, its leaf and its instance") {
   const Looked kept(balls_in_places(0.4, Arrangement::apart, 6), 48, with_instances());
   const apps::EmbreeScene embree(kept.database.primitives(), apps::EmbreeMode::robust);
   const auto places = kept.database.find_places();
@@ -217,7 +217,7 @@ TEST_CASE("where Embree names a triangle of a kept mesh the hit is the walk's, w
     if (is_in_instance(named.best) && named.best.primitive == walked.best.primitive) {
       ++of_instances;
       others +=
-          named.best.t == walked.best.t && named.best.block == walked.best.block && named.best.lane == walked.best.lane ? 0 : 1;
+          named.best.t == walked.best.t && named.best.leaf == walked.best.leaf && named.best.lane == walked.best.lane ? 0 : 1;
     }
   }
   CHECK(of_instances > 100);

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include "apps/edge/system/interrupt.h"
+#include "apps/frontend/system/interrupt.h"
 #include "core/base/expect.h"
 #include "tests/support/checked_floor.h"
 #include "tests/support/covering_faces.h"

@@ -56,7 +56,7 @@ struct Claimed {
     results[catalogue.rings_by_rays[1].front()]->tests = 100;
     results[catalogue.rings_by_rays[1].back()]->tests = 130;
     set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
-    set_dealt(110'000, 120'000);
+    set_assigned(110'000, 120'000);
     results[catalogue.copies] = result_of_seconds(198);
     for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
       results[catalogue.counted[scene]] = PaperResult{.total_ns = 1'000'000'000, .database_bytes = 1000};
@@ -64,9 +64,9 @@ struct Claimed {
     }
   }
 
-  void set_dealt(std::uint64_t seconds, std::uint64_t seconds_of_pixels) {
-    results[catalogue.items_dealt[article_item]] = result_of_seconds(seconds);
-    results[catalogue.items_dealt[1]] = result_of_seconds(seconds_of_pixels);
+  void set_assigned(std::uint64_t seconds, std::uint64_t seconds_of_pixels) {
+    results[catalogue.items_assigned[article_item]] = result_of_seconds(seconds);
+    results[catalogue.items_assigned[1]] = result_of_seconds(seconds_of_pixels);
   }
   void set_overflow(double of_rings_3, double of_rings_4) {
     results[catalogue.by_way(0, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_3};
@@ -302,16 +302,16 @@ TEST_CASE("submaps with items on request hold the claim while neither alone is b
   Claimed claimed;
   claimed.results[claimed.catalogue.items[article_item]] = result_of_seconds(604);
   claimed.results[claimed.catalogue.items[0]] = result_of_seconds(700);
-  claimed.set_dealt(700, 800);
+  claimed.set_assigned(700, 800);
   CHECK(claimed.verdict("either alone") == "held");
   CHECK(claimed.found("either alone") == "seconds: both 604, submaps 700, items asked of the host 700, pixels 800");
-  claimed.set_dealt(590, 800);
+  claimed.set_assigned(590, 800);
   CHECK(claimed.verdict("either alone") == "not held");
   for (const std::uint64_t close : {603, 604, 605}) {
-    claimed.set_dealt(close, 800);
+    claimed.set_assigned(close, 800);
     CHECK(claimed.verdict("either alone") == "a tie");
   }
-  claimed.set_dealt(700, 590);
+  claimed.set_assigned(700, 590);
   CHECK(claimed.verdict("either alone") == "not held");
 }
 

@@ -14,7 +14,7 @@ const std::string nothing;
 
 TEST_CASE("a table of the article without rows, or an unknown one, has no conclusion") {
   for (const char* const name : {"voxel_table_2", "voxel_table_3", "voxel_prices", "voxel_pairs", "voxel_caches", "voxel_loads",
-                                 "voxel_claims",  "table_2",       "table_3",      "calibration", "law",          "against_law",
+                                 "voxel_claims",  "table_2",       "table_3",      "calibration", "law",          "against_model",
                                  "memories",      "losses",        "algorithms",   "ray_ways",    "work_items",   "page_sizes",
                                  "caches",        "claims",        "sensitivity",  "no table"}) {
     CHECK(paper_conclusion(name, Table("", {{"scene"}, {"nodes"}})) == nothing);
@@ -78,7 +78,7 @@ TEST_CASE("other tables of the article are concluded from their columns") {
         "The efficiency goes from 3.0 % with caches of 0.50 % of the database to 90.0 % with 10.00 %.");
   Table errors("", {{"cells"}, {"our mean error"}, {"the law's mean error"}});
   errors.add_row({"all", 2.0, 3.0});
-  CHECK(paper_conclusion("against_law", errors) == "Over all we are nearer: 2.0 points off in the mean, against 3.0 points.");
+  CHECK(paper_conclusion("against_model", errors) == "Over all we are nearer: 2.0 points off in the mean, against 3.0 points.");
 }
 
 }  // namespace dmpc::apps::paper_conclusions_test

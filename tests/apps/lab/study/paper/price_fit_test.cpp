@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
 
@@ -33,7 +33,7 @@ std::vector<PaperRun> voxel_runs(const VoxelPrices& prices) {
 
 }  // namespace
 
-TEST_CASE("prices in closed form: 3 of a walk, 2 of a ray, 5 of a look-up") {
+TEST_CASE("prices in closed form: 3 of a traversal, 2 of a ray, 5 of a look-up") {
   const std::vector<PricedCell> cells = {cell_of(1, 1, 0, 0, 5), cell_of(2, 1, 0, 1, 9), cell_of(1, 1, 1, 0.5, 10.5)};
   const auto prices = fit_prices(cells);
   REQUIRE(prices);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/edge/machine/machines.h"
+#include "apps/frontend/machine/machines.h"
 #include "apps/lab/study/paper/data.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"

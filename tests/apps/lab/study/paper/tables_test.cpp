@@ -156,7 +156,7 @@ TEST_CASE("work items have their seconds and where they go, static first") {
   results[catalogue.items[0]] = result_of_seconds(700);
   results[catalogue.items[0]]->parts.ns = {60, 0, 10, 0, 0, 0, 0, 0, 0, 5, 25};
   results[catalogue.items[3]] = result_of_seconds(604);
-  results[catalogue.items_dealt[3]] = result_of_seconds(650);
+  results[catalogue.items_assigned[3]] = result_of_seconds(650);
   const Table table = work_items(catalogue, results);
   REQUIRE(table.rows().size() == 3);
   CHECK(table.rows()[0] == std::vector<Cell>{"static", "nobody", 700.0, 60.0, 0.0, 10.0, 5.0, 25.0, whole(0)});

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/show/page/escaped.h"
-#include "apps/edge/show/references/reference_file.h"
+#include "apps/frontend/show/page/escaped.h"
+#include "apps/frontend/show/references/reference_file.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/references/gzip_text.h"
 #include "core/base/expect.h"

@@ -112,7 +112,7 @@ TEST_CASE("a run that finds no room is a row without figures, and if all are so 
   options.settings.node_counts = {3};
   apps::Interrupt interrupt;
   std::ostringstream output;
-  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "no room", core::RoomError);
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "no room", core::CapacityError);
   CHECK(contains(output.str(), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
 }
 

@@ -15,7 +15,7 @@ using apps::ScaleFigures;
 namespace {
 
 /// What `render --stats` writes of a run of 100 rays on two nodes, as far as it is read.
-const std::string statistics = R"({"format": 1, "film_hash": "0123456789abcdef",
+const std::string statistics = R"({"format": 2, "film_hash": "0123456789abcdef",
   "rays": {"total": 100}, "packets": {"sent": 50}, "pages": {"faults": 20, "distinct_per_pixel": 2.5},
   "travel": null, "database": {"bytes": 3000000, "primitives": 77},
   "seconds": {"load": 1.0, "build": 2.0, "prepare": 4.0, "render": 8.0, "write": 16.0, "user": 99.0, "system": 99.0,
@@ -61,7 +61,7 @@ TEST_CASE("moves are rays that dataflow sent to another node, not links that the
 }
 
 TEST_CASE("statistics that cannot be read are a fault of our own") {
-  for (const char* text : {"{\"format\": 1}", "{\"format\": 1, \"rays\": 3}"}) {
+  for (const char* text : {"{\"format\": 2}", "{\"format\": 2, \"rays\": 3}"}) {
     CHECK_THROWS_AS(figures_of(text, 0), core::InternalError);
   }
 }

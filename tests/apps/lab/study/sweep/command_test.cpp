@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/show/page/escaped.h"
+#include "apps/frontend/show/page/escaped.h"
 #include "apps/lab/study/sweep/kept_runs.h"
 #include "apps/lab/study/sweep/table.h"
 #include "apps/main/commands.h"
@@ -193,7 +193,7 @@ TEST_CASE("a combination without room has an empty row, and where none has room 
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK_THROWS_AS(apps::study_sweep_command(tiny_sweep({"--vary=node-memory:1KiB,2KiB", "--nodes=2"}), interrupt, output),
-                  core::RoomError);
+                  core::CapacityError);
 }
 
 TEST_CASE("what goes wrong is told before anything runs, with what was meant") {

@@ -1,9 +1,0 @@
-// What a JSON file of ours says of itself.
-#pragma once
-
-namespace dmpc::apps {
-
-/// "format", the first key of each: counted up when a key goes or comes to mean something else; not for a new one.
-inline constexpr int json_format = 1;
-
-}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+// What the program ends with.
+#pragma once
+
+namespace dmpc::apps {
+
+/// Bad input, wrong usage, an error of dmpc's own, no room on this computer or in the nodes' memory, what was to be equal
+/// differs, and a signal.
+inline constexpr int input_status = 1, usage_status = 2, internal_status = 3, no_capacity_status = 4, differs_status = 5,
+                     interrupted_status = 130;
+
+struct ExitStatus {
+  int status;
+  const char* meaning;
+};
+
+/// All of them.
+inline constexpr ExitStatus exit_statuses[] = {
+    {0, "The job is done."},
+    {input_status, "Bad input, or an output that cannot be written: the message says what, where, and what would do."},
+    {usage_status, "Wrong usage: the message ends with the right --help."},
+    {internal_status,
+     "An error of dmpc's own, a part of it that is missing, or a difference that check or bench precision cannot explain."},
+    {no_capacity_status, "There is no room for the input, on this computer or in the nodes' memory."},
+    {differs_status, "What compare compares differs: by more than --fail-above allows, or in a counter."},
+    {interrupted_status, "Interrupted by a signal: the message says what became of the output."},
+};
+
+}  // namespace dmpc::apps

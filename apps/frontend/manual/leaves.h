@@ -1,0 +1,32 @@
+// The commands that do something.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/frontend/line/command_description.h"
+
+namespace dmpc::apps {
+
+/// A command with what the user types for it.
+struct Leaf {
+  std::string path;  ///< "study balance"
+  const CommandDescription* command = nullptr;
+};
+
+/// Those of `outer` that have no commands of their own, in the order of their declaration; `outer` outlives them. `path` stands
+/// before each.
+inline std::vector<Leaf> leaves_of(const CommandDescription& outer, const std::string& path = "") {
+  std::vector<Leaf> leaves;
+  for (const CommandDescription& command : outer.commands) {
+    const std::string inner_path = path + command.name;
+    const std::vector<Leaf> inner = leaves_of(command, inner_path + " ");
+    if (inner.empty()) {
+      leaves.push_back({inner_path, &command});
+    }
+    leaves.insert(leaves.end(), inner.begin(), inner.end());
+  }
+  return leaves;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,23 @@
+// What is shown of a run beyond its counters.
+#pragma once
+
+#include <optional>
+
+#include "apps/frontend/run/miss_estimate.h"
+#include "nodes/observers/activity_profile.h"
+#include "nodes/observers/exchange_profile.h"
+#include "nodes/observers/wait_log.h"
+#include "svm/pages/observers/fetch_observer.h"
+
+namespace dmpc::apps {
+
+/// All of it is kept outside the nodes' memories.
+struct RunView {
+  nodes::ActivitySteps steps;
+  std::optional<nodes::WaitRecord> waits;          ///< on modelled machines
+  std::optional<nodes::ExchangeProfile> exchange;  ///< likewise
+  std::optional<svm::Fetches> fetches;             ///< of svm
+  std::optional<MissEstimate> misses;              ///< of svm, unless it counts different pages
+};
+
+}  // namespace dmpc::apps

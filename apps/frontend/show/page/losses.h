@@ -1,0 +1,37 @@
+// What became of the nodes' time: computing, and what was lost to everything else.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/frontend/run/time_parts.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
+#include "nodes/counters.h"
+#include "nodes/virtual/virtual_times.h"
+
+namespace dmpc::apps::html {
+
+/// Each node's time, in nanoseconds of parts with names, of which the first is computing.
+struct Losses {
+  std::vector<std::string> parts;
+  std::vector<std::vector<std::uint64_t>> nodes;  ///< by node, each by part
+  bool is_virtual = false;                        ///< else of the wall clock
+};
+
+/// On a modelled machine: TimePart's, without those of which no node has anything.
+Losses virtual_losses(std::span<const nodes::VirtualTimes> nodes, const WaitKinds& waits);
+/// The losses of threads: they compute, sleep for want of packets, or wait for a core.
+Losses wall_losses(std::span<const nodes::NodeCounters> nodes);
+/// Without parts, but computing, of which no node has anything.
+Losses without_empty_parts(const Losses& losses);
+
+/// A row for each node, in percent that add up to 100 as they stand, and one for all of them.
+Table loss_table(const Losses& losses);
+Plot loss_plot(const Losses& losses);
+/// In a sentence or two.
+std::string loss_conclusion(const Losses& losses);
+
+}  // namespace dmpc::apps::html

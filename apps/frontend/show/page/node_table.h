@@ -1,0 +1,52 @@
+// A table with a row for each node, from what there is to say of each column.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/frontend/show/counters.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
+#include "nodes/counters.h"
+
+namespace dmpc::apps::html {
+
+/// What stands in a column, by number of the node.
+struct NodeColumn {
+  Column column;
+  std::function<Cell(std::size_t node)> cell;
+};
+using NodeColumns = std::vector<NodeColumn>;
+
+/// Of so many nodes.
+Table node_table(const std::string& title, std::size_t node_count, const NodeColumns& columns);
+
+/// A number of each node.
+NodeColumn count_column(const std::string& name, std::function<std::uint64_t(std::size_t node)> count,
+                        const std::string& unit = "");
+/// Bytes of each node, in KiB.
+NodeColumn kibibyte_column(const std::string& name, std::function<std::size_t(std::size_t node)> bytes);
+/// What each node sent and received.
+NodeColumns traffic_columns(const std::function<const nodes::NodeCounters&(std::size_t node)>& counters);
+
+/// Of each counter that such tables have. `counters` are a node's.
+template <class Counters>
+NodeColumns counter_columns(const std::function<const Counters&(std::size_t node)>& counters) {
+  NodeColumns columns;
+  for (const Counter<Counters>& row : counters_of<Counters>) {
+    if (*row.column != '\0') {
+      columns.push_back(count_column(row.column, [&row, counters](std::size_t node) { return row.value(counters(node)); }));
+    }
+  }
+  return columns;
+}
+
+/// Puts columns behind others.
+void append(NodeColumns& columns, const NodeColumns& more);
+
+/// Of a table with the columns of page counters.
+Plot fault_plot();
+
+}  // namespace dmpc::apps::html

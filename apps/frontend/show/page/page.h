@@ -1,0 +1,79 @@
+// One page of HTML that needs no other file and no network: sections of text, tables, pictures and plots.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/frontend/help/glossary.h"
+#include "apps/frontend/show/page/charts.h"
+#include "apps/frontend/show/page/number_map.h"
+#include "apps/frontend/show/page/origin.h"
+#include "apps/frontend/show/page/web_part.h"
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
+
+namespace dmpc::apps::html {
+
+/// Names and what they are.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// Whose page it is.
+struct PageSpeaker {
+  std::string name = "dmpc";  ///< of the program, before what it complains of
+  /// What words mean that may occur; outlives the page.
+  std::span<const GlossaryEntry> words = glossary();
+};
+
+/// A document under way. All texts are shown as they are, whatever they contain, but for code between backticks in paragraphs,
+/// cells and notes. Pictures, plots and tables have links that save them. Not thread-safe.
+class Page {
+ public:
+  /// `complaints` as Charts.
+  Page(std::string title, std::ostream& complaints, PageSpeaker speaker = {});
+
+  /// What follows belongs to it, and the page's list of contents leads there.
+  void begin_section(const std::string& heading);
+  void add_text(const std::string& paragraph);
+  /// What a section comes to, in one sentence; nothing if it is empty.
+  void add_conclusion(const std::string& sentence);
+  void add_facts(const Facts& facts);
+  /// To be selected whole by one click: a command, a citation.
+  void add_code(const std::string& text);
+  /// What is shown from its `url`, with `attributes` of its element. `description`: for those who do not see it. `save`: a link
+  /// that saves it.
+  void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
+                  const std::string& caption, const std::string& save);
+  /// Empty: for a script to fill, which finds it by its id.
+  void add_place(const std::string& id);
+  void add_map(const NumberMap& map, const std::string& caption);
+  /// With title and notes; a long one is folded.
+  void add_table(const Table& table);
+  /// Nothing if there is nothing to see, or no program to draw it.
+  void add_plot(const Plot& plot, const Table& table, const std::string& caption = "");
+  /// How to make it again, and what to cite: where it comes from, and the `results` by which another run is known to be the same.
+  void add_origin(const Origin& origin, const Facts& results);
+
+  /// What the page looks like beyond its own style, and what it does once it is read, in order.
+  void add_style(const WebPart& style);
+  void add_script(const WebPart& script);
+  /// For scripts, which find it by its id: `json` is a whole JSON text, whatever its texts contain.
+  void add_data(const std::string& id, const std::string& json);
+
+  /// The whole document, with what its words mean at the end.
+  std::string text() const;
+
+ private:
+  std::string title_;
+  std::span<const GlossaryEntry> glossary_;
+  Charts charts_;
+  std::vector<WebPart> styles_, scripts_;
+  std::string data_;  ///< elements for scripts
+  std::vector<std::string> headings_;
+  std::string body_;
+  std::string words_;  ///< all that is shown, without markup
+};
+
+}  // namespace dmpc::apps::html

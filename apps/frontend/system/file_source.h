@@ -1,0 +1,34 @@
+// A stream of text or bytes from a file that Files opens, which tells an end from a fault.
+#pragma once
+
+#include <filesystem>
+#include <istream>
+#include <streambuf>
+#include <vector>
+
+#include "apps/frontend/system/files.h"
+
+namespace dmpc::apps {
+
+/// Not thread-safe. `files` outlives it.
+class FileSource final : private std::streambuf, public std::istream {
+ public:
+  /// Fails if there is no such file, as reading it does.
+  FileSource(const std::filesystem::path& path, Files& files);
+  ~FileSource() override;
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  /// 0, or errno's value of the first call that failed: then what was read is not what the file has.
+  int error() const { return error_; }
+
+ private:
+  std::streambuf::int_type underflow() override;
+
+  Files& files_;
+  int file_ = -1;
+  int error_ = 0;
+  std::vector<char> kept_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,121 @@
+#include "apps/frontend/system/last_words.h"
+
+#include <execinfo.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <initializer_list>
+#include <new>
+#include <string>
+
+#include "apps/frontend/line/exit_status.h"
+#include "apps/frontend/system/interrupt.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+std::atomic<bool> has_run_out = false, is_loading = false;
+
+/// "; the limit of its control group (/sys/fs/cgroup/memory.max) is 512 MiB": written before it is needed, and by no stream.
+std::array<char, 512> memory_limit{};
+
+/// As without a handler, but noted.
+void note_end_of_memory() {
+  has_run_out = true;
+  throw std::bad_alloc();
+}
+
+/// By no stream, whose state is not known here.
+void say(std::initializer_list<const char*> words) {
+  for (const char* const word : words) {
+    static_cast<void>(!::write(STDERR_FILENO, word, std::strlen(word)));
+  }
+}
+
+int complain_of(const std::exception_ptr& thrown) {
+  if (memory_has_run_out()) {
+    return complain_of_memory();
+  }
+  if (is_loading) {
+    say(
+        {"dmpc: a library that is loaded for this job lacks threads or memory: ask for higher limits (ulimit -u, ulimit -v, "
+         "pids.max "
+         "of a container)\n"});
+    return no_capacity_status;
+  }
+  try {
+    if (thrown) {
+      std::rethrow_exception(thrown);
+    }
+    say({"dmpc: this is a bug in dmpc, please report it: it was ended\n"});
+  } catch (const std::bad_alloc&) {
+    return complain_of_memory();
+  } catch (const std::exception& error) {
+    say({"dmpc: this is a bug in dmpc, please report it: ", error.what(), "\n"});
+  } catch (...) {
+    say({"dmpc: this is a bug in dmpc, please report it: what was thrown is no exception\n"});
+  }
+  return internal_status;
+}
+
+/// Else a fault, or our own abort().
+bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && info.si_pid != ::getpid(); }
+
+/// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
+/// a want of memory goes on to end the process as it would have; what crashes long after one, and not for it, cannot be told from
+/// it.
+[[maybe_unused]] void end_crash(int signal, siginfo_t* info, void* /*context*/) {
+  const bool is_for_want_of_memory = (errno == ENOMEM || memory_has_run_out()) && !is_sent_by_another(*info);
+  remove_files_under_way();
+  if (is_for_want_of_memory) {
+    ::_exit(complain_of_memory());
+  }
+  ::raise(signal);  // one that was sent does not come again by itself
+}
+
+}  // namespace
+
+bool memory_has_run_out() { return has_run_out; }
+
+LoadsLibrary::LoadsLibrary() { is_loading = true; }
+LoadsLibrary::~LoadsLibrary() { is_loading = false; }
+
+int complain_of_memory() {
+  say(
+      {"dmpc: this computer has not enough memory for that: ask for less of it (a smaller scene or picture, fewer nodes), or run "
+       "it where there is more",
+       memory_limit.data(), "\n"});
+  return no_capacity_status;
+}
+
+void name_memory_limit(std::string_view source, std::string_view bytes) {
+  std::string text = source.empty() ? "" : "; " + std::string(source) + " is " + std::string(bytes);
+  memory_limit.fill('\0');
+  text.copy(memory_limit.data(), memory_limit.size() - 1);
+}
+
+void end_without_abort() {
+  [[maybe_unused]] struct sigaction action {};
+  action.sa_sigaction = end_crash;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
+#if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
+    ::sigaction(signal, &action, nullptr);
+  }
+#endif
+  void* frame = nullptr;
+  ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
+  std::set_new_handler(note_end_of_memory);
+  std::set_terminate([] {
+    remove_files_under_way();
+    ::_exit(complain_of(std::current_exception()));
+  });
+}
+
+}  // namespace dmpc::apps

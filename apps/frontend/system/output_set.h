@@ -1,0 +1,77 @@
+// The files that a command leaves, each declared once: the option that names it, how it is tried, and what it holds.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/frontend/system/attempts.h"
+#include "apps/frontend/system/distinct_files.h"
+#include "apps/frontend/system/output_file.h"
+
+namespace dmpc::apps {
+
+/// Throws core::UsageError or core::InputError unless such a file can be made at the path; the option's name is for the message.
+using OutputCheck = void (*)(const std::filesystem::path&, std::string_view);
+
+/// What a set is tried by, whatever its files hold.
+struct OutputName {
+  NamedFile file;
+  OutputCheck check = check_output_path;
+};
+
+/// Throws core::UsageError or core::InputError unless all of them can be made, as far as can be known beforehand, and none falls
+/// on another or on an input.
+void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<OutputName>& outputs);
+
+/// Their names alone.
+std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs);
+
+/// Throws core::InputError, naming `what` was to go there and with `advice`, if the standard output takes nothing.
+void check_standard_output(const std::string& what, const std::string& advice);
+
+/// Throws ComputerCapacityError unless as many files can be open at a time as writing them takes.
+void check_open_files();
+
+/// Files that are written from a Result. Not thread-safe.
+template <class Result>
+class OutputSet {
+ public:
+  /// What the file holds; nothing if something else writes it.
+  using Write = std::function<void(const Result&, std::ostream&)>;
+
+  void add(std::string option, std::filesystem::path path, OutputCheck check, Write write) {
+    names_.push_back({{std::move(option), std::move(path)}, check});
+    writes_.push_back(std::move(write));
+  }
+
+  const std::vector<OutputName>& names() const { return names_; }
+
+  /// Writes them in the order in which they were added; what fails keeps none that follows from being written.
+  void write(const Result& result, Attempts& attempts, Files& files = real_files()) const {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (writes_[i]) {
+        attempts.make([&] {
+          write_one(
+              names_[i].file, [&](std::ostream& stream) { writes_[i](result, stream); }, files);
+        });
+      }
+    }
+  }
+
+ private:
+  static void write_one(const NamedFile& name, const std::function<void(std::ostream&)>& write, Files& files) {
+    OutputFile file(name.path, {.option = name.name}, files);
+    write(file.stream());
+    file.commit();
+  }
+
+  std::vector<OutputName> names_;
+  std::vector<Write> writes_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,62 @@
+// A folder for files that nobody wants to keep.
+#pragma once
+
+#include <stdlib.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/frontend/system/descriptor.h"
+#include "apps/frontend/system/interrupt.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+/// A process (/bin/sh) that waits for the end of this one, by whatever, a signal that cannot be caught included, and removes the
+/// folder then. An heir who is no more in the end removes nothing. Where none can be started there is none: it is for what
+/// nobody expects.
+class FolderHeir {
+ public:
+  explicit FolderHeir(const std::filesystem::path& folder);
+  ~FolderHeir();
+  FolderHeir(const FolderHeir&) = delete;
+  FolderHeir& operator=(const FolderHeir&) = delete;
+
+ private:
+  Descriptor life_;  ///< its other end is closed with this process
+  pid_t id_ = -1;
+};
+
+/// Made where the system keeps temporary files; gone with everything in it in the end, whatever ends the process. Throws
+/// core::InputError if none can be made.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::error_code error;
+    const std::filesystem::path place = std::filesystem::temp_directory_path(error);
+    std::string name = (place / "dmpc-XXXXXX").string();
+    if (error || ::mkdtemp(name.data()) == nullptr) {
+      throw core::InputError("no temporary folder can be made as " + name + ": set TMPDIR to a folder that can be written to");
+    }
+    path_ = name;
+    removed_at_once_.emplace(path_, RemovedAtOnce::Kind::folder);
+    heir_.emplace(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+  std::optional<RemovedAtOnce> removed_at_once_;
+  std::optional<FolderHeir> heir_;
+};
+
+}  // namespace dmpc::apps

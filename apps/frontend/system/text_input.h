@@ -1,0 +1,47 @@
+// Text from a file or a pipe, which may turn out to be neither.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <istream>
+#include <streambuf>
+#include <vector>
+
+#include "apps/frontend/system/descriptor.h"
+
+namespace dmpc::apps {
+
+/// How long a pipe may keep its reader waiting: for somebody to open its other end, and for the next byte.
+struct PipeTimeout {
+  std::chrono::milliseconds writer{1000}, byte{60'000};
+};
+
+/// Throws core::InputError, "PATH: ...": from the constructor, if there is no file, or if it is a device
+/// or a folder; from reading, if a pipe makes it wait too long, or gives more than the scene of it had room for in memory.
+class TextInput final : private std::streambuf, public std::istream {
+ public:
+  explicit TextInput(const std::filesystem::path& path, const PipeTimeout& timeout = {});
+
+  /// The bytes of an ordinary file; nothing is known of a pipe.
+  std::uint64_t file_bytes() const { return file_bytes_; }
+
+ private:
+  std::streambuf::int_type underflow() override;
+  [[noreturn]] void fail(const std::string& sentence) const;
+  /// By what errno says.
+  [[noreturn]] void fail_with(const std::string& words) const;
+  std::size_t read_some();
+  /// The bytes read; 0 at the end.
+  std::size_t read_pipe();
+  void wait_for_byte();
+
+  std::string name_;
+  PipeTimeout timeout_;
+  Descriptor descriptor_;
+  bool is_pipe_ = false;
+  std::uint64_t file_bytes_ = 0, bytes_read_ = 0;
+  std::vector<char> buffer_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,64 @@
+// Columns that say what stands in them, so that the head of a table and its rows are told once.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/frontend/table/table.h"
+
+namespace dmpc::apps {
+
+/// A column, and what it has of a subject: a run, a result, one of many.
+template <class Subject>
+struct FilledColumn {
+  Column column;
+  std::function<Cell(const Subject&)> cell;
+};
+
+template <class Subject>
+using FilledColumns = std::vector<FilledColumn<Subject>>;
+
+/// Nothing for nothing.
+template <class Value>
+Cell cell_of(const std::optional<Value>& value) {
+  return value ? Cell(*value) : Cell();
+}
+
+/// What `cell` has of the subjects that are `meant`; nothing of the others.
+template <class Meant, class Fill>
+auto only_if(Meant meant, Fill cell) {
+  return [meant, cell](const auto& subject) { return meant(subject) ? Cell(cell(subject)) : Cell(); };
+}
+
+template <class Subject>
+std::vector<Column> heads_of(const FilledColumns<Subject>& columns) {
+  std::vector<Column> heads;
+  for (const FilledColumn<Subject>& one : columns) {
+    heads.push_back(one.column);
+  }
+  return heads;
+}
+
+template <class Subject>
+std::vector<Cell> row_of(const FilledColumns<Subject>& columns, const Subject& subject) {
+  std::vector<Cell> row;
+  for (const FilledColumn<Subject>& one : columns) {
+    row.push_back(one.cell(subject));
+  }
+  return row;
+}
+
+/// A row for each of the subjects.
+template <class Subject, class Subjects>
+Table filled_table(std::string title, const FilledColumns<Subject>& columns, const Subjects& subjects) {
+  Table table(std::move(title), heads_of(columns));
+  for (const Subject& subject : subjects) {
+    table.add_row(row_of(columns, subject));
+  }
+  return table;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,71 @@
+// What viewers are told while something goes on, each as fast as it listens.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/frontend/web/web_server.h"
+
+namespace dmpc::apps {
+
+/// Places, each with the newest event of its kind: a viewer gets what has changed since it last looked, so a slow one misses
+/// events and never the newest, one that comes late gets all there is, and nobody waits for a viewer. Takes one event a place,
+/// however many viewers there are, and of each viewer a number a place.
+///
+/// Thread safety: any thread; follow() on each viewer's own.
+class LiveFeed {
+ public:
+  /// The first `important` places go to a viewer at once; of the others so many bytes at a time, and at least one event.
+  explicit LiveFeed(std::size_t important, std::size_t bytes_at_once = bytes_usual,
+                    std::chrono::milliseconds interval = interval_usual)
+      : important_(important), bytes_at_once_(bytes_at_once), interval_(interval) {}
+
+  /// An event as EventSource takes it (WHATWG, "Server-sent events"); `data` is one line.
+  void put(std::size_t place, std::string_view name, std::string_view data);
+  /// What is new goes out, then this event, and nothing more. Only the first call counts.
+  void close(std::string_view name, std::string_view data);
+
+  /// A viewer's, as long as it is one; nullptr if so many look on already. It does not outlive the feed.
+  std::shared_ptr<const void> take_seat(std::size_t seats);
+  std::size_t seats_taken() const { return taken_.load(std::memory_order_relaxed); }
+  /// Sends until the feed is closed or the viewer gone.
+  void follow(WebStream& viewer);
+
+  /// 0.8 MB a second.
+  static constexpr std::size_t bytes_usual = 200'000;
+  /// What viewers are told more often than that they learn later.
+  static constexpr std::chrono::milliseconds interval_usual{250};
+
+ private:
+  using Event = std::shared_ptr<const std::string>;
+  struct Place {
+    Event event;
+    std::uint64_t version = 0;
+  };
+  struct Viewer {
+    std::vector<std::uint64_t> seen;  ///< versions, by place
+    std::size_t next = 0;             ///< place at which to look first, so that each has its turn
+  };
+
+  std::vector<Event> news(Viewer& viewer) const;
+  void wait();
+
+  std::size_t important_, bytes_at_once_;
+  std::chrono::milliseconds interval_;
+  std::atomic<std::size_t> taken_ = 0;
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::condition_variable closed_;
+  std::vector<Place> places_;
+  std::uint64_t version_ = 0;
+  Event last_;  ///< when it is closed
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,11 @@
+#include "apps/frontend/web/web_server.h"
+
+namespace dmpc::apps {
+
+const WebLibrary& web_library() {
+  static const auto* const library =
+      static_cast<const WebLibrary*>(open_module("http", "shows a picture in a browser as it comes"));
+  return *library;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,64 @@
+// One primitive in double precision: what a ray meets, and the surface there. Shares no arithmetic with core's kernels and
+// shading.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "apps/lab/oracle/reference/ray.h"
+#include "core/base/box.h"
+#include "core/base/vec.h"
+#include "core/record/record.h"
+
+namespace dmpc::apps {
+
+/// World coordinates.
+///   triangle   place: its three corners
+///   sphere     place[0]: the centre, radius[0]; a negative radius shows the inside only
+///   cone       place[0], place[1]: base and apex, with their radii; any of them negative shows the inside only
+struct ReferenceBody {
+  static constexpr std::uint32_t flat = 0xffffffffU;
+
+  core::PrimitiveKind kind{};
+  std::array<core::Vec3d, 3> place;
+  std::array<double, 2> radius{};
+  std::uint32_t material = 0;
+  std::uint32_t object = 0;               ///< index into core::Scene::objects
+  std::uint32_t first_normal = flat;      ///< of a smooth triangle: index of its three normals in ReferenceScene::normals
+  std::uint32_t first_place = flat;       ///< of a textured one: index of its three places in ReferenceScene::places
+  std::uint32_t first_color = flat;       ///< of one whose corners have colours: likewise in ReferenceScene::colors
+  bool is_light_sampled = false;          ///< by paths, as it shines by itself
+  std::array<std::uint32_t, 3> corner{};  ///< of a triangle: which corners of the object it has
+
+  bool is_smooth() const { return first_normal != flat; }
+  bool is_textured() const { return first_place != flat; }
+  bool has_colors() const { return first_color != flat; }
+};
+
+/// The place that a ray hits.
+struct ReferenceSurface {
+  core::Vec3d point;               ///< on the body, whatever rounding did to t
+  core::Vec3d normal;              ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
+  std::array<double, 3> weight{};  ///< of a triangle's corners
+};
+
+/// Whether there is something to hit: a triangle with an area, a radius, a length; all coordinates below 1e30.
+bool is_usable(const ReferenceBody& body);
+
+/// The least distance in (0, ray.t_max) at which `ray` meets `body`. Triangles: the signs of the volumes that the ray spans with
+/// the edges; an edge gives both its triangles the same number, so nothing passes between them. Spheres and cones: the two stable
+/// roots of the quadratic about the point of the ray that is nearest to the body.
+std::optional<double> distance_to(const ReferenceBody& body, const ReferenceRay& ray);
+
+/// The same of a ray that starts on `body`, but for what keeps it off there: where it meets what is curved again. Never outside,
+/// as all bodies bulge outwards, and never a triangle.
+std::optional<double> distance_across(const ReferenceBody& body, const ReferenceRay& ray);
+
+/// The surface where `ray` meets `body` at `t`, which distance_to() gave.
+ReferenceSurface surface_at(const ReferenceBody& body, const ReferenceRay& ray, double t);
+
+/// Encloses the body.
+core::Box bounds_of(const ReferenceBody& body);
+
+}  // namespace dmpc::apps

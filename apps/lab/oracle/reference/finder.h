@@ -1,0 +1,35 @@
+// What a ray in double precision hits: Embree offers the boxes on its way, and the hit in each is computed in double.
+#pragma once
+
+#include <memory>
+
+#include "apps/lab/oracle/reference/ray.h"
+#include "apps/lab/oracle/reference/scene.h"
+
+namespace dmpc::apps {
+
+/// Embree sees boxes in float, about the scene's middle and in units of its size, each grown by `box_margin` times the distance
+/// of the farthest ray's start: more than float can move a ray, so no body is passed by, whatever the scene's place and scale.
+/// Immutable once made; every query is thread-safe.
+class ReferenceFinder {
+ public:
+  /// `scene` outlives the finder; `eye` is where the farthest rays start. Builds with all cores. Throws InternalError if Embree
+  /// reports an error.
+  ReferenceFinder(const ReferenceScene& scene, const core::Vec3d& eye);
+  ~ReferenceFinder();
+  ReferenceFinder(const ReferenceFinder&) = delete;
+  ReferenceFinder& operator=(const ReferenceFinder&) = delete;
+
+  /// The hit with the least (t, body) in (0, ray.t_max); the triangle ray.ignored_body is left out, and at the ray's start what
+  /// lies in its plane. Of triangles of one plane (share_plane()) that are hit there together, that of the least
+  /// core::Material::rank_in_plane() counts, the first of those; it is asked at each hit.
+  ReferenceHit closest(const ReferenceRay& ray) const;
+  /// Some hit, or none.
+  ReferenceHit any(const ReferenceRay& ray) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,53 @@
+// A scene in double precision as the accurate renderer takes it: flat lists, world coordinates.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/lab/oracle/reference/body.h"
+#include "apps/lab/oracle/reference/texture.h"
+#include "core/base/box.h"
+#include "core/record/emitter.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+struct ReferenceLight {
+  core::Vec3d position;
+  core::Vec3d intensity;
+  core::LightSpread spread;  ///< as rounded as the product has it
+};
+
+/// What paths aim at, and how likely.
+struct ReferenceEmitter {
+  std::uint32_t body;
+  double chance;
+};
+
+/// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits
+/// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
+struct ReferenceScene {
+  std::vector<ReferenceBody> bodies;
+  std::vector<core::Vec3d> normals;    ///< of smooth triangles, of unit length; 0 for none
+  std::vector<ReferencePlace> places;  ///< of textured triangles' corners
+  std::vector<ReferenceTexel> colors;  ///< of corners that have one
+  std::vector<core::Texture> textures;
+  std::vector<core::Material> materials;
+  std::vector<ReferenceLight> lights;
+  core::Vec3d background, ambient;
+  core::Box bounds;           ///< of all bodies
+  double size = 1;            ///< the largest extent of `bounds`, above 0
+  bool has_emission = false;  ///< of some material
+  // None of these unless aim_as_product() was called:
+  std::vector<ReferenceEmitter> emitters;
+  std::vector<core::EmitterChoice> choices;  ///< the product's, by which one is drawn
+  double emitter_density = 0;                ///< of a place on them, by area, over the strength of what it shines with
+
+  /// Whether hits send light by themselves.
+  bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }
+};
+
+/// Lights without a colour get 1 / sqrt(their number), as in the product. Requires a sky of colours, no picture.
+ReferenceScene reference_scene(const core::Scene& scene);
+
+}  // namespace dmpc::apps

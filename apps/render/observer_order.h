@@ -1,0 +1,45 @@
+// What is to be seen of a render: what rank 0 asks of those who look on at its nodes, and tells the other ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/frontend/run/miss_estimate.h"
+#include "apps/run/render_options.h"
+#include "core/picture/heat_kind.h"
+#include "nodes/observers/activity_profile.h"
+#include "nodes/observers/exchange_profile.h"
+#include "nodes/observers/trace.h"
+#include "svm/pages/home.h"
+
+namespace dmpc::apps {
+
+struct ObserverOrder {
+  std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< of computer, database and picture
+  std::vector<core::HeatKind> heat_kinds = {};                    ///< empty: no heat map
+  std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
+  bool has_profile = false;
+  nodes::WaitOf wait_of = {};  ///< for the profile
+  // Of modelled machines, which have no ranks: not told to others.
+  bool follows_paths = false;  ///< what led to the end of each wait
+  std::optional<nodes::ExchangeChoice> exchange = {};
+  std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched
+  std::optional<std::size_t> references_max = {};  ///< of one node
+  bool has_all_references = false;                 ///< for a file: none is left out
+
+  bool is_empty() const { return heat_kinds.empty() && !trace && !has_profile && !fetches && !references_max; }
+};
+
+/// What the options ask for. `references_max`: of all nodes together that are kept, about.
+ObserverOrder observer_order(const RenderOptions& options, std::uint32_t page_count, std::uint32_t pixel_count,
+                             std::size_t references_max = references_usual);
+
+/// As bytes, and from them.
+std::string bytes_of(const ObserverOrder& order);
+ObserverOrder observer_order_from(std::string_view bytes);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+// Triangles before their corners are rounded to float.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/database/conversion.h"
+#include "core/database/faces/face.h"
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+/// What doubles lose of a coordinate that a program has turned and moved, and of our own reckoning with it, as a share; and of
+/// one next to zero, as a share of the scene, since it comes from larger ones.
+inline constexpr double exact_rounding = 0x1p-49;
+
+/// The triangles of a conversion whose floats say little of their planes, as the doubles of its scene have them, and `moved` as
+/// floats do; each takes the place of its own in `faces`. Returns whether there are any.
+bool put_exact_corners(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::span<Face> faces);
+
+/// Triangles of a conversion as the doubles of the scene have them, grid-local, in the order of `ids`. Takes time in proportion
+/// to them, and to the corners of their polygons if those of one come together. The scene still has its objects.
+std::vector<Face> exact_faces(const Scene& scene, const GridFrame& frame, const Conversion& conversion,
+                              std::span<const std::uint32_t> ids);
+
+}  // namespace dmpc::core

@@ -1,0 +1,33 @@
+// Triangles that may lie in one plane, found by what their planes are like.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/database/faces/face.h"
+#include "core/database/faces/plane_lanes.h"
+
+namespace dmpc::core {
+
+/// Faces of different objects whose planes are alike: those between two places of PlaneBuckets::faces.
+struct PlaneBucket {
+  std::size_t axis = 0;  ///< that all of them can be looked at along
+  std::size_t first = 0, last = 0;
+};
+
+/// Planes as points of a space: two slopes and a height, in buckets. A face is in all buckets where its plane may be, for all
+/// that rounding did to its corners, so two that lie in one plane meet in a bucket.
+struct PlaneBuckets {
+  std::vector<std::uint32_t> faces;  ///< ascending within a bucket
+  std::vector<PlaneBucket> buckets;
+
+  std::span<const std::uint32_t> faces_of(const PlaneBucket& bucket) const {
+    return std::span(faces).subspan(bucket.first, bucket.last - bucket.first);
+  }
+};
+
+/// Buckets of faces of more than one object; of several with the same faces the first.
+PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size = fine_buckets);
+
+}  // namespace dmpc::core

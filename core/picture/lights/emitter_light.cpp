@@ -1,0 +1,95 @@
+#include "core/picture/lights/emitter_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/picture/sampling/sample_pair.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr double two_pi = 6.28318530717958648;
+/// From nearer than this share of its radius above a sphere it is not aimed at: there half of all directions meet it, which paths
+/// find by themselves.
+constexpr double clearance_share = 1e-4;
+/// A shadow ray ends at least this share of its length before the emitter, and so far that what rounding takes of coordinates, a
+/// few units in the last place of a float, cannot bring it there: the more the more it grazes, down to a cosine of this.
+constexpr double gap_share = 1e-6, rounding_share = 0x1p-21, grazing_cosine = 0x1p-10;
+
+/// Of the axis of the cone in which a sphere is seen with its side, if `distance` is that of its middle. Above 0 outside.
+double rim_cosine(double distance, double radius) {
+  const double sine = radius / distance;
+  return std::sqrt(std::max(0.0, 1.0 - sine * sine));
+}
+
+bool is_within(double distance, double radius) { return !(distance > radius * (1.0 + clearance_share)); }
+
+std::optional<LightSample> aim_at_triangle(const EmitterRecord& emitter, const Vec3d& from, const SamplePair& pair) {
+  const Vec3d corner(emitter.corner[0]), edge1 = Vec3d(emitter.corner[1]) - corner, edge2 = Vec3d(emitter.corner[2]) - corner;
+  const double across = std::sqrt(pair.x);
+  const Vec3d way = corner + edge1 * (across * (1.0 - pair.y)) + edge2 * (across * pair.y) - from;
+  const Vec3d normal = cross(edge1, edge2);
+  const double distance = length(way), twice_area = length(normal), slant = std::fabs(dot(way, normal));
+  if (!(slant > 0.0)) {
+    return std::nullopt;
+  }
+  const double cosine = slant / (distance * twice_area);
+  return LightSample{way * (1.0 / distance), distance, cosine,
+                     double{emitter.chance} * 2.0 * distance * distance / (twice_area * cosine)};
+}
+
+/// A place in the unit disc is one in the cone: its square is in proportion to one less the cosine, which says how much of the
+/// cone lies nearer to the axis.
+std::optional<LightSample> aim_at_sphere(const EmitterRecord& emitter, const Vec3d& from, const SamplePair& pair) {
+  const Vec3d way = emitter.center() - from;
+  const double distance = length(way), radius = emitter.radius();
+  if (is_within(distance, radius)) {
+    return std::nullopt;
+  }
+  const double sine = radius / distance, less = sine * sine / (1.0 + rim_cosine(distance, radius));  // 1 - that cosine
+  const DiscPlace place = on_disc(pair);
+  const double off = place.square * less, stretch = std::sqrt(less * (2.0 - off));
+  const Vec3d towards = normalize(about_axis(way * (1.0 / distance), place.x * stretch, place.y * stretch, 1.0 - off));
+  const double square_sine = off * (2.0 - off), cosine = std::sqrt(std::max(0.0, 1.0 - square_sine / (sine * sine)));
+  return LightSample{towards, distance * (1.0 - off) - radius * cosine, cosine, double{emitter.chance} / (two_pi * less)};
+}
+
+float below_one(double number) { return std::min(static_cast<float>(number), 0x1.fffffep-1F); }
+
+}  // namespace
+
+DrawnEmitter choice_of(double number, std::uint32_t count) {
+  const double place = number * count;
+  const std::uint32_t index = std::min(static_cast<std::uint32_t>(place), count - 1);
+  return {index, below_one(place - index)};
+}
+
+DrawnEmitter drawn_by(const EmitterChoice& choice, const DrawnEmitter& at) {
+  const double threshold{choice.threshold}, place{at.place};
+  return place < threshold ? DrawnEmitter{at.index, below_one(place / threshold)}
+                           : DrawnEmitter{choice.other, below_one((place - threshold) / (1.0 - threshold))};
+}
+
+std::optional<LightSample> aim_at(const EmitterRecord& emitter, const Vec3d& from, const SamplePair& pair) {
+  return emitter.kind == PrimitiveKind::sphere ? aim_at_sphere(emitter, from, pair) : aim_at_triangle(emitter, from, pair);
+}
+
+double density_towards_triangle(double density_on, double distance, double cosine) {
+  return density_on * distance * distance / cosine;
+}
+
+/// The sphere's area times that by area, over the solid angle of its cone.
+double density_towards_sphere(double density_on, double middle_distance, double radius) {
+  return is_within(middle_distance, radius)
+             ? 0.0
+             : density_on * 2.0 * middle_distance * middle_distance * (1.0 + rim_cosine(middle_distance, radius));
+}
+
+double gap_before(const EmitterRecord& emitter, const LightSample& place) {
+  const double size = std::max({largest_component(Vec3d(emitter.corner[0])), largest_component(Vec3d(emitter.corner[1])),
+                                largest_component(Vec3d(emitter.corner[2]))});
+  const double by_rounding = rounding_share * (place.distance + size) / std::max(place.cosine, grazing_cosine);
+  return std::min(std::max(gap_share * place.distance, by_rounding), 0.5 * place.distance);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,64 @@
+// A node's network under chaos: packets that it sends wait in its own memory for a drawn number of its quanta.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "nodes/chaos.h"
+#include "nodes/local_memory.h"
+#include "nodes/node.h"
+
+namespace dmpc::nodes {
+
+/// A bounded queue between one node and the network. What a node sends to one target arrives in order; what it sends to different
+/// targets may not. Nothing is refused and nothing lost: without room for a new packet the oldest ones leave early. A packet held
+/// back has spent its credit, so its target has room for it whenever it comes. Thread safety: belongs to the sender's thread.
+class DelayedPackets final : public Network {
+ public:
+  /// Takes `room_bytes` of `memory` (Category::queues). `network` outlives this.
+  DelayedPackets(const Chaos& chaos, NodeId source, LocalMemory& memory, std::size_t room_bytes, Network& network);
+
+  /// Room for four packets with the largest payload that the node sends and sixteen small ones, in bytes; and what it takes of
+  /// the local memory.
+  static std::size_t room_bytes(std::size_t payload_bytes_max);
+
+  /// Hands the packet on at once or holds it back, by a draw. Expects that the room is enough for it alone.
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
+
+  /// A quantum of the node is over: hands on what has waited long enough.
+  void pass_quantum();
+
+  /// Whether no packet is held back.
+  bool empty() const { return used_bytes_ == 0; }
+  /// Packets that have been held back so far.
+  std::uint64_t count() const { return count_; }
+
+ private:
+  /// Stands before a payload that is held back; the room is a sequence of both, oldest first.
+  struct Held {
+    std::uint64_t due_quantum = 0;
+    NodeId target{};
+    PacketHeader header;
+
+    /// With its payload, in the room.
+    std::size_t bytes() const { return bytes_for(header.bytes); }
+  };
+  static std::size_t bytes_for(std::size_t payload_bytes);
+
+  Held held_at(std::size_t offset) const;
+  /// When the last packet held back for `target` is due; 0 without one.
+  std::uint64_t last_due_quantum(NodeId target) const;
+  void append(const Held& held, std::span<const std::byte> payload);
+  void hand_on(std::size_t offset);
+  void hand_on_oldest();
+
+  ChaosDelays delays_;
+  Network* network_;
+  std::span<std::byte> room_;
+  std::size_t used_bytes_ = 0;
+  std::uint64_t quantum_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace dmpc::nodes
