@@ -10,10 +10,9 @@ std::optional<Confinement> readers;
 }  // namespace
 
 void add_sandbox_option(OptionSet options, Sandbox& sandbox) {
-  options.add_choice<Sandbox>(
-      "--sandbox", sandbox, {{"available", Sandbox::available}, {"required", Sandbox::required}},
-      "Foreign files where this computer cannot confine the processes that read them as it should (seccomp, limits, Landlock): "
-      "that is said, or nothing is read");
+  options.add_choice<Sandbox>("--sandbox", sandbox, {{"available", Sandbox::available}, {"required", Sandbox::required}},
+                              "If this computer cannot fully confine the processes that read foreign files (seccomp, limits, "
+                              "Landlock): print a note, or read nothing");
 }
 
 std::string missing_text(const Confinement& confinement) {

@@ -20,17 +20,16 @@ double parse_seconds(const std::string& text) {
 
 void add_options(OptionSet options, CheckpointOptions& checkpoint) {
   options.begin_group("Long renders");
-  options.add_path(
-      "--checkpoint", "FILE", checkpoint.file,
-      "Keep what is done in FILE now and then, and at SIGUSR1, so that a render that was stopped or killed can be gone on with; "
-      "removed when the picture is there");
+  options.add_path("--checkpoint", "FILE", checkpoint.file,
+                   "Save the finished part of the render in FILE from time to time, and at SIGUSR1, so that a render that was "
+                   "stopped or killed can be resumed. FILE is removed when the picture is written");
   options.add_text(
       "--checkpoint-every", "SECONDS [120]",
       [&checkpoint](const std::string& text) { checkpoint.every_seconds = parse_seconds(text); },
-      "How long to wait from one checkpoint to the next");
+      "Time from one checkpoint to the next");
   options.add_flag("--resume", checkpoint.resumes,
-                   "Go on from what --checkpoint=FILE has, whatever computer and strategy made it; from the start if there is "
-                   "no such file yet. Of --frames those are left out whose picture is there");
+                   "Continue from --checkpoint=FILE, whatever computer and strategy wrote it, or from the start if there is no "
+                   "such file yet. Of --frames, skip those whose picture exists");
   options.check_in_the_end([options, &checkpoint] {
     for (const char* option : {"--checkpoint-every", "--resume"}) {
       const bool is_of_frames = options.is_given("--frames") && std::string_view(option) == "--resume";

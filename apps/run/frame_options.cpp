@@ -67,21 +67,21 @@ void add_options(OptionSet options, FrameOptions& frames) {
   options.add_text(
       "--frames", "N|A..B", [&frames](const std::string& text) { frames.range = parse_frames(text); },
       "Render frames 1 to N, or A to B, one after the other on the same nodes, which keep caches and regions. Names of outputs "
-      "have a place for the number, as in -o out.####.png or -o out.%04d.png. Each frame is, to the bit, what it is alone");
+      "contain a placeholder for the frame number, as in -o out.####.png or -o out.%04d.png. Each frame is the same, to the bit, "
+      "as if it were rendered alone");
   options.add_text(
       "--turntable", "DEGREES", [&frames](const std::string& text) { frames.turntable_degrees = parse_degrees(text); },
-      "From one frame to the next the camera goes round the scene by so much; frame 1 is the scene's own view");
+      "Rotate the camera round the scene by this angle per frame; frame 1 is the scene's own view");
   options.add_path("--camera-path", "FILE", frames.camera_path,
-                   "Move the camera through the keyframes of FILE, lines of a frame and what --camera takes, such as 24 "
-                   "1,2,3/0,0,0, on a spline through them");
-  options.add_flag_with_text(
-      "--animation", "", frames.animation.emplace(),
-      "Frame K shows the scene's glTF file K - 1 frames after the beginning of its animation, the first or "
-      "--animation=NAME, by the file's camera, if it has one, unless that is moved as above. Caches stay "
-      "warm while nothing but the camera moves, else nodes begin anew");
+                   "Move the camera on a spline through the keyframes of FILE. A line of it is a frame's number and a value of "
+                   "--camera, such as 24 1,2,3/0,0,0");
+  options.add_flag_with_text("--animation", "", frames.animation.emplace(),
+                             "Play an animation of the scene's glTF file, the first or --animation=NAME: frame K shows it K - 1 "
+                             "frames after its beginning, seen by the file's camera, if there is one, unless the options above "
+                             "move the camera. Caches stay warm while only the camera moves; otherwise nodes start afresh");
   options.add_text(
       "--fps", "N [24]", [&frames](const std::string& text) { frames.per_second = parse_per_second(text); },
-      "Frames a second of the animation");
+      "Frames per second of the animation");
   options.check_in_the_end([options, &frames] { check(options, frames); });
 }
 

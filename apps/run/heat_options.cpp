@@ -53,10 +53,9 @@ bool holds_numbers(const HeatRequest& request) { return request.path.extension()
 void add_heat_option(OptionSet options, std::vector<HeatRequest>& requests) {
   options.add_texts(
       "--heatmap", "KIND:FILE", [&requests](const std::string& text) { requests.push_back(parse_heat_request(text)); },
-      "Write what each pixel took, of the kind " + all_kinds() +
-          ": to FILE.exr the numbers, to FILE.png colours and a legend; may be given several times (faults, references and "
-          "pages: "
-          "svm)");
+      "Write a map of what each pixel took, of the kind " + all_kinds() +
+          ": to FILE.exr as numbers, to FILE.png as colours with a legend; may be given several times (faults, references and "
+          "pages: svm)");
 }
 
 void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy) {

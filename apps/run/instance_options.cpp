@@ -42,9 +42,9 @@ void add_instance_option(OptionSet options, DatabaseOptions& database) {
   options.add_choice<InstancesChoice>(
       "--instances", database.instances,
       {{"expand", InstancesChoice::expand}, {"keep", InstancesChoice::keep}, {"auto", InstancesChoice::automatic}},
-      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same "
-      "picture). auto: one for all where no other option hinders it, less than half of the scene is then left to store and a "
-      "tree has room");
+      "Meshes with several instances: expand: a copy for each. keep: one base mesh for all, which takes less memory (the same "
+      "picture). auto: keep if no other option prevents it, less than half of the scene is then left to store and a tree has "
+      "room");
 }
 
 void settle_instances(const OptionSet& options, const RayTracers& tracers, DatabaseOptions& database, MeshOptions& mesh) {

@@ -28,47 +28,46 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
 }
 
 void add_runner_options(OptionSet& options, RenderOptions& render) {
-  options.begin_group("What drives the computer");
+  options.begin_group("Running the computer");
   options.add_choice<RunnerKind>(
       "--runner", render.runner.kind,
       {{"threads", RunnerKind::threads},
        {"pool", RunnerKind::pool},
        {"virtual", RunnerKind::virtual_time},
        {"mpi", RunnerKind::mpi}},
-      "threads: a thread for each node. pool: a few threads drive all nodes in turn, for less processor time where nodes "
-      "outnumber processors. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: threads of "
-      "all the processes that mpirun or srun has started; the first of them reads, prints and writes");
+      "threads: one thread per node. pool: a few threads run all nodes in turn, which takes less processor time if nodes "
+      "outnumber processors. virtual: a model of a machine with its own time, the same in every run. mpi: threads of all "
+      "processes that mpirun or srun started; rank 0 reads, prints and writes");
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
-                     "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
-  options.add_number(
-      "--rank-timeout", render.runner.timeout_seconds, 1, 86400, "600",
-      "Seconds that ranks wait for one of which they hear nothing, as it stands still; said every 30 (mpi). A process "
-      "that ends takes all with it at once");
+                     "Threads that run all nodes of a process in turn (pool; with mpi in place of one thread per node)");
+  options.add_number("--rank-timeout", render.runner.timeout_seconds, 1, 86400, "600",
+                     "Seconds to wait for a rank that hangs and sends nothing; a note is printed every 30 seconds (mpi). If a "
+                     "process ends, all end at once");
   add_machine_option(options, render.runner.machine_name, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
       [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
-      "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits; the "
-      "picture stays");
+      "Disturb the computer with this seed (threads): late and reordered packets, slow nodes and links, few credits; the picture "
+      "stays the same");
 }
 
 void add_study_options(OptionSet& options, RenderOptions& render) {
-  options.begin_group("Looking closer");
+  options.begin_group("Diagnostics");
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
-                                   "Who finds what a ray hits; embree goes with --strategy=replicated only");
-  options.add_path("--stats", "FILE.json", render.stats, "Write all counters; stats.schema.json says what each means");
-  add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
+                                   "Ray tracer that finds what a ray hits; embree goes with --strategy=replicated only");
+  options.add_path("--stats", "FILE.json", render.stats, "Write all counters; stats.schema.json describes them");
+  add_report_option(options, render.report, "with the picture, requested heat maps, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);
   options.add_path(
       "--references", "FILE.csv", render.references,
-      "Write every node's references of pages of others, in order, for dmpc study references (svm; 4 bytes of the real "
-      "computer each until then). Those of all caches if --work-item=0 --in-flight=1 fixes their order");
+      "Write every node's references to remote pages, in order, for dmpc study references (svm; each takes 4 bytes of the real "
+      "computer during the run). They hold for caches of all sizes if --work-item=0 --in-flight=1 fixes their order");
   options.add_flag_with_text("--serve", "0", render.serve_port,
-                             "Show the picture, and on modelled machines or with --report what the nodes do, as they come, to "
-                             "browsers of this computer that know the address, which is said; "
-                             "in the end with the page of --report, if there is one. --serve=PORT at this port");
-  options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
+                             "Serve a page that shows the picture as it is rendered, and on modelled machines or with --report "
+                             "what the nodes do, to browsers on this computer; its address is printed. At the end it shows the "
+                             "page of --report, if there is one. --serve=PORT uses this port");
+  options.add_flag("--quiet", render.quiet, "Print no progress and no closing lines");
 }
 
 void check_tracer(const RenderOptions& render) {
@@ -228,7 +227,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render walk.gltf --frames=48 --animation=walk -o walk.####.png\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
-      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so.");
+      "The computer's options do not change the picture, to the last bit: compare film_hash in --stats.");
 }
 
 }  // namespace dmpc::apps

@@ -84,7 +84,7 @@ const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
 const svm::Strategy* page_strategy(Strategy strategy) { return kind_of(strategy).with_pages(); }
 
 void add_nodes_option(OptionSet options, std::uint32_t& count, const std::string& standard) {
-  options.add_number(nodes_word.option, count, 1, nodes::node_count_max, standard, "Nodes, each with a memory of its own");
+  options.add_number(nodes_word.option, count, 1, nodes::node_count_max, standard, "Number of nodes, each with its own memory");
 }
 
 void add_strategy_option(OptionSet options, Strategy& strategy) {
@@ -93,9 +93,9 @@ void add_strategy_option(OptionSet options, Strategy& strategy) {
     choices.emplace_back(kind.name, kind.strategy);
   }
   options.add_choice("--strategy", strategy, choices,
-                     "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. "
-                     "dataflow: every node holds a region of space and rays travel. forest: every node holds the top of the tree "
-                     "of boxes, and subtrees about which others ask (--structure=extents)");
+                     "svm: the scene is distributed over the nodes and its pages travel. replicated: every node holds the whole "
+                     "scene. dataflow: every node holds a region of space and rays travel. forest: every node holds the top of "
+                     "the bounding volume hierarchy, and subtrees that other nodes query (--structure=extents)");
 }
 
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes) {
@@ -105,13 +105,13 @@ void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memor
       [&node_memory_bytes, name](const std::string& text) {
         node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, name));
       },
-      "Bound of each node's memory, such as 4MiB");
+      "Limit of each node's memory, such as 4MiB");
 }
 
 void add_machine_option(OptionSet options, std::string& machine_name, const std::string& when) {
   options.add_text(
       "--machine", "MACHINE|FILE.json [ipsc2]", [&machine_name](const std::string& name) { machine_name = name; },
-      "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
+      "Machine to model" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
 }
 
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {

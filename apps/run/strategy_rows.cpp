@@ -21,10 +21,10 @@ using dataflow::BalanceOptions;
 using dataflow::RayOptions;
 using svm::PageOptions;
 
-constexpr const char* fetches_none = "a node of the others fetches no page";
-constexpr const char* works_on_region = "a node of dataflow works on what comes to its region";
-constexpr const char* share_out_pixels = "the others share out pixels, not space";
-constexpr const char* rays_stay = "rays of the others do not travel";
+constexpr const char* fetches_none = "nodes of the other strategies fetch no pages";
+constexpr const char* works_on_region = "a node of dataflow works on the rays that come to its region";
+constexpr const char* share_out_pixels = "the other strategies divide pixels, not space";
+constexpr const char* rays_stay = "rays of the other strategies do not travel";
 
 /// As many as there are when an option is declared.
 OptionSet::Choices<svm::Replacement> policy_choices() {
@@ -63,23 +63,22 @@ std::vector<PageRow> rows_of_pages() {
   return {
       {.name = "--cache-pages",
        .takes = number<&PageOptions::cache_pages>(1, 0x7fffffff, "a quarter of the database; with --node-memory what it holds"),
-       .help = "Pages of other nodes that a node can keep (svm)",
-       .why = "a node of the others needs no page of another node",
+       .help = "Pages of other nodes that a node can cache (svm)",
+       .why = "nodes of the other strategies need no pages of other nodes",
        .key = "cache_pages",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.frames; },
        .meaning = "of svm, as all up to count_pages; some of them of replicated and forest, too"},
       {.name = "--homes",
        .takes = word<&PageOptions::homes>(by_name({PageHomes::spread, PageHomes::host, PageHomes::tree})),
-       .help =
-           "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes ask their parents in "
-           "a tree below it, of which the first that has the page replies (svm)",
+       .help = "Permanent place of the pages: spread: every node has a part. host: the host has all. tree: the host has all, and "
+               "nodes ask their parents in a tree below it, of which the first that has the page replies (svm)",
        .why = fetches_none,
        .key = "homes",
        .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
       {.name = "--resident",
        .takes = number<&PageOptions::resident_percent>(0, 100, "0"),
-       .help = "Percent of those that every node keeps for good: what a small picture uses most (svm)",
-       .why = "a node of the others has no frames for pages",
+       .help = "Percent of those cached pages that every node keeps permanently: what a small picture uses most (svm)",
+       .why = "nodes of the other strategies have no frames for pages",
        .key = "resident_pages",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
       {.name = "--replacement",
@@ -87,8 +86,8 @@ std::vector<PageRow> rows_of_pages() {
                  [](OptionSet set, const char* name, const char* help, PageOptions& pages, const std::string&) {
                    set.add_choice(name, pages.replacement, policy_choices(), help);
                  }},
-       .help = "Which of them makes room for another (svm)",
-       .why = "a node of the others keeps no page of another node",
+       .help = "Replacement policy of the page cache (svm)",
+       .why = "nodes of the other strategies cache no pages",
        .key = "replacement",
        .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
   };
@@ -103,52 +102,51 @@ std::vector<PageRow> rows_of_pixels() {
            number<&PageOptions::in_flight>(1, svm::in_flight_max,
                                            "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to "
                                            "256"),
-       .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
+       .help = "Pixels that a node works on at once; on threads the rays of 16 are traced in a bundle, those of fewer one by one",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; },
        .meaning = "pixels"},
       {.name = "--bundles",
        .takes = flag<&PageOptions::bundles_on_machines>(),
-       .help =
-           "On a modelled machine, too, rays of 16 pixels walk together: the same film in less of this computer's time, but with "
-           "look-ups, events and virtual times of their own (svm)",
-       .why = "rays of the others walk alone on a modelled machine",
+       .help = "Trace the rays of 16 pixels in bundles on a modelled machine, too: the same film in less of this computer's "
+               "time, but with different look-ups, events and virtual times (svm)",
+       .why = "the other strategies trace rays one by one on a modelled machine",
        .key = "bundles_on_machines",
        .reported = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).bundles_on_machines; },
        .meaning = "asked for"},
       {.name = "--work-item",
        .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
-       .help = "Side in pixels of what a node gives to an idle one; 0: nothing is given",
+       .help = "Side in pixels of the work item that a node gives to an idle one; 0: nodes give no work",
        .why = works_on_region,
        .key = "work_item",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; },
        .meaning = "pixels a side; 0: a node keeps its pixels"},
       {.name = "--work-donor",
        .takes = word<&PageOptions::work_donor>(by_name({WorkDonor::ring, WorkDonor::host})),
-       .help = "ring: nodes start with their parts of the picture and ask each other; host: for each item they ask the host",
+       .help = "ring: nodes start with their parts of the picture and ask each other for work. host: they ask the host for each "
+               "work item",
        .why = works_on_region,
        .key = "work_donor",
        .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).work_donor); }},
       {.name = "--pixels",
        .takes = word<&PageOptions::pixel_shares>(by_name({PixelShares::submaps, PixelShares::interleaved})),
-       .help =
-           "submaps: a node starts with a part of the picture. interleaved: with every m-th pixel of every n-th line, on m x n "
-           "nodes",
+       .help = "Pixels that a node starts with: submaps: a part of the picture. interleaved: every m-th pixel of every n-th "
+               "line, on m x n nodes",
        .why = works_on_region,
        .key = "pixels",
        .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); },
        .meaning = "how they are shared out"},
       {.name = "--workers",
        .takes = number<&PageOptions::worker_count>(1, nodes::node_count_max, "all nodes"),
-       .help = "Nodes that render; the others lend their memories, and serve pages or answer",
-       .why = "every node of dataflow works on what comes to its region",
+       .help = "Nodes that render; the others provide memory, and serve pages or answer requests",
+       .why = "every node of dataflow works on the rays that come to its region",
        .key = "workers",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.worker_count; }},
       {.name = "--count-pages",
        .takes = flag<&PageOptions::count_pages>(),
        .help = "Count the distinct pages of each pixel for --stats (svm; takes memory and time)",
-       .why = "the others look up no pages",
+       .why = "the other strategies look up no pages",
        .key = "count_pages",
        .reported = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).count_pages; }},
   };
@@ -160,22 +158,22 @@ std::vector<BalanceRow> make_balance_rows() {
       {.name = "--balance",
        .takes = word<&BalanceOptions::balance>(
            by_name({Balance::subsampled, Balance::equal_size, Balance::scattered, Balance::moving})),
-       .help =
-           "Regions of about equal load, by a subsampled picture, or of equal size, or scattered: a lattice of many regions a "
-           "node, neighbours on different nodes; or moving: subsampled, of several units that nodes hand over while rays travel",
+       .help = "subsampled: regions of about equal load, estimated by a subsampled picture. equal-size: regions of equal size. "
+               "scattered: a lattice of many regions per node, with neighbours on different nodes. moving: as subsampled, with "
+               "several units per node that migrate while rays travel",
        .why = share_out_pixels,
        .key = "balance",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); },
        .meaning = "of dataflow, as all that follow"},
       {.name = "--cuts",
        .takes = word<&BalanceOptions::bsp, &dataflow::BspOptions::order>(by_name({CutOrder::longer_axis, CutOrder::alternating})),
-       .help = "Which way space is cut next: across a box's longer side, or by turns as in 1994",
+       .help = "How space is cut: across the longer side of a box, or along each axis in turn as in 1994",
        .why = share_out_pixels,
        .key = "cuts",
        .reported = cuts_reported},
       {.name = "--regions",
        .takes = number<&BalanceOptions::regions_a_node>(1, dataflow::Scattered::regions_max, "1"),
-       .help = "Regions a node (--balance=scattered), or units of a node's region (--balance=moving)",
+       .help = "Regions per node (--balance=scattered), or units of a node's region (--balance=moving)",
        .key = "regions_a_node",
        .reported = [](const dataflow::Plan& plan) -> OptionValue {
          return balance_of(plan).has_several_regions() ? balance_of(plan).regions_a_node : 1;
@@ -189,7 +187,7 @@ std::vector<RayRow> rows_of_packets() {
       {.name = "--ray-batch",
        .takes = number<&RayOptions::ray_batch>(
            1, dataflow::ray_batch_max, "what fills 4 KiB; 2 KiB if rays walk alone or with --ray-slots, modelled machines 1 KiB"),
-       .help = "Rays in a packet, at most",
+       .help = "Maximum number of rays in a packet",
        .why = rays_stay,
        .key = "ray_batch",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; },
@@ -197,14 +195,14 @@ std::vector<RayRow> rows_of_packets() {
       {.name = "--ray-credits",
        .takes =
            number<&RayOptions::ray_credits>(0, dataflow::ray_credits_max, "4; up to 64 of few nodes whose rays walk together"),
-       .help = "Packets of rays that each node may have under way to each other; 0: all go by way of the host",
+       .help = "Packets of rays that a node may have in transit to each other node; 0: all go through the host",
        .why = rays_stay,
        .key = "ray_credits",
        .reported = [](const dataflow::Plan& plan) { return plan.shares_slots() ? OptionValue() : plan.ray_credits; },
        .meaning = "packets"},
       {.name = "--ray-slots",
        .takes = number<&RayOptions::ray_slots>(1, dataflow::ray_slots_max, "64 of more than 128 nodes; else credits"),
-       .help = "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits",
+       .help = "Packets of rays from all other nodes that a node has room for; senders request this room. Not with --ray-credits",
        .why = rays_stay,
        .key = "ray_slots",
        .reported = [](const dataflow::Plan& plan) { return plan.shares_slots() ? plan.ray_slots : OptionValue(); },
@@ -218,20 +216,22 @@ std::vector<RayRow> rows_of_rays() {
       {.name = "--ray-queue",
        .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
                                                    "256; 512 if rays walk alone; 128 with --ray-slots"),
-       .help = "Packets of rays that can wait on a node for credit before more go by way of the host",
+       .help = "Packets of rays that can wait on a node for credit before further ones go through the host",
        .why = rays_stay,
        .key = "ray_queue",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; },
        .meaning = "packets"},
       {.name = "--tested-objects",
        .takes = number<&RayOptions::tested_objects>(0, dataflow::tested_objects_max, ""),
-       .help = "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone",
+       .help =
+           "Leaves that a ray remembers as tested, so that other regions do not test them again; rays are then traced one by one",
        .why = rays_stay,
        .key = "tested_objects",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.tested_objects(); }},
       {.name = "--no-backpressure",
        .takes = flag<&RayOptions::without_backpressure>(),
-       .help = "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host",
+       .help =
+           "Start primary rays however many packets wait, as in 1994; what does not fit in a full queue goes through the host",
        .why = rays_stay,
        .key = "backpressure",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return !plan.request.rays.without_backpressure; }},

@@ -209,7 +209,7 @@ void add_system_option(OptionSet options, std::optional<System>& system) {
     choices.push_back({description.name, description.system});
   }
   options.add_choice<System>("--system", system, choices, "none",
-                             "A system by name, in place of the options that make it: dmpc list systems tells which");
+                             "A system by name, in place of the options that define it; dmpc list systems lists them");
 }
 
 void settle_system(const OptionSet& options, System system, StrategyOptions& run, DatabaseOptions& database) {

@@ -45,13 +45,13 @@ TraceWindow parse_trace_window(const std::string& text) {
 }
 
 void add_options(OptionSet options, TraceOptions& trace) {
-  options.add_path(
-      "--trace", "FILE.pftrace", trace.path,
-      "Write what each node did when, its messages and how full it was, for ui.perfetto.dev: of more than a million events, each "
-      "in about 110 bytes of the real computer, how the run begins and ends and parts of all times between");
+  options.add_path("--trace", "FILE.pftrace", trace.path,
+                   "Write a timeline of what each node did, its messages and how full it was, for ui.perfetto.dev. An event "
+                   "takes about 110 bytes of the real computer; of more than a million events the file has the beginning and the "
+                   "end of the run and parts of all times between");
   options.add_text(
       "--trace-window", "FROM,TO", [&trace](const std::string& text) { trace.window = parse_trace_window(text); },
-      "Only this time, in milliseconds since the start of the run; FROM, lasts until its end");
+      "Record only this time, in milliseconds since the start of the run; FROM, lasts until its end");
 }
 
 void check_trace(const TraceOptions& trace) {

@@ -24,23 +24,21 @@ const std::vector<DatabaseRow>& database_rows() {
                    };
                    set.add_text(name, "SIZE [1KiB, forest 4KiB]", take, help);
                  }},
-       .help = "Size of a page, a power of two from 512B to 64KiB; no record crosses its border"},
+       .help = "Page size, a power of two from 512B to 64KiB; no record crosses a page boundary"},
       {.name = "--record-order",
        .takes = word<&DatabaseOptions::build, &BuildOptions::record_order>(
            OptionSet::Choices<RecordOrder>{{"spatial", RecordOrder::spatial}, {"scattered", RecordOrder::scattered}}),
-       .help = "Which records share a page: neighbours in space, or any (another traffic, the same picture)"},
+       .help = "Records that share a page: neighbours in space, or any (different traffic, the same picture)"},
       {.name = "--structure",
        .takes = word<&DatabaseOptions::build, &BuildOptions::structure>(OptionSet::Choices<Structure>{
            {"grid", Structure::grid}, {"extents", Structure::extents}, {"voxels", Structure::voxels}}),
-       .help =
-           "How records are found: by a grid whose cells have trees of boxes, by one tree of boxes over all, or by a plain grid "
-           "whose voxels have lists (another traffic, the same picture)"},
+       .help = "Acceleration structure: a grid whose cells have bounding volume hierarchies, one bounding volume hierarchy of "
+               "the scene, or a plain grid whose voxels have lists (different traffic, the same picture)"},
       {.name = "--voxels",
        .takes = word<&DatabaseOptions::build, &BuildOptions::voxels>(
            OptionSet::Choices<core::VoxelRule>{{"usual", core::usual_voxels}, {"article", core::article_voxels}}),
-       .help =
-           "With --structure=voxels: 8 a primitive, at most 256^3, or as the article's, 14 a polygon, at most 64^3, polygons of "
-           "129 B, no distances"}};
+       .help = "With --structure=voxels: 8 voxels per primitive, at most 256^3; or as in the article 14 per polygon, at most "
+               "64^3, polygons of 129 B, no distances"}};
   return rows;
 }
 

@@ -159,27 +159,27 @@ QualityChoice choice_of(Quality quality) {
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
-      "An NFF file, a scene of pbrt-v4, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, "
+      "An NFF file, a pbrt-v4 scene, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, "
       "rings-4-t1, tetra-9");
   add_options(options, picture.scene_setup);
   add_view_options(options, picture);
   options.add_text(
       "--samples", picture.presents_meshes ? "1..32768|auto [1, of a mesh file auto]" : "1..32768|auto [1]",
       [&picture](const std::string& text) { take_samples(picture, text); },
-      "Rays through each pixel; auto: as many as it needs for --error");
+      "Samples per pixel; auto: as many as --error requires");
   options.add_text(
       "--error", "E [1/255, by paths 1/100]",
       [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
-      "With --samples=auto: the estimated root mean square error of the linear picture at which it is done");
+      "With --samples=auto: the estimated root mean square error of the linear picture at which the render stops");
   options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
-                     "With --samples=auto: no pixel gets more rays than this");
+                     "With --samples=auto: the most samples per pixel");
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
-      "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
+      "Do not trace rays that can contribute less than C to their sample; 0 is exact");
   options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
                               picture.presents_meshes ? "one ray a pixel, of a mesh file --samples=auto" : "one ray a pixel",
-                              "As --samples=auto with an error and, but by paths, a cutoff for a quick look, or for a good one; "
-                              "what other options say counts more");
+                              "Set --samples=auto, --error and, except with paths, --cutoff for a quick preview, or for a good "
+                              "picture. Options that are given take precedence");
   add_skip_option(options, picture.skips);
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
@@ -203,18 +203,19 @@ void add_skip_option(OptionSet options, core::Skips& skips) {
   names.emplace_back("all");
   options.add_words(
       "--no-skip", names, [&skips](const std::string& name) { switch_off(skips, name); },
-      "Do what is left out where a scene does not need it; the picture keeps its bits:" + table);
+      "Disable an optimization that skips work which a scene does not need; the picture stays the same, to the last bit:" +
+          table);
 }
 
 void add_view_options(OptionSet options, PictureOptions& picture) {
   options.add_text(
       "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
-      "Pixels of the picture");
+      "Width and height of the picture in pixels");
   options.add_number("--depth", picture.depth, 1, 255, std::to_string(picture.depth),
-                     "Longest chain of reflections and refractions; 1 is the eye's ray alone");
+                     "Maximum depth of reflections and refractions; 1 is the primary ray alone");
   options.add_choice<core::Convention>("--convention", picture.convention,
                                        {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
-                                       "When shadow rays are cast: towards lights that the surface faces, or towards all");
+                                       "Lights that get shadow rays: those that the surface faces, or all");
 }
 
 int depth_of(const PictureOptions& picture, const core::Scene& scene) {

@@ -106,23 +106,23 @@ void add_light_options(OptionSet& options, SceneSetup& scene_setup) {
   options.add_texts(
       "--light", "X,Y,Z[/R,G,B] [the scene's]",
       [&scene_setup](const std::string& text) { scene_setup.lights.push_back(parse_light(text)); },
-      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+      "A point light in place of the scene's; may be given several times. Without a colour it is as bright as NFF's");
   options.add_text(
       "--fill", "INTENSITY [none]",
       [&scene_setup](const std::string& text) {
         scene_setup.fill = parse_within(text, "--fill", 0, intensity_max, "a number from 0 to 1e30");
       },
-      "A white light in the eye, beside all others, so that what they do not reach is not black: 0.3 is what a mesh without "
-      "lights is given, 1 is as bright as a light alone");
+      "Add a white light at the camera, so that what the other lights do not reach is not black. A mesh without lights gets 0.3; "
+      "1 is as bright as a single light");
   options.add_text(
       "--ambient", "R,G,B|GREY [0]",
       [&scene_setup](const std::string& text) { scene_setup.ambient = parse_color("--ambient", text); },
-      "Light from everywhere, which nothing shadows: each surface shows its diffuse colour times this, beside what lights show. "
-      "0.1 is faint, 1 shows colours as they are");
+      "Ambient light without shadows: add this times the diffuse colour to every surface. 0.1 is faint, 1 shows colours as they "
+      "are");
   options.add_text(
       "--background", "R,G,B|GREY [the scene's]",
       [&scene_setup](const std::string& text) { scene_setup.background = parse_color("--background", text); },
-      "The colour of what no ray meets, linear: 0 is black, 1 is white");
+      "Colour of rays that hit nothing, linear: 0 is black, 1 is white");
 }
 
 }  // namespace
@@ -197,9 +197,8 @@ void add_options(OptionSet options, SceneSetup& scene_setup) {
   options.add_text(
       "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
       [&scene_setup](const std::string& text) { scene_setup.camera = parse_camera(text); },
-      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45. Of a mesh UP is y, or what --up says, and DEGREES 45, "
-      "whatever "
-      "camera its file has");
+      "Position and target of the camera, such as 1,2,3/0,0,0/0,1,0/45. For a mesh UP defaults to y, or to --up, and DEGREES to "
+      "45, whatever camera its file has");
   add_light_options(options, scene_setup);
   options.add_text(
       "--scale", "S [1]",
@@ -211,23 +210,24 @@ void add_options(OptionSet options, SceneSetup& scene_setup) {
   for (const char* const word : {"x", "y", "z", "-x", "-y", "-z"}) {
     axes.emplace_back(word, up_axis_of(word));
   }
-  options.add_choice("--up", scene_setup.mesh.up, axes, "y",
-                     "Mesh files: the axis that points up, such as --up=-z, where the file has no camera or --camera no UP");
+  options.add_choice(
+      "--up", scene_setup.mesh.up, axes, "y",
+      "Mesh files: the axis that points up, such as --up=-z. It is used if the file has no camera or --camera has no UP");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
       [&scene_setup](const std::string& text) {
         scene_setup.mesh.smooth_degrees = parse_within(text, "--smooth", 0, 180, "degrees from 0 to 180");
       },
-      "Mesh files: reckon vertex normals anew, smooth over edges up to this angle");
+      "Mesh files: recompute vertex normals, smooth across edges up to this angle");
   options.add_words(
       "--missing", {"error", "plain"},
       [&scene_setup](const std::string& text) { scene_setup.mesh.allows_missing = text == "plain"; },
-      "Mesh files that refer to textures or other files that cannot be had: an error, or what they cover in its plain colour; "
-      "error if not given");
+      "Mesh files: if textures or other files that they refer to cannot be read, stop with an error, or use the plain colour of "
+      "what they cover; error if not given");
   options.add_words(
       "--files", {"below", "anywhere"},
       [&scene_setup](const std::string& text) { scene_setup.mesh.opens_anywhere = text == "anywhere"; },
-      "Mesh files: which files they may refer to: those beside and below them, or any; below if not given");
+      "Mesh files: the files that they may refer to: those in their own folder and below it, or any; below if not given");
   add_sandbox_option(options, scene_setup.mesh.sandbox);
 }
 

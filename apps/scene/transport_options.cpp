@@ -114,29 +114,28 @@ std::string text_of(const TransportOptions& transport) {
 const char* name_of(TransportKind kind) { return kind == TransportKind::paths ? "paths" : "whitted"; }
 
 void add_options(OptionSet options, TransportOptions& transport) {
-  options.add_choice<TransportKind>(
-      "--transport", transport.kind, {{"whitted", TransportKind::whitted}, {"paths", TransportKind::paths}},
-      "How light gets about: mirrored and let through alone, or scattered from surface to surface, too, with noise that more "
-      "--samples take away");
-  options.add_number(
-      "--bounces", transport.bounces, 0, 254, "8",
-      "By paths: how often light from elsewhere goes on from surface to surface; 0 is what lights show directly. Files of pbrt "
-      "say themselves how often, unless this does");
+  options.add_choice<TransportKind>("--transport", transport.kind,
+                                    {{"whitted", TransportKind::whitted}, {"paths", TransportKind::paths}},
+                                    "whitted: mirror reflection and transmission only. paths: path tracing, which also scatters "
+                                    "light between surfaces; more --samples reduce its noise");
+  options.add_number("--bounces", transport.bounces, 0, 254, "8",
+                     "Paths: how often indirect light is scattered from surface to surface; 0 is direct light only. A pbrt file "
+                     "has its own number, which this option overrides");
   options.add_text(
       "--sky", "R,G,B|GREY[/R,G,B|GREY]|FILE [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
-      "By paths: what no ray meets is this bright, and lights the scene: everywhere alike, or from the horizon to the zenith, "
-      "which is where the scene's up points (a mesh's as --up has it, else that of the file's view), or as a picture (EXR, HDR, "
-      "...) shows all directions, twice as wide as high, its "
-      "upper edge the zenith. Its middle lies along z where up is y, along x where up is z, along y where up is x, and its left "
-      "half to the left of who looks there");
+      "Paths: the radiance of rays that hit nothing, which lights the scene: one colour, or a gradient from the horizon to the "
+      "zenith, or an environment map (EXR, HDR, ...) of all directions, twice as wide as high, with the zenith at its upper "
+      "edge. The zenith is where the scene's up points (for a mesh --up, else the up of the file's view). The middle of the map "
+      "lies along z if up is y, along x if up is z, along y if up is x; its left half lies to the left of a viewer who looks "
+      "there");
   options.add_number("--emitters", transport.emitters, 0, emitters_limit, "1024",
-                     "By paths: aim at so many triangles and spheres that shine by themselves, the most powerful; others are met "
-                     "by chance, which brings the same light with more noise");
+                     "Paths: the number of emissive triangles and spheres for light sampling, the most powerful; others are "
+                     "found by BSDF sampling alone, which gives the same light with more noise");
   options.add_text(
       "--light-radius", "R [points]",
       [&transport](const std::string& text) { transport.light_radius = parse_light_radius(text); },
-      "By paths: make lights spheres of this radius, in the scene's units, which are seen, fall off, and throw soft shadows; in "
-      "the middle of the scene they are as bright as the points were");
+      "Paths: turn point lights into spheres of this radius, in the scene's units, which are visible, fall off and cast soft "
+      "shadows; in the middle of the scene they are as bright as the points were");
 }
 
 void check(const OptionSet& options, const TransportOptions& transport) {

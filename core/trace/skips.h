@@ -44,24 +44,24 @@ inline constexpr std::array all_skips{
     // Those whose boxes the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
          "children of BVH nodes that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
-    Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention shoots it)", "shadow rays", &Skips::unlit,
+    Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention traces it)", "shadow rays", &Skips::unlit,
          &SkippedWork::unlit},
     // What those rays would have spawned is not counted.
     Skip{"zero-terms",
-         "no ray whose light would count for nothing: off a surface that does not mirror, through one that lets "
-         "nothing pass, to a light that is black or shows nothing (the paper's convention shoots the last), by paths where no "
-         "light is",
+         "no ray whose contribution would be zero: reflected by a surface that does not mirror, transmitted by an opaque surface, to "
+         "a light that is black or contributes nothing (the paper's convention traces the last), with paths where there is no "
+         "light",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
     // Those behind the last thing that a ray may meet are not counted.
-    Skip{"empty-regions", "rays pass by the owners of regions where they meet nothing (dataflow)", "regions passed by",
+    Skip{"empty-regions", "rays do not visit the owners of regions in which they hit nothing (dataflow)", "regions passed by",
          &Skips::empty_regions, &SkippedWork::empty_regions},
-    Skip{"background", "no primary ray is traced in parts of the picture, found beforehand, where nothing is to be seen",
-         "primary rays", &Skips::background, &SkippedWork::background},
+    Skip{"background", "no primary ray is traced in parts of the picture that are found empty before the render", "primary rays",
+         &Skips::background, &SkippedWork::background},
     // References and these are what the rays would look up one by one.
-    Skip{"bundles", "rays of neighbouring pixels walk together, and look up what they all read once", "look-ups", &Skips::bundles,
-         &SkippedWork::bundles},
+    Skip{"bundles", "rays of neighbouring pixels are traced together, and look up once what all of them read", "look-ups",
+         &Skips::bundles, &SkippedWork::bundles},
     Skip{"idle-nodes",
-         "who asks other nodes for pixels passes over those that are known to have none left (svm, replicated, forest)",
+         "a node that requests pixels does not ask nodes that are known to have none left (svm, replicated, forest)",
          "nodes passed over", &Skips::idle_nodes, &SkippedWork::idle_nodes},
 };
 
