@@ -20,31 +20,31 @@ using core::UsageError;
 void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.begin_group("The computer");
   options.add_number(nodes_word.option, program.computer.node_count, 1, program_nodes_max, "8; of ranks as their processors",
-                     "Nodes, each with a memory of its own");
+                     "Number of nodes, each with its own memory");
   options.add_text(
       node_memory_word.option, "SIZE [what it takes]",
       [&program](const std::string& text) {
         program.computer.node_memory_bytes = parse_size_bytes(text, node_memory_word.option);
       },
-      "The bound of each node's memory, such as 256KiB: refused if the program takes more");
+      "Limit of each node's memory, such as 256KiB; an error if the program takes more");
   options.add_choice<RunnerKind>(
       "--runner", program.runner,
       {{"threads", RunnerKind::threads},
        {"pool", RunnerKind::pool},
        {"virtual", RunnerKind::virtual_time},
        {"mpi", RunnerKind::mpi}},
-      "threads: a thread for each node. pool: a few threads drive all nodes in turn. virtual: the model of a machine, in its own "
-      "time, the same whenever it is repeated. mpi: threads of all the processes that mpirun or srun has started");
+      "threads: one thread per node. pool: a few threads run all nodes in turn. virtual: a model of a machine with its own time, "
+      "the same in every run. mpi: threads of all processes that mpirun or srun started");
   options.add_number("--pool-threads", program.computer.pool_threads, 1, program_nodes_max, "as many as processors; mpi none",
-                     "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
+                     "Threads that run all nodes of a process in turn (pool; with mpi in place of one thread per node)");
   options.add_text(
       "--machine", "MACHINE|FILE.json [ipsc2]", [&program](const std::string& name) { program.machine_name = name; },
-      "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
+      "Machine to model (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
   options.add_choice<nodes::TopologyKind>("--topology", program.topology, topology_choices(), "the machine's",
-                                          "How its nodes are wired, in place of its own wiring (virtual)");
+                                          "Topology of the machine, in place of its own (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]", [&program](const std::string& text) { program.chaos_seed = parse_seed(text, "--chaos"); },
-      "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits");
+      "Disturb the computer with this seed (threads): late and reordered packets, slow nodes and links, few credits");
 }
 
 void check_runner(const OptionSet& options, const ProgramOptions& program) {
@@ -107,12 +107,12 @@ void add_computer_options(OptionSet options, ProgramOptions& program, const std:
 }
 
 void add_closer_look(OptionSet options, ProgramOptions& program) {
-  options.begin_group("Looking closer");
+  options.begin_group("Diagnostics");
   options.add_path("--stats", "FILE.json", program.stats, "Write all counters");
   options.add_path("--trace", "FILE.pftrace", program.trace,
-                   "Write what each node did when, and its messages, for ui.perfetto.dev");
+                   "Write a timeline of what each node did, and its messages, for ui.perfetto.dev");
   add_report_option(options, program.report, "with counters, losses, traffic and what each node was busy with over time");
-  options.add_flag("--quiet", program.quiet, "No closing lines");
+  options.add_flag("--quiet", program.quiet, "Print no closing lines");
   options.check_in_the_end([options, &program] {
     check_runner(options, program);
     program.is_node_count_given = options.is_given("--nodes");

@@ -40,9 +40,9 @@ ChoiceList strategies() {
   return {
       "strategies",
       "--strategy=",
-      {{name_of(Strategy::svm), "pages travel: the scene is spread over the nodes, which fetch and cache what they need"},
+      {{name_of(Strategy::svm), "pages travel: the scene is distributed over the nodes, which fetch and cache what they need"},
        {name_of(Strategy::dataflow), "rays travel: each node holds a region of space, and rays go to its owner"},
-       {name_of(Strategy::forest), "questions travel: each node holds the top of the tree and subtrees that others ask about"},
+       {name_of(Strategy::forest), "queries travel: each node holds the top of the tree and subtrees that other nodes query"},
        {name_of(Strategy::replicated), "nothing travels: every node holds the whole scene"}}};
 }
 
@@ -78,8 +78,8 @@ ChoiceList heat_maps() {
   constexpr std::array<const char*, core::heat_kind_names.size()> meanings = {"requests for pages that its rays began (svm)",
                                                                               "look-ups of pages (svm)",
                                                                               "different pages looked up (svm)",
-                                                                              "rays shot",
-                                                                              "time of computing",
+                                                                              "rays traced",
+                                                                              "computing time",
                                                                               "the node that the pixel belongs to",
                                                                               "how deep its rays go; 1: primary rays alone",
                                                                               "light samples",

@@ -57,7 +57,7 @@ std::string text_of_list(const ChoiceList& list) {
 
 /// One row a word.
 Table table_of(const std::vector<ChoiceList>& lists) {
-  Table table("What there is to choose from", {{"kind"}, {"name"}, {"meaning"}});
+  Table table("Available choices", {{"kind"}, {"name"}, {"meaning"}});
   for (const ChoiceList& list : lists) {
     for (const Choice& entry : list.entries) {
       table.add_row({list.kind, entry.name, entry.meaning});
@@ -71,13 +71,12 @@ Table table_of(const std::vector<ChoiceList>& lists) {
 void add_options(OptionSet options, ListOptions& list) {
   options.add_arguments(
       "KIND", [&list](const std::string& word) { list.kinds.push_back(kind_named(word)); },
-      "One of " + listed(kinds()) + "; without any all of them");
+      "One of " + listed(kinds()) + "; all if none is given");
   options.add_choice<ListFormat>("--format", list.format, {{"text", ListFormat::text}, {"json", ListFormat::json}},
-                                 "Lines to read, or a table with stable keys");
-  options.add_path(
-      "--pictures", "FOLDER", list.pictures,
-      "Write a small picture of each scene, and scenes.png with all of them, to this folder; scenes alone are listed "
-      "then. What is there is not written over");
+                                 "Text, or a JSON table with stable keys");
+  options.add_path("--pictures", "FOLDER", list.pictures,
+                   "Write a small picture of each scene, and scenes.png with all of them, to this folder; only scenes are listed "
+                   "then. Existing files are not overwritten");
   options.check_in_the_end([&list] {
     if (list.pictures && list.kinds.empty()) {
       list.kinds = {"scenes"};
@@ -91,7 +90,7 @@ void add_options(OptionSet options, ListOptions& list) {
       "  dmpc list scenes\n"
       "  dmpc list machines policies --format=json\n"
       "  dmpc list --pictures=scenes\n"
-      "dmpc scene --help tells the sizes of scenes, dmpc machine NAME all figures of a machine with their sources.");
+      "dmpc scene --help shows the sizes of scenes, dmpc machine NAME all parameters of a machine with their sources.");
 }
 
 int list_command(const ListOptions& options, Interrupt& interrupt, std::ostream& output) {

@@ -60,12 +60,12 @@ void add_options(OptionSet options, InfoOptions& info) {
   options.add_text(
       "--nodes", "N,N,... [1,2,4,...,256]",
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", nodes::node_count_max); },
-      "Nodes of the computers whose memory is forecast");
+      "Numbers of nodes for which memory is forecast");
   add_system_option(options, info.system);
   add_option(options, core::field_of<&svm::PageOptions::homes>(), info.pages);
   add_balance_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
-                                 "Lines and tables to read, or an object with stable keys");
+                                 "Text with tables, or a JSON object with stable keys");
   options.add_quiet(info.quiet);
   options.check_in_the_end([options, &info] {
     info.picture.is_one_path_unasked = false;  // nothing is rendered
@@ -84,10 +84,8 @@ void add_options(OptionSet options, InfoOptions& info) {
       "  dmpc info grove-10 --instances=keep --nodes=64\n"
       "  dmpc info balls-4 --transport=paths --light-radius=0.5\n"
       "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
-      "Nothing is rendered, unless --balance=subsampled or moving asks for the regions that render would make: that takes as "
-      "long "
-      "as\n"
-      "the picture of every 8x8th pixel.");
+      "Nothing is rendered, except that --balance=subsampled and moving need the regions that render would make: that takes as\n"
+      "long as the picture of every 8x8th pixel.");
 }
 
 InfoRecord find_out(const InfoOptions& options) {

@@ -18,9 +18,9 @@ namespace {
 
 void declare_all(Commands& commands) {
   declare_renderer(commands);
-  commands.add("check", "Trace every ray of a render with Embree too, and let a referee settle differences", CheckOptions(),
+  commands.add("check", "Compare every ray of a render with Embree, and let a referee settle differences", CheckOptions(),
                check_command);
-  commands.add("compare", "Measure how far two pictures lie apart, or where two runs' counters differ", CompareOptions(),
+  commands.add("compare", "Measure the difference of two pictures, or compare the counters of two runs", CompareOptions(),
                compare_command);
   commands.begin("study", "Render a scene on several computers and print a table");
   commands.add(BalanceStudy::name, BalanceStudy::description, StudyOptions{.study = BalanceStudy()}, study_command);
@@ -30,19 +30,20 @@ void declare_all(Commands& commands) {
   commands.add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
   commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
   commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
-  commands.add("references", "How often pages are missed of references that a file has", ReferencesOptions(),
+  commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
-  commands.add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
-  commands.add("sweep", "All combinations of any options of render, and the figures asked for", StudySweepOptions(),
+  commands.add("scale", "Measure cost and its growth over scene size and number of nodes", ScaleOptions(), study_scale_command);
+  commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", StudySweepOptions(),
                study_sweep_command);
-  commands.begin("bench", "Put our own arithmetic to the test and print a table");
-  commands.add("stability", "Stress tests of numerical stability, beside Embree on the same rays", StabilityOptions(),
+  commands.begin("bench", "Test accuracy and speed of the renderer and print a table");
+  commands.add("stability", "Stress tests of numerical stability, with Embree on the same rays", StabilityOptions(),
                bench_stability_command);
-  commands.add("precision", "The picture in float against double precision, every differing pixel explained", PrecisionOptions(),
-               bench_precision_command);
-  commands.add("error", "What every knob costs, and does to the picture's error", ErrorOptions(), bench_error_command);
-  commands.add("speed", "Our grid, pictures, computers and databases beside Embree and each other", SpeedOptions(),
-               bench_speed_command);
+  commands.add("precision", "Compare the picture in float with double precision, and explain every differing pixel",
+               PrecisionOptions(), bench_precision_command);
+  commands.add("error", "Measure the cost of each quality setting and its effect on the picture's error", ErrorOptions(),
+               bench_error_command);
+  commands.add("speed", "Measure the speed of grid, pictures, computers and databases, next to Embree and each other",
+               SpeedOptions(), bench_speed_command);
 }
 
 }  // namespace

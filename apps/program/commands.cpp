@@ -24,8 +24,8 @@ namespace dmpc::apps {
 namespace {
 
 const char* const about =
-    "dmpc COMMAND --help says more, with examples; dmpc list what there is, dmpc help glossary what words mean.\nStart with: "
-    "dmpc render teapot-12 --nodes=8 -o teapot.png";
+    "dmpc COMMAND --help shows the options of a command, with examples. dmpc list shows scenes, machines and other "
+    "choices,\ndmpc help glossary explains terms.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png";
 
 Command help_command(const HelpText& help) {
   return {help, false, [help](Interrupt&, std::ostream& output) {
@@ -85,10 +85,10 @@ void Commands::begin(const std::string& name, const std::string& description) {
 }
 
 void Commands::declare_help() {
-  OptionSet help = line_.add_command("help", "Explain a command, or what dmpc's words mean");
+  OptionSet help = line_.add_command("help", "Show help about a command, or the glossary");
   help.add_arguments(
       "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
-      "A command, such as render or study cache; or glossary, the list of dmpc's words");
+      "A command, such as render or study cache; or glossary, which explains dmpc's terms");
   help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
   topics_.words.emplace_back("glossary");
 }

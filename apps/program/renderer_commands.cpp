@@ -13,11 +13,11 @@ void declare_renderer(Commands& commands) {
                [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
                  return render_command(options, interrupt, output);
                });
-  commands.add("view", "Look round a scene in a browser", ViewOptions(), view_command);
-  commands.add("info", "Tell what a scene is, and what a render of it would take", InfoOptions(), info_command);
+  commands.add("view", "Explore a scene in a browser", ViewOptions(), view_command);
+  commands.add("info", "Describe a scene, and forecast what a render of it takes", InfoOptions(), info_command);
   commands.add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
-  commands.add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);
-  commands.add("list", "Tell what scenes, machines, policies and others there are", ListOptions(), list_command);
+  commands.add("machine", "Print a machine's parameters as JSON, to read or to edit", MachineOptions(), machine_command);
+  commands.add("list", "List scenes, machines, policies and other choices", ListOptions(), list_command);
 }
 
 }  // namespace dmpc::apps

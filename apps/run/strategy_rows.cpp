@@ -116,7 +116,7 @@ std::vector<PageRow> rows_of_pixels() {
        .reported = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).bundles_on_machines; },
        .meaning = "asked for"},
       {.name = "--work-item",
-       .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
+       .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 without bundles"),
        .help = "Side in pixels of the work item that a node gives to an idle one; 0: nodes give no work",
        .why = works_on_region,
        .key = "work_item",
@@ -186,22 +186,21 @@ std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
        .takes = number<&RayOptions::ray_batch>(
-           1, dataflow::ray_batch_max, "what fills 4 KiB; 2 KiB if rays walk alone or with --ray-slots, modelled machines 1 KiB"),
+           1, dataflow::ray_batch_max, "what fills 4 KiB; 2 KiB without bundles or with --ray-slots; 1 KiB on modelled machines"),
        .help = "Maximum number of rays in a packet",
        .why = rays_stay,
        .key = "ray_batch",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; },
        .meaning = "rays of a packet, the most"},
       {.name = "--ray-credits",
-       .takes =
-           number<&RayOptions::ray_credits>(0, dataflow::ray_credits_max, "4; up to 64 of few nodes whose rays walk together"),
+       .takes = number<&RayOptions::ray_credits>(0, dataflow::ray_credits_max, "4; up to 64 with few nodes and bundles"),
        .help = "Packets of rays that a node may have in transit to each other node; 0: all go through the host",
        .why = rays_stay,
        .key = "ray_credits",
        .reported = [](const dataflow::Plan& plan) { return plan.shares_slots() ? OptionValue() : plan.ray_credits; },
        .meaning = "packets"},
       {.name = "--ray-slots",
-       .takes = number<&RayOptions::ray_slots>(1, dataflow::ray_slots_max, "64 of more than 128 nodes; else credits"),
+       .takes = number<&RayOptions::ray_slots>(1, dataflow::ray_slots_max, "64 with more than 128 nodes; otherwise credits"),
        .help = "Packets of rays from all other nodes that a node has room for; senders request this room. Not with --ray-credits",
        .why = rays_stay,
        .key = "ray_slots",
@@ -214,8 +213,8 @@ std::vector<RayRow> rows_of_packets() {
 std::vector<RayRow> rows_of_rays() {
   return {
       {.name = "--ray-queue",
-       .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
-                                                   "256; 512 if rays walk alone; 128 with --ray-slots"),
+       .takes =
+           number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max, "256; 512 without bundles; 128 with --ray-slots"),
        .help = "Packets of rays that can wait on a node for credit before further ones go through the host",
        .why = rays_stay,
        .key = "ray_queue",

@@ -68,7 +68,7 @@ void add_options(OptionSet options, SceneOptions& scene) {
   options.add_argument(
       "SCENE", [&scene](const std::string& text) { scene.name = text; },
       "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
-  options.add_path("-o,--output", "FILE [stdout]", scene.output, "Where it goes");
+  options.add_path("-o,--output", "FILE [stdout]", scene.output, "Output file");
   options.add_quiet(scene.quiet);
   options.set_examples("Families:\n" + core::describe_scene_families() + describe_landscape() +
                        "\nExamples:\n"

@@ -47,13 +47,13 @@ void add_computer_options(OptionSet& options, ViewOptions& view) {
 }
 
 void add_runner_options(OptionSet& options, ViewOptions& view) {
-  options.begin_group("What drives the computer");
+  options.begin_group("Running the computer");
   options.add_choice<RunnerKind>(
       "--runner", view.runner.kind,
       {{"threads", RunnerKind::threads}, {"pool", RunnerKind::pool}, {"virtual", RunnerKind::virtual_time}},
-      "threads: a thread for each node. pool: a few threads drive all nodes in turn. virtual: the model of a machine");
+      "threads: one thread per node. pool: a few threads run all nodes in turn. virtual: a model of a machine");
   options.add_number("--pool-threads", view.computer.pool_threads, 1, nodes::node_count_max, "as many as processors",
-                     "Threads that drive all nodes in turn (pool)");
+                     "Threads that run all nodes in turn (pool)");
   add_machine_option(options, view.runner.machine_name, " (virtual)");
 }
 
@@ -261,10 +261,9 @@ void add_options(OptionSet options, ViewOptions& view) {
   add_page_options(options, view.pages);
   add_ray_options(options, view.rays);
   options.begin_group("The page");
-  options.add_number(
-      "--port", view.port, 0, 65535, "0",
-      "Where on 127.0.0.1 the page is; 0: at any port that is free. From afar ssh -L PORT:127.0.0.1:PORT leads there");
-  options.add_flag("--quiet", view.quiet, "No progress, nothing but the address");
+  options.add_number("--port", view.port, 0, 65535, "0",
+                     "Port of the page on 127.0.0.1; 0: any free port. From another computer use ssh -L PORT:127.0.0.1:PORT");
+  options.add_flag("--quiet", view.quiet, "Print no progress, only the address");
   options.check_in_the_end([options, &view] {
     if (view.system) {
       settle_system(options, *view.system, view, view.database);
@@ -282,11 +281,12 @@ void add_options(OptionSet options, ViewOptions& view) {
       "  dmpc view rings-4-t1\n"
       "  dmpc view teapot-12 --nodes=2 --resolution=800x600 --camera=0,3,2/0,0,0.5/0,0,1/45\n"
       "  dmpc view my.glb --transport=whitted --samples=4 --port=8080\n"
-      "The address is said on stderr; whoever has it may turn the camera. While it moves a picture has half the pixels across "
-      "and\n"
-      "down, and by paths 4 samples a pixel, else one; when it rests all that is asked for, and the page shows the command of "
-      "dmpc\n"
-      "render that makes the same picture, to the last bit. Ctrl-C ends it, with status 130.");
+      "The address is printed on stderr; everyone who knows it can move the camera. While the camera moves, a picture has half "
+      "the\n"
+      "pixels across and down, and 4 samples per pixel by paths, otherwise one. When it rests, the picture has all that was "
+      "asked\n"
+      "for, and the page shows the dmpc render command that makes the same picture, to the last bit. Ctrl-C ends it with status "
+      "130.");
 }
 
 int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& /*output*/) {

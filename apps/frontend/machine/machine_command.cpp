@@ -10,21 +10,21 @@ namespace dmpc::apps {
 void add_options(OptionSet options, MachineOptions& machine) {
   options.add_argument(
       "MACHINE", [&machine](const std::string& text) { machine.machine = text; },
-      "One of " + machine_preset_names() + "; or a machine file, which is checked");
+      "One of " + machine_preset_names() + ", or a machine file to check");
   options.set_examples(
       "Examples:\n"
       "  dmpc machine ipsc2 > mine.json\n"
       "  dmpc render teapot-12 --runner=virtual --machine=mine.json -o teapot.png\n"
       "Times of a message: send_ns occupies the sender's processor, then latency_ns passes, then the message takes hop_ns for\n"
       "each link and byte_ps for each byte of header and payload, and receive_ns occupies the receiver's processor. A page\n"
-      "request interrupts its target for receive_ns, service_ns and the reply's send_ns. operation_ps is what a node takes for\n"
-      "each operation of a class. switching says what a message holds: a circuit all links of its way until it has arrived, a\n"
+      "request interrupts its target for receive_ns, service_ns and the reply's send_ns. operation_ps is the time of a node for\n"
+      "each operation of a class. switching is what a message occupies: circuit all links of its route until it has arrived,\n"
       "packet each link for its own bytes. uplinks are those of a switch of a fat tree. has_contention: a link carries one\n"
-      "message at a time. has_memory_port: so does a node's memory, one in and one out, over whatever links; it goes with\n"
-      "has_contention only, and is off in all machines here, since no published figure tells. Sources say where a figure comes "
-      "from and how certain it is: high, medium or low;\n"
-      "quoted figures are commonly given, their measurements were not looked up; fitted ones were chosen so that the model\n"
-      "gives a printed time; assumed ones have no source. They may be left out.");
+      "message at a time. has_memory_port: so does a node's memory, one in and one out, over all links; it requires\n"
+      "has_contention, and is off in all machines here, since there is no published figure. Sources say where a figure comes\n"
+      "from and how certain it is: high, medium or low. Quoted figures are commonly given, but their measurements were not\n"
+      "looked up; fitted ones were chosen so that the model gives a printed time; assumed ones have no source. Sources may be\n"
+      "left out.");
 }
 
 int machine_command(const MachineOptions& options, std::ostream& output) {

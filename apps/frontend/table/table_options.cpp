@@ -10,19 +10,18 @@ void add_options(OptionSet options, TableOutput& output, TableExtras extras) {
                                    {"csv", TableFormat::csv},
                                    {"json", TableFormat::json},
                                    {"jsonl", TableFormat::json_lines}},
-                                  "How the table is written");
+                                  "Format of the table");
   if (extras == TableExtras::plots_and_report) {
     add_report_option(options, output.report, "with the table and its plots");
   }
   if (extras != TableExtras::none) {
-    options.add_path("--plots", "FOLDER", output.plots,
-                     "Where pictures by gnuplot go, with their scripts and what they are drawn from");
+    options.add_path("--plots", "FOLDER", output.plots, "Write plots by gnuplot to this folder, with their scripts and data");
   }
-  options.add_path("-o,--output", "FILE [stdout]", output.file, "Where it goes");
+  options.add_path("-o,--output", "FILE [stdout]", output.file, "Output file");
 }
 
 void add_report_option(OptionSet options, std::optional<std::filesystem::path>& report, const std::string& what) {
-  options.add_path("--report", "FILE.html", report, "Write a page to be read in a browser, " + what);
+  options.add_path("--report", "FILE.html", report, "Write a page for a browser, " + what);
   options.check_in_the_end([&report] {
     if (report && report->extension() != ".html") {
       throw core::UsageError("--report=" + report->string() + ": expected a file with the ending .html");

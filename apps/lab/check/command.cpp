@@ -265,12 +265,12 @@ void add_options(OptionSet options, CheckOptions& check) {
           "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
     }
   });
-  options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
+  options.add_number("--list", check.list, 0, 1000000, "10", "Number of differences to print in full");
   options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
-                     "Rays that are tested against every primitive in double precision, too");
+                     "Number of rays to test against every primitive in double precision, too");
   options.add_flag_with_text("--certify", "100000", check.certify_text,
-                             "Hold the certificates of so many random hits, where the exact answer lies and how far the kernels "
-                             "may be off, against rational arithmetic");
+                             "Check the certificates of this many random hits against rational arithmetic: where the exact "
+                             "answer lies and how far the kernels may be off");
   options.check_in_the_end([&check] {
     if (!check.certify_text.empty()) {
       check.certify = parse_seed(check.certify_text, "--certify");
@@ -284,9 +284,9 @@ void add_options(OptionSet options, CheckOptions& check) {
       "  dmpc check rings-3 --certify=1000000\n"
       "  dmpc check balls-4 --structure=voxels\n"
       "  dmpc check grove-4 --instances=keep\n"
-      "Of glTF and OBJ files the oracle also reads by itself where faces and camera stand, and counts the pixels that see\n"
-      "another place. The last line says what was tried, what failed, the worst and where.\n"
-      "Exit status 3 says that a difference stays unexplained, a certificate does not hold, or a pixel sees another place.");
+      "The oracle reads the positions of faces and camera in glTF and OBJ files itself, too, and counts the pixels that see\n"
+      "another place. The last line summarizes what was tried, what failed, the worst case and where it is.\n"
+      "The exit status is 3 if a difference remains unexplained, a certificate does not hold, or a pixel sees another place.");
 }
 
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {

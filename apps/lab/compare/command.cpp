@@ -261,24 +261,25 @@ void check_together(const OptionSet& set, const CompareOptions& compare) {
 void add_options(OptionSet options, CompareOptions& compare) {
   options.add_argument(
       "A", [&compare](const std::string& text) { compare.a = text; },
-      "A picture, or what --stats (.json) or --report (.html) of a render wrote");
+      "A picture, or a file that render wrote by --stats (.json) or --report (.html)");
   options.add_argument(
-      "B", [&compare](const std::string& text) { compare.reference = text; }, "Another of the same size, the reference");
+      "B", [&compare](const std::string& text) { compare.reference = text; }, "The reference, of the same size");
   options.add_path("--difference", "IMAGE", compare.difference, "Write the absolute differences as a picture");
-  options.add_path("--flip", "IMAGE", compare.flip, "Write the differences that an eye perceives, by FLIP, as a picture");
-  options.add_path("--report", "FILE", compare.report, "Write a page on which the runs of two pages (.html) play on one clock");
+  options.add_path("--flip", "IMAGE", compare.flip, "Write the perceived differences, by FLIP, as a picture");
+  options.add_path("--report", "FILE", compare.report, "Write a page that plays the runs of two pages (.html) on one clock");
   options.add_texts(
       "--fail-above", "MEASURE:NUMBER", [&compare](const std::string& text) { compare.limits.push_back(parse_limit(text)); },
-      "End with status 5 if the pictures lie further apart, by " + measure_names() + "; may be given several times");
+      "Exit with status 5 if the pictures differ by more than this, measured by " + measure_names() +
+          "; may be given several times");
   options.add_texts(
       "--only", "KEY", [&compare](const std::string& text) { compare.figures.only.push_back(text); },
-      "Compare these counters and what lies below them, such as rays or nodes.*.pages; may be given several times");
+      "Compare these counters and those below them only, such as rays or nodes.*.pages; may be given several times");
   options.add_texts(
       "--tolerance", "KEY:SHARE",
       [&compare](const std::string& text) { compare.figures.tolerances.push_back(parse_tolerance(text)); },
-      "Let these counters differ by a share of the reference's; may be given several times");
+      "Allow these counters to differ by a fraction of the reference's value; may be given several times");
   options.add_choice<CompareFormat>("--format", compare.format, {{"text", CompareFormat::text}, {"json", CompareFormat::json}},
-                                    "How the figures are printed");
+                                    "Format of the results");
   add_sandbox_option(options, compare.sandbox);
   options.check_in_the_end([options, &compare] { check_together(options, compare); });
   options.set_examples(
@@ -290,9 +291,8 @@ void add_options(OptionSet options, CompareOptions& compare) {
       "  dmpc compare new.json kept.json --only=film_hash --only=pages --tolerance=pages.faults:0.05\n"
       "  dmpc compare a.html b.html --report=ab.html\n"
       "  dmpc compare new.json kept.json --only=seconds --tolerance=seconds:0.5\n"
-      "Status 5 says that they differ. Seconds of the wall clock are left out unless there is a tolerance for them. With "
-      "threads\n"
-      "faults and packets hang on the schedule; with --runner=virtual all counters are the same in every run.");
+      "The exit status is 5 if they differ. Seconds of the wall clock are compared only if they have a tolerance. With threads,\n"
+      "faults and packets depend on the schedule; with --runner=virtual all counters are the same in every run.");
 }
 
 int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {

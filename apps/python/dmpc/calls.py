@@ -75,7 +75,7 @@ def sweep(
     None, ray_slots: int | Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int | Sequence[int] |
     None = None, no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None
 ) -> pandas.DataFrame:
-    """All combinations of any options of render, and the figures asked for."""
+    """Render all combinations of chosen options, and print chosen counters."""
     return sweeping.sweep(locals())
 
 
@@ -144,5 +144,5 @@ def compare(
     Sequence[Text] | None = None, only: Text | Sequence[Text] | None = None, tolerance: Text | Sequence[Text] | None = None, sandbox:
     Literal["available", "required"] | None = None
 ) -> dict:
-    """Measure how far two pictures lie apart, or where two runs' counters differ."""
+    """Measure the difference of two pictures, or compare the counters of two runs."""
     return comparing.compare(locals())

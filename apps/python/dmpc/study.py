@@ -142,7 +142,7 @@ def references(
     file: Text, *, page_column: Text | None = None, node_column: Text | None = None, cache_pages: Text | Sequence[Text] | None = None,
     policy: Text | Sequence[Text] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
-    """How often pages are missed of references that a file has."""
+    """Simulate page caches on recorded references, and count misses."""
     return studying.study("references", ["file"], locals())
 
 
@@ -152,5 +152,5 @@ def scale(
     None, scene: Text | None = None, resolution: Text | None = None, repeat: int | None = None, report: Text | None = None, plots: Text |
     None = None
 ) -> pandas.DataFrame:
-    """What larger scenes and more nodes take, and how fast that grows."""
+    """Measure cost and its growth over scene size and number of nodes."""
     return studying.study("scale", ["family"], locals())
