@@ -59,13 +59,13 @@ void add_runner_options(OptionSet& options, ViewOptions& view) {
 
 /// The scene is built once, for every camera.
 void check_camera_moves(const ViewOptions& view) {
-  const std::string why = ", which the camera would take along: dmpc render shows it from one place";
+  const std::string why = ", which would move with it: dmpc render shows it from one place";
   if (view.picture.scene_setup.fill.value_or(0) > 0) {
-    throw UsageError("--fill does not go with view: it is a light in the eye" + why);
+    throw UsageError("--fill does not go with view: it is a light at the camera" + why);
   }
   if (view.picture.transport.light_radius) {
     throw UsageError(
-        "--light-radius does not go with view: whether a light is a sphere depends on where the eye is; dmpc render " +
+        "--light-radius does not go with view: whether a light is a sphere depends on where the camera is; dmpc render " +
         std::string("shows it from one place"));
   }
 }
@@ -119,7 +119,7 @@ class Viewing {
   Viewing(const ViewOptions& options, Interrupt& interrupt) : options_(options), interrupt_(interrupt) {}
 
   int run() {
-    interrupt_.set_consequence("nobody is shown anything any more");
+    interrupt_.set_consequence("the page receives no further updates");
     choose_machine(options_);
     server_.emplace(options_.port,
                     PageServer::Service{.option = "--port",
@@ -133,7 +133,7 @@ class Viewing {
       show();
       throw Interrupted{};
     } catch (const Interrupted&) {
-      server_->end(json_of_end("dmpc was told to end."));
+      server_->end(json_of_end("dmpc was asked to stop."));
       throw;
     } catch (const std::exception& error) {
       server_->end(json_of_end("dmpc has failed: " + std::string(error.what()) + "."));
@@ -167,7 +167,7 @@ class Viewing {
     const auto pixels = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     if (pixels > pixels_max) {
       throw core::InputError("a picture of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                             " is too large to be looked round in: expected at most " + grouped(pixels_max) +
+                             " is too large for view: expected at most " + grouped(pixels_max) +
                              " pixels: give --resolution=WxH");
     }
   }
@@ -281,12 +281,10 @@ void add_options(OptionSet options, ViewOptions& view) {
       "  dmpc view rings-4-t1\n"
       "  dmpc view teapot-12 --nodes=2 --resolution=800x600 --camera=0,3,2/0,0,0.5/0,0,1/45\n"
       "  dmpc view my.glb --transport=whitted --samples=4 --port=8080\n"
-      "The address is printed on stderr; everyone who knows it can move the camera. While the camera moves, a picture has half "
-      "the\n"
-      "pixels across and down, and 4 samples per pixel by paths, otherwise one. When it rests, the picture has all that was "
-      "asked\n"
-      "for, and the page shows the dmpc render command that makes the same picture, to the last bit. Ctrl-C ends it with status "
-      "130.");
+      "The address is printed on stderr; everyone who knows it can move the camera. While the camera moves, a picture has half\n"
+      "the pixels across and down, and 4 samples per pixel by paths, otherwise one. When it rests, the picture has all that was\n"
+      "asked for, and the page shows the dmpc render command that makes the same picture, to the last bit. Ctrl-C ends it with\n"
+      "status 130.");
 }
 
 int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& /*output*/) {

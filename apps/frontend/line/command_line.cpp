@@ -97,7 +97,7 @@ CommandDescription described(const DeclaredCommand& command, const Suggestions& 
 
 std::unique_ptr<DeclaredCommand> make_command(const std::string& name, const std::string& text, const std::string& examples) {
   auto command = std::make_unique<DeclaredCommand>(DeclaredCommand{.name = name, .text = text, .examples = examples});
-  command->add_flag("-h,--help", "Explain this", [](const std::string&) {});
+  command->add_flag("-h,--help", "Show this help", [](const std::string&) {});
   return command;
 }
 
@@ -192,7 +192,7 @@ void OptionSet::add_flag_with_text(const std::string& name, const std::string& s
   described.standard = standard;
 }
 
-void OptionSet::add_quiet(bool& quiet) { add_flag("--quiet", quiet, "No progress, on a terminal either"); }
+void OptionSet::add_quiet(bool& quiet) { add_flag("--quiet", quiet, "Print no progress, even on a terminal"); }
 
 void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                           const std::string& description) {

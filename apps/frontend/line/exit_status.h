@@ -16,12 +16,12 @@ struct ExitStatus {
 /// All of them.
 inline constexpr ExitStatus exit_statuses[] = {
     {0, "The job is done."},
-    {input_status, "Bad input, or an output that cannot be written: the message says what, where, and what would do."},
+    {input_status, "Bad input, or an output that cannot be written: the message says what, where, and what to do."},
     {usage_status, "Wrong usage: the message ends with the right --help."},
     {internal_status,
-     "An error of dmpc's own, a part of it that is missing, or a difference that check or bench precision cannot explain."},
-    {no_capacity_status, "There is no room for the input, on this computer or in the nodes' memory."},
-    {differs_status, "What compare compares differs: by more than --fail-above allows, or in a counter."},
+     "An internal error of dmpc, a missing part of it, or a difference that check or bench precision cannot explain."},
+    {no_capacity_status, "Not enough memory for the input, on this computer or on the nodes."},
+    {differs_status, "compare found a difference: more than --fail-above allows, or in a counter."},
     {interrupted_status, "Interrupted by a signal: the message says what became of the output."},
 };
 

@@ -262,7 +262,7 @@ void add_options(OptionSet options, CheckOptions& check) {
     check.picture.scene_setup.mesh.copies = core::Copies::put;  // for Embree and the referee, whatever rays go into
     if (check.picture.is_refined) {
       throw core::UsageError(
-          "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
+          "--samples=auto and --quality go with render and study; check traces a given number of samples per pixel");
     }
   });
   options.add_number("--list", check.list, 0, 1000000, "10", "Number of differences to print in full");

@@ -240,19 +240,19 @@ void check_together(const OptionSet& set, const CompareOptions& compare) {
   }
   for (const char* const option : {"--difference", "--flip", "--fail-above"}) {
     if (kind != Kind::pictures && set.is_given(option)) {
-      throw core::UsageError(std::string(option) + " goes with pictures: of counters --tolerance says what may differ");
+      throw core::UsageError(std::string(option) + " goes with pictures: for counters --tolerance sets what may differ");
     }
   }
   for (const char* const option : {"--only", "--tolerance"}) {
     if (kind == Kind::pictures && set.is_given(option)) {
-      throw core::UsageError(std::string(option) + " goes with counters: of pictures --fail-above says how far they may differ");
+      throw core::UsageError(std::string(option) + " goes with counters: for pictures --fail-above sets how far they may differ");
     }
   }
   if (kind != Kind::pages && set.is_given("--report")) {
     throw core::UsageError(
-        "--report goes with two pages that dmpc render --report=FILE.html wrote, whose runs it puts on one clock: " +
-        std::string(kind == Kind::pictures ? "of pictures --difference and --flip show where they differ"
-                                           : "counters alone have nothing that plays"));
+        "--report goes with two pages that dmpc render --report=FILE.html wrote, whose runs it plays on one clock: " +
+        std::string(kind == Kind::pictures ? "for pictures --difference and --flip show where they differ"
+                                           : "counters alone cannot be played"));
   }
 }
 

@@ -39,7 +39,7 @@ bool is_small_png(const std::string& bytes) {
 Image picture_of(const PlayedPage& page, Sandbox sandbox) {
   if (!is_small_png(page.run.picture)) {
     throw core::InputError(page.file + ": its picture is no PNG of at most " + std::to_string(html::picture_side_max) +
-                           " pixels a side; the page is damaged, or was changed: render it anew with --report");
+                           " pixels a side; the page is damaged, or was changed: render it again with --report");
   }
   const ScratchFolder folder;
   const std::filesystem::path path = folder / "picture.png";
@@ -71,7 +71,7 @@ Table table_of(const FigureComparison& comparison) {
   }
   if (comparison.differences.size() > rows_max) {
     table.add_note("And " + grouped(comparison.differences.size() - rows_max) +
-                   " more: `dmpc compare` without --report tells them with --format=json.");
+                   " more: `dmpc compare` without --report shows them with --format=json.");
   }
   return table;
 }
@@ -85,8 +85,7 @@ PlayedPage read_page(const std::filesystem::path& file) {
 
 std::string without_counters(const std::array<PlayedPage, 2>& pages) {
   const PlayedPage& page = pages[0].run.stats ? pages[1] : pages[0];
-  return page.file +
-         ": this page has kept no counters, as those of an earlier dmpc; render it anew, or compare what --stats wrote";
+  return page.file + ": this page has no counters, since an earlier dmpc wrote it; render it again, or compare files of --stats";
 }
 
 std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage, 2>& pages, const FigureChoice& choice,

@@ -165,9 +165,9 @@ TEST_CASE("a signal ends it with status 130, and who looks on is told so") {
   viewed.resting_picture();
   viewed.page.process.send(SIGINT);
   CHECK(contains(viewed.viewer.heard_all(),
-                 "event: end\ndata: {\"figures\":\"\",\"page\":false,\"said\":\"dmpc was told to end.\"}"));
+                 "event: end\ndata: {\"figures\":\"\",\"page\":false,\"said\":\"dmpc was asked to stop.\"}"));
   CHECK(viewed.page.process.status() == 130);
-  CHECK(contains(viewed.page.process.errors(), "interrupted, nobody is shown anything any more"));
+  CHECK(contains(viewed.page.process.errors(), "interrupted, the page receives no further updates"));
 }
 
 TEST_CASE("what the camera would take along, and what there is none of, is refused before anything is read") {
@@ -185,7 +185,7 @@ TEST_CASE("what the camera would take along, and what there is none of, is refus
   }
   const Said large = run({DMPC_PROGRAM, "view", "balls-2", "--resolution=4096x4096"});
   CHECK(large.status == 1);
-  CHECK(contains(large.errors, "a picture of 4096x4096 is too large to be looked round in: expected at most 4,194,304 pixels"));
+  CHECK(contains(large.errors, "a picture of 4096x4096 is too large for view: expected at most 4,194,304 pixels"));
 }
 
 }  // namespace dmpc::tests::view_test

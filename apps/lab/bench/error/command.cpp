@@ -88,19 +88,19 @@ std::string title_of(const ErrorOptions& options) {
 
 std::vector<std::string> explanations(bool are_by_paths) {
   const std::string unclaimed =
-      "; a row whose RMSE is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show "
-      "what is left of it, hollow, between what is left if that error were twice as large, a tenth at least, and all of it.";
-  return {
-      are_by_paths
-          ? "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows" + unclaimed
-          : "Errors without a word before them are against the converged picture in double precision" + unclaimed,
-      are_by_paths
-          ? "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette, "
-            "and meeting by chance what shines, are none."
-          : "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its "
-            "exact position, of arithmetic against the same samples in double precision.",
-      "Adaptive sampling is asked for no smaller error than the reference's own.",
-      "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
+      "; a row whose RMSE is less than 10 times the reference's own error supports no claim and is on no Pareto front. Plots "
+      "show it hollow, without the reference's error, with an interval from what is left if that error were twice as large, a "
+      "tenth at least, to the whole RMSE.";
+  return {are_by_paths
+              ? "Errors are against the converged picture in the renderer's own arithmetic, with other samples than all rows" +
+                    unclaimed
+              : "Errors without a qualifier are against the converged picture in double precision" + unclaimed,
+          are_by_paths ? "Seconds are processor time. Fewer bounces make the picture darker, an error that samples do not "
+                         "reduce; roulette and BSDF sampling alone cause no such error."
+                       : "Deterministic errors are those of the knob alone: against the picture with the same samples and the "
+                         "knob at its exact position; for arithmetic, against the same samples in double precision.",
+          "The target of adaptive sampling is never below the reference's own error.",
+          "Ratios at equal RMSE are interpolated in logarithms, after the square of the reference's own error is subtracted."};
 }
 
 Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
@@ -199,16 +199,15 @@ void add_turned_options(OptionSet set, ErrorOptions& options) {
         measure.knobs = parse_knobs(text);
         options.has_tessellation = measure.knobs.contains(Knob::tessellation);
       },
-      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
-      "default); adaptive with cutoff or depth together as well. By paths samples, adaptive, bounces, roulette and "
-      "emitters (how many of what shines are aimed at)");
-  set.add_flag(
-      "--quick", measure.is_quick,
-      "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
-      "each pixel of the reference: half a minute");
-  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
+      "Knobs to turn, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
+      "default); adaptive also together with cutoff or depth. By paths: samples, adaptive, bounces, roulette and emitters (the "
+      "number of those for light sampling)");
+  set.add_flag("--quick", measure.is_quick,
+               "Fewer positions of each knob and, unless given, 192x192 pixels, one round and 16 x 16 samples per pixel of the "
+               "reference: half a minute");
+  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Number of rounds; everything is rendered and timed in each");
   set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
-                 "Rays through each pixel where they are not what is turned");
+                 "Samples per pixel where they are not the knob");
 }
 
 }  // namespace
@@ -235,7 +234,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "--reference-samples",
       "N, even, 2..128 [" + std::to_string(default_reference_side) + ", by paths " + std::to_string(path_reference_side) + "]",
       [&measure](const std::string& text) { measure.reference.samples_a_side = parse_reference_side(text); },
-      "N x N rays through each pixel of the reference");
+      "N x N samples per pixel of the reference");
   add_strategy_option(set, measure.strategy.strategy);
   set.add_number("--nodes", measure.strategy.computer.node_count, 1, nodes::node_count_max,
                  std::to_string(measure.strategy.computer.node_count), "Nodes that render");
@@ -247,8 +246,8 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
       "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --light-radius=1 --quick\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --format=csv -o shells.csv\n"
-      "By paths pictures have 128x128 pixels unless said otherwise, 96x96 with --quick, and references 32 x 32 samples with it.\n"
-      "The reference and the base point have the depth given; the other depths are below it.");
+      "By paths pictures have 128x128 pixels by default, 96x96 with --quick, and references 32 x 32 samples with --quick.\n"
+      "The reference and the base point have the given depth; the other depths are smaller.");
   set.check_in_the_end([set, &options] {
     choose_transport(set, options.measure);
     if (options.measure.is_quick) {

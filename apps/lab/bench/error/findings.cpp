@@ -109,7 +109,7 @@ std::optional<ChanceRatio> chance_ratio(const SceneResult& result, Knob knob, co
   return error > worst.error && worst.cost > 0 ? std::optional(ChanceRatio{seconds / worst.cost, true}) : std::nullopt;
 }
 
-/// "meeting by chance all that shines takes 3.21 times the time for the same RMSE; going on without roulette takes ...".
+/// "BSDF sampling alone takes 3.21 times the time for the same RMSE; no roulette takes ...".
 std::string chance_text(const SceneResult& result) {
   if (!result.base.is_by_paths()) {
     return "";
@@ -121,11 +121,11 @@ std::string chance_text(const SceneResult& result) {
               " times the time for the same RMSE";
     }
   };
-  add("meeting by chance all that shines", chance_ratio(result, Knob::emitters, "none"));
-  add("going on without roulette", chance_ratio(result, Knob::roulette, "never"));
+  add("BSDF sampling alone", chance_ratio(result, Knob::emitters, "none"));
+  add("no roulette", chance_ratio(result, Knob::roulette, "never"));
   const bool has_none = result.emitters == 0;
   return (text.empty() ? "" : result.scene + ": " + text + "." + (has_none ? " " : "")) +
-         (has_none ? result.scene + ": nothing shines that could be aimed at; --light-radius makes balls of lights." : "");
+         (has_none ? result.scene + ": there is no emitter for light sampling; --light-radius turns lights into spheres." : "");
 }
 
 std::string scientific(double value) {

@@ -127,20 +127,20 @@ Table empty_table(const PrecisionOptions& options) {
   table.add_note("Pixels are compared in 8 bits with the sRGB curve; RMSE and largest are of linear light.");
   if (options.transport.is_by_paths()) {
     table.add_note(
-        "Both take the same chances, so that nearly all pixels have the same light; where rounding leads a path elsewhere, which "
-        "nobody explains, it has another by chance, and all pixels together the same mean, within four standard errors.");
+        "Both use the same random numbers, so that nearly all pixels have the same light. Where rounding leads a path elsewhere, "
+        "which is not explained, the pixel has another random value; the mean of all pixels is the same, within four standard "
+        "errors.");
     return table;
   }
   table.add_note(
-      "The pixels that differ stand under what comes first where the two renderers follow the same pixel: two surfaces that "
-      "all but touch, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its "
-      "light, total reflection, or nothing but the rounding of colours. Where a ray's answer is not exact, a ray beside it has "
-      "that answer, no farther off than 1/256 of a pixel; warned are pixels that are off by more, but no more than was said on "
-      "stderr before.");
+      "A pixel that differs is counted under the first cause that the two renderers meet when both follow it: two surfaces that "
+      "nearly touch, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its light, "
+      "total reflection, or only the rounding of colours. If a ray's answer is not exact, a ray next to it has that answer, at "
+      "most 1/256 of a pixel away. Warned are pixels that are off by more, but not by more than a warning on stderr said "
+      "before.");
   table.add_note(
-      "Every ray, hit and answer on the product's way was checked on its own: the largest step is the farthest that one was off, "
-      "in "
-      "units of what rounding to float does; " +
+      "Every ray, hit and answer of the renderer was checked separately: the largest step is the largest deviation of one of "
+      "them, in units of rounding to float; " +
       std::to_string(static_cast<int>(StepAudit::steps_allowed)) + " are allowed.");
   return table;
 }
@@ -238,17 +238,18 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "NFF files, mesh files or built-in scenes; all families if none is given");
   set.add_text(
       "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
-      "Pixels of the pictures");
-  set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
+      "Width and height of the pictures in pixels");
+  set.add_number("--depth", options.depth, 1, 255, "5", "Maximum depth of reflections and refractions");
   set.add_text(
       "--expect", "PERCENT", [&options](const std::string& text) { options.expected = parse_expectation(text); },
-      "End with status 3 if fewer pixels have the same 8 bits; without it 99, and of families' own pictures what was measured");
+      "Exit with status 3 if fewer pixels have the same 8 bits. The default is 99, and for pictures of the families what was "
+      "measured");
   add_options(set, options.scene_setup);
   add_options(set, options.transport);
   set.check_in_the_end([set, &options] {
     check(set, options.transport);
     if (options.transport.sky && options.transport.sky->is_picture()) {
-      throw core::UsageError("a picture for --sky is not there in double: expected a sky of colours");
+      throw core::UsageError("--sky: there is no environment map in double precision: expected a sky of colours");
     }
   });
   add_options(set, options.table, TableExtras::none);
@@ -261,9 +262,9 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "  dmpc bench precision model.glb --camera=4,3,5/0,0,0 --light=10,20,10\n"
       "  dmpc bench precision hall.nff --expect=98.5\n"
       "  dmpc bench precision balls-4 --transport=paths --sky=1 --bounces=3\n"
-      "The last line says what was tried, what failed, the worst and where.\n"
-      "Exit status 3 says that a pixel differs for no reason that rounding gives, or that fewer pixels than expected have the\n"
-      "same 8 bits.");
+      "The last line summarizes what was tried, what failed, the worst case and where it is.\n"
+      "The exit status is 3 if rounding does not explain why a pixel differs, or if fewer pixels than expected have the same\n"
+      "8 bits.");
 }
 
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output) {

@@ -36,42 +36,32 @@ constexpr std::array part_rows = {
     PartRow{
         .measure = measure_plain,
         .explanation =
-            "plain: the phase render of each, of the same rays. The plain renderer is recursive, in single precision, over one "
-            "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
-            "nothing. Ours are as `render` has them by default; nodes share the same cores; Embree's tree is built within the "
-            "phase. A command is `dmpc render` as a "
-            "process "
-            "of its own that writes an EXR file, less the least that three of 8x8 pixels take, over the plain renderer's phase; "
-            "where it takes no longer than that the round has no figure, and a scene without any is not among those that a mean "
-            "is of. The distance is that of the plain picture from ours, over 1/255."},
-    PartRow{
-        .measure = measure_paths,
-        .explanation =
-            "paths: the phase render, 16 samples a pixel, three bounces, a white sky. The plain path tracer "
-            "has the same places in pixels, chances, ways on and roulette, asks Embree (robust, high quality) for one ray at a "
-            "time, and emulates nothing; so its picture has our error, and lies from ours as far as rounding leads paths "
-            "elsewhere, which the distance is, over our noise. Each scene is shown as it is, and with balls of light in place of "
-            "points and metal in place of mirrors."},
-    PartRow{
-        .measure = measure_kernel,
-        .explanation =
-            "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
-            "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Bundles are those of "
-            "a render in tiles of 4x4 pixels: up to 16 rays that walk together; grids take their rays one by one, in the same "
-            "order. Embree is asked by rtcIntersect1 and rtcOccluded1, without filters, its trees are of high quality. The pager "
-            "is that of a node of eight, all other nodes' pages in its cache. Bounces are a path "
-            "tracer's."},
-    PartRow{
-        .measure = measure_emulation,
-        .explanation =
-            "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
-            "the nodes share the same cores."},
-    PartRow{
-        .measure = measure_ablation,
-        .explanation =
-            "ablation: processor time of the phase render without a skip, with what it takes to prepare, over that with it; and "
-            "counted operations by their prices, in which messages do not count. The same again is noise. "
-            "The errors are those of what a cutoff leaves out, which changes the picture."},
+            "plain: the render phase of both, with the same rays. The plain renderer is recursive, in single precision, with one "
+            "Embree tree (robust, high quality) in memory that its threads share; it traces one ray at a time and emulates "
+            "nothing. Ours has the defaults of `render`; nodes share the same cores; Embree's tree is built within the phase. A "
+            "command is `dmpc render` as a process of its own that writes an EXR file, minus the shortest of three of 8x8 "
+            "pixels, over the plain renderer's phase. If it takes no longer than that, the round has no figure; a scene without "
+            "any figure is not part of a mean. The distance is that of the plain picture from ours, over 1/255."},
+    PartRow{.measure = measure_paths,
+            .explanation = "paths: the render phase, 16 samples per pixel, three bounces, a white sky. The plain path tracer has "
+                           "the same positions in pixels, random numbers, directions and roulette, traces one ray at a time with "
+                           "Embree (robust, high quality), and emulates nothing. So its picture has our error; the distance, "
+                           "over our noise, is how far rounding leads paths elsewhere. Each scene is rendered as it is, and with "
+                           "spherical lights in place of points and metal in place of mirrors."},
+    PartRow{.measure = measure_kernel,
+            .explanation = "kernel: rays of one render, up to a limit per class, and random bounces from what the camera sees; "
+                           "all contenders trace the same rays as closest hit and as any hit, in the processor time of the "
+                           "busiest thread. Bundles are those of a render in tiles of 4x4 pixels: up to 16 rays that are traced "
+                           "together; grids trace their rays one by one, in the same order. Embree is called by rtcIntersect1 "
+                           "and rtcOccluded1, without filters; its trees are of high quality. The pager is that of a node of "
+                           "eight, with all other nodes' pages in its cache. Bounces are those of a path tracer."},
+    PartRow{.measure = measure_emulation,
+            .explanation = "emulation: seconds of the render phase, including allocation of the nodes' memories and distribution "
+                           "of the database; the nodes share the same cores."},
+    PartRow{.measure = measure_ablation,
+            .explanation = "ablation: processor time of the render phase, with its preparation, without a skip over that with "
+                           "it; and counted operations by their prices, in which messages do not count. The row of the same "
+                           "again shows the noise. The errors are those of what a cutoff leaves out, which changes the picture."},
 };
 const PartRow& row_of(SpeedPart part) { return part_rows[static_cast<std::size_t>(part)]; }
 
@@ -145,24 +135,26 @@ void add_options(OptionSet set, SpeedOptions& options) {
   SpeedSettings& settings = options.settings;
   set.add_arguments(
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
-      "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 "
+      "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; by default teapot-12, mount-6-t6, rings-4-t1 "
       "and tetra-9, with balls-2-t4 for plain");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
-      "What is measured: plain (all beside a plain renderer), paths (beside a plain path tracer), kernel (rays a second), "
-      "emulation (small caches)");
+      "Parts to measure: plain (all compared with a plain renderer), paths (compared with a plain path tracer), kernel (rays per "
+      "second), emulation (small caches)");
   set.add_flag("--ablation", options.is_ablation,
-               "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
+               "Measure the benefit of each skip (render --no-skip) instead. The default scenes then include balls-4 and tree-8");
   set.check_in_the_end([set, &options] { choose_ablation(set, options); });
-  set.add_flag("--quick", settings.is_quick, "Fewer rays, rounds, pixels and large scenes");
-  set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, ablation 5, others 3", "Rounds in which everything is timed");
+  set.add_flag("--quick", settings.is_quick, "Use fewer rays, rounds, pixels and large scenes");
+  set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, ablation 5, others 3",
+                 "Number of rounds; everything is timed in each");
   set.add_text(
       "--threads", "N,N,... [1 and all cores]",
       [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
-      "Threads that trace in kernel");
+      "Numbers of threads that trace in part kernel");
   set.add_text(
       "--resolution", "WxH [512x512, plain and emulation 1024x1024, paths 256x256]",
-      [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
+      [&settings](const std::string& text) { settings.resolution = parse_resolution(text); },
+      "Width and height of the pictures in pixels");
   add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -171,7 +163,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "  dmpc bench speed --parts=kernel --threads=1 -o speed.md\n"
       "  dmpc bench speed --ablation -o skips.md\n"
       "  dmpc bench speed my.nff rings-5-t1 --parts=kernel,emulation --resolution=256x256 --format=csv -o speed.csv\n"
-      "All figures are of one run on one machine, side by side; figures of two runs do not compare.");
+      "All figures are measured in one run on one machine; figures of two runs are not comparable.");
 }
 
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output) {

@@ -94,9 +94,9 @@ void add_notes(Table& table, const StabilityState& state, bool is_whole) {
     table.add_note("BLIND: nothing was tried of " + blind + ".");
   }
   table.add_note(
-      "Leak: missed what rounding cannot make a ray miss. Wrong hit: hit what rounding cannot make it hit. Unexplained: "
-      "other bits than the grid's, or a distance farther off than rounding moves it. Within rounding: another answer "
-      "than the grid's, explained by the referee; no failure.");
+      "Leak: a miss that rounding cannot cause. Wrong hit: a hit that rounding cannot cause. Unexplained: other bits than the "
+      "grid's, or a distance farther off than rounding moves it. Within rounding: another answer than the grid's, explained by "
+      "the referee; no failure.");
   table.add_note(
       "R11 also counts as unexplained each 1,024 rays that take more than 2.5 times the steps and tests of usual ones.");
   table.add_note("The failure rate is below the figure with a confidence of 95 %.");
@@ -130,15 +130,15 @@ Table table_of(const StabilityState& state, std::uint64_t seed, bool is_whole) {
 
 void add_options(OptionSet set, StabilityOptions& options) {
   set.add_number("--rays", options.rays, 1, std::int64_t{1} << 40U, std::to_string(StabilityOptions::standard_rays),
-                 "Rays of each row of the table");
-  set.add_flag("--quick", options.quick, "As --rays=10000: some seconds");
+                 "Number of rays for each row of the table");
+  set.add_flag("--quick", options.quick, "Same as --rays=10000: some seconds");
   set.add_flag("--long", options.is_long,
                "10^9 rays from inside a closed mesh, 10^8 at its vertices and at its edges, 10^6 to 10^8 of others: hours");
   set.add_text(
       "--tests", "R1,R2,... [all]",
       [&options](const std::string& text) { options.tests = words_between_commas(text, "--tests"); },
-      "Only these: R1 to R12, R14, R16, quadrics");
-  set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Other rays, as good as these");
+      "Run these tests only: R1 to R12, R14, R16, quadrics");
+  set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Seed of the random rays");
   add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -146,8 +146,8 @@ void add_options(OptionSet set, StabilityOptions& options) {
       "  dmpc bench stability --quick\n"
       "  dmpc bench stability --tests=R2,R10 --rays=1000000\n"
       "  dmpc bench stability --long -o stability.md\n"
-      "The last line says what was tried, what failed, the worst and where.\n"
-      "Exit status 1 says that our grid failed, or that a case tried nothing; what Embree does is shown, not judged.");
+      "The last line summarizes what was tried, what failed, the worst case and where it is.\n"
+      "The exit status is 1 if our grid failed, or if a case tried nothing; Embree's results are shown, but not judged.");
   set.check_in_the_end([set, &options] {
     if (int{set.is_given("--rays")} + int{options.quick} + int{options.is_long} > 1) {
       throw core::UsageError("--rays, --quick, --long: expected one of them");
