@@ -56,7 +56,7 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
   if (program.is_modelled()) {
     refuse("--chaos", "chaos disturbs threads only");
   } else {
-    const std::string reason = program.runner == RunnerKind::mpi ? "what ranks run on is no model" : "threads model no machine";
+    const std::string reason = program.runner == RunnerKind::mpi ? "ranks run on a real machine" : "threads model no machine";
     refuse("--machine", reason);
     refuse("--topology", reason);
   }

@@ -113,7 +113,7 @@ std::string grid_text(const DatabaseFigures& database) {
 
 std::string process_text(const InfoRecord& record) {
   return bytes_text(record.build_peak_bytes) +
-         " held until the database was built; a render holds more than this, and more than its nodes take";
+         " used until the database was built; a render uses more than this, and more than its nodes take";
 }
 
 /// With the computers that a render would refuse.
@@ -189,21 +189,21 @@ Table memory_table(const Forecast& forecast) {
   }
   Table table("Memory", columns);
   table.add_note(
-      "least: a node's; with less --node-memory all nodes together are too small for the scene, and render refuses it");
-  table.add_note("all: what all nodes and the host take together where nothing is said about memory");
+      "least: of a node; with less --node-memory all nodes together are too small for the scene, and render refuses it");
+  table.add_note("all: of all nodes and the host together, if no option sets their memory");
   table.add_note(
-      "both by the default options of a render on threads: larger caches, batches and queues, chaos, counted pages and --resume "
-      "take more");
+      "both with the default options of a render on threads: larger caches, batches and queues, chaos, counted pages and "
+      "--resume take more");
   table.add_note(
-      "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
+      "copies: of a primitive with dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.cuts == dataflow::CutOrder::longer_axis ? "" : " --cuts=" + std::string(name_of(forecast.cuts))) +
       (forecast.regions_a_node > 1 ? " --regions=" + std::to_string(forecast.regions_a_node) : "") +
       (forecast.balance == dataflow::Balance::equal_size
-           ? "; those of render's own choice may need several times as much: --balance=subsampled tells"
+           ? "; those that render chooses may need several times as much: --balance=subsampled shows it"
            : ""));
   if (are_at_host(forecast.homes)) {
     table.add_note("svm: with --homes=" + std::string(name_of(forecast.homes)) +
-                   ": the host has the pages, and its memory \"all\" counts, too");
+                   ": the host has the pages, and \"all\" includes its memory");
   }
   for (const ComputerForecast& computer : forecast.computers) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};

@@ -45,8 +45,8 @@ int complain_of_bug(const std::exception& error) {
   }
   if (is_lack_of_threads(error)) {
     return complain(
-        "building and reading take a thread for each processor, and this computer lets dmpc start no further one: ask for "
-        "a higher limit (ulimit -u, pids.max of a container)",
+        "building and reading take a thread for each processor, and this computer does not let dmpc start another: ask for a "
+        "higher limit (ulimit -u, pids.max of a container)",
         no_capacity_status);
   }
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);

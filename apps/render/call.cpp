@@ -39,11 +39,11 @@ void RenderCall::report_once(const std::vector<std::string>& notes) {
 void RenderCall::set_consequence() {
   const bool are_frames = asked.frames.are_several();
   if (checkpoints && checkpoints->has_one()) {
-    interrupt.set_consequence(are_frames
-                                  ? "this frame was not written, those before it were; --resume goes on from the checkpoint"
-                                  : "no picture was written; --resume goes on from the checkpoint");
+    interrupt.set_consequence(
+        are_frames ? "this frame was not written, the frames before it were; --resume continues from the checkpoint"
+                   : "no picture was written; --resume continues from the checkpoint");
   } else if (are_frames) {
-    interrupt.set_consequence("this frame was not written, those before it were; --resume leaves them out");
+    interrupt.set_consequence("this frame was not written, the frames before it were; --resume skips them");
   } else if (checkpoints) {
     interrupt.set_consequence("no picture was written");
   }

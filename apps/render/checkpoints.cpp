@@ -23,7 +23,7 @@ bool is_there(const fs::path& file) {
   std::error_code error;
   const bool is_found = fs::exists(file, error);
   if (error) {
-    throw core::InputError("--checkpoint " + file.string() + ": cannot be looked at: " + error.message());
+    throw core::InputError("--checkpoint " + file.string() + ": cannot be examined: " + error.message());
   }
   return is_found;
 }
@@ -101,15 +101,15 @@ std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options) {
   }
   const std::string what = "--checkpoint " + options.file->string() + ": ";
   if (is_special(*options.file) && !fs::is_directory(*options.file)) {
-    throw core::InputError(what + "this is a pipe or device, from which nothing can be resumed");
+    throw core::InputError(what + "this is a pipe or device, from which no render can be resumed");
   }
   check_output_path(*options.file, "--checkpoint");
   std::optional<FileLock> lock = FileLock::try_lock(hidden_name(file_behind(*options.file), "lock"));
   if (!lock) {
-    throw core::InputError(what + "another dmpc keeps its checkpoint there");
+    throw core::InputError(what + "another dmpc writes its checkpoint there");
   }
   if (is_there(*options.file) && !options.resumes) {
-    throw core::InputError(what + "this file is there already: --resume goes on from it, or remove it to start again");
+    throw core::InputError(what + "this file exists already: continue from it with --resume, or remove it to start again");
   }
   return lock;
 }

@@ -22,9 +22,10 @@ namespace {
 /// For those who look on.
 std::string last_words(const RenderCall& call, bool is_well) {
   if (call.asked.frames.are_several()) {
-    return is_well ? "All frames are done." : "A frame is not written whole, and no further one is made: dmpc has said why.";
+    return is_well ? "All frames are done."
+                   : "A frame was not written completely, and no further frame is rendered: see the messages of dmpc.";
   }
-  return is_well ? "The picture is done." : "The picture is done, but not all was well: dmpc has said what.";
+  return is_well ? "The picture is done." : "The picture is done, but there were errors: see the messages of dmpc.";
 }
 
 /// On a terminal those who look on have the page until a signal comes, in a script until they have got it.
@@ -34,7 +35,7 @@ void stay(RenderCall& call, LiveEnd end) {
   }
   call.live->end(std::move(end), call.interrupt.token());
   if (const std::string complaint = call.live->complaint(); !complaint.empty()) {
-    std::cerr << "dmpc: who looked on was told nothing any more: " << complaint << '\n';
+    std::cerr << "dmpc: the page received no further updates: " << complaint << '\n';
   }
   if (stderr_is_terminal()) {
     std::cerr << "dmpc: the page stays at " << call.live->address() << " until Ctrl-C\n";
@@ -121,7 +122,7 @@ int render_over(nodes::Fabric& fabric, const RenderOptions& options, Interrupt& 
   check_nodes_on_ranks(options, fabric.rank_count());
   const auto lead = [&](nodes::RankLinks& links) {
     if (links.rank_count() == 1 && !options.quiet) {
-      std::cerr << "dmpc: --runner=mpi: this is the only process, so that all nodes are in it\n";
+      std::cerr << "dmpc: --runner=mpi: this is the only process, so it has all nodes\n";
     }
     RenderOptions here = options;
     here.computer.ranks = &links;

@@ -29,7 +29,7 @@ void check_names(const RenderOptions& asked) {
   visit_names(asked, [&asked](const std::string& option, const fs::path& path) {
     if (!FrameName::in(path, option) && asked.frames.are_several()) {
       throw core::UsageError(option + "=" + path.string() +
-                             ": of several frames expected a place for the frame's number in the file's name, such as in "
+                             ": for several frames expected a placeholder for the frame's number in the file's name, such as "
                              "out.####.png or out.%04d.png");
     }
   });
@@ -85,7 +85,7 @@ DueFrames::DueFrames(const RenderOptions& asked) : asked_(asked) {
   if (!there_.empty() && !asked.checkpoint.resumes) {
     throw core::InputError("-o " + options_of(asked, *there_.begin()).image.string() + ": the picture of this frame" +
                            (there_.size() == 1 ? " is" : ", and of " + grouped(there_.size() - 1) + " more, is") +
-                           " there already: --resume leaves out what is there, or remove it, or give another name");
+                           " there already: skip what is there with --resume, remove it, or give another name");
   }
 }
 
@@ -119,7 +119,8 @@ bool DueFrames::is_there_by_now(std::uint64_t number) const {
   std::error_code error;
   const bool is_there = picture != asked_.image && fs::exists(picture, error);
   if (is_there && !asked_.checkpoint.resumes) {
-    throw core::InputError("-o " + picture.string() + ": the picture of this frame has come there meanwhile: --resume goes on " +
+    throw core::InputError("-o " + picture.string() +
+                           ": the picture of this frame has been written meanwhile: --resume continues " +
                            "with those that are missing");
   }
   return is_there;
@@ -139,7 +140,7 @@ std::string DueFrames::disk_note(std::uint64_t pixel_count) const {
   }
   return "pictures of " + counted(frame_count, "frame") + " take up to " + bytes_text(picture_bytes) + " each, " +
          rounded(static_cast<double>(frame_count) * static_cast<double>(picture_bytes) / 0x1p30) + " GiB in all, and " +
-         bytes_text(space.available) + " are free where they go";
+         bytes_text(space.available) + " are free in their folder";
 }
 
 }  // namespace dmpc::apps

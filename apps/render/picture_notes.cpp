@@ -17,19 +17,19 @@ constexpr double steps_min = 256;
 
 std::string cut_note(const core::Film& film, const core::FilmRange& range) {
   return grouped(range.pixels_cut) + " of " + counted(film.pixel_count(), "pixel") +
-         " are brighter than the film can hold and were cut, from a radiance of " + rounded(range.cut_from) +
-         " on, so that their colours are wrong, too: lights that shine by a power of two less keep all other bits";
+         " are brighter than the film can hold and were clipped, from a radiance of " + rounded(range.cut_from) +
+         " on, so that their colours are wrong, too: lights that are weaker by a power of two keep all other bits";
 }
 
 std::string dark_note(const core::Film& film, const core::FilmRange& range) {
   return "no pixel is brighter than " + rounded(range.brightest) + ", and the film counts light in steps of " +
          rounded(film.step()) + ", so that pixels are off by " + percent_text(50 * film.step() / range.brightest) +
-         " and more: something else in the scene is far brighter, lights or materials that nothing shows";
+         " and more: something else in the scene is far brighter, lights or materials that are not visible";
 }
 
 std::string black_note(const core::Film& film, std::uint64_t lit) {
   return "the picture is black, though " + counted(lit, "shadow ray") +
-         " reached a light: what each of them brought is less than half of the film's steps of " + rounded(film.step());
+         " reached a light: each contributed less than half of the film's steps of " + rounded(film.step());
 }
 
 std::string rounded_text(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
@@ -70,7 +70,7 @@ std::string unseen_note(const core::Box& bounds, const UpAxis& up) {
   core::expect(!bounds.empty(), "a scene that may be seen has bounds");
   const core::View view = whole_view(sphere_around(bounds), up);
   return "the camera sees nothing of the scene, which lies between " + rounded_text(bounds.low) + " and " +
-         rounded_text(bounds.high) + ": the whole of it is in view by --camera=" + text_of(camera_of(view));
+         rounded_text(bounds.high) + ": to see the whole scene use --camera=" + text_of(camera_of(view));
 }
 
 }  // namespace dmpc::apps

@@ -72,9 +72,9 @@ double write_film(const RenderCall& call, const RenderOptions& options, const co
   Stopwatch stopwatch;
   OutputFile picture(options.image, {.option = "-o"}, call.files);
   picture.write(encoded_picture(options.image, rows_for(options, film)));
-  call.interrupt.set_consequence("perhaps the picture was not written");
+  call.interrupt.set_consequence("the picture may not have been written");
   picture.commit();
-  call.interrupt.set_consequence("the picture was written, what follows it is incomplete");
+  call.interrupt.set_consequence("the picture was written, the other outputs are incomplete");
   return stopwatch.lap();
 }
 
@@ -100,7 +100,7 @@ void end_checkpoint(RenderCall& call, bool is_written, Attempts& attempts) {
   if (call.checkpoints && is_written) {
     attempts.make([&] { call.checkpoints->finish(); });
   } else if (call.checkpoints && call.checkpoints->has_one()) {
-    std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
+    std::cerr << "dmpc: the checkpoint is kept; --resume continues from it\n";
   }
 }
 

@@ -34,14 +34,14 @@ void check(const OptionSet& options, FrameOptions& frames) {
   }
   if (frames.range && !moves) {
     throw UsageError(
-        "--frames: expected --turntable=DEGREES or --camera-path=FILE, too, by which the camera moves, or --animation, which "
-        "moves what the scene's file says");
+        "--frames: expected also --turntable=DEGREES or --camera-path=FILE, which move the camera, or --animation, which plays "
+        "the animation of the scene's file");
   }
   if (moves && !frames.range) {
     throw UsageError(std::string(frames.camera_path         ? "--camera-path"
                                  : frames.turntable_degrees ? "--turntable"
                                                             : "--animation") +
-                     " goes with --frames, which says how many there are");
+                     " goes with --frames, which sets how many there are");
   }
   if (options.is_given("--fps") && !frames.animation) {
     throw UsageError("--fps goes with --animation: nothing else takes time from frame to frame");

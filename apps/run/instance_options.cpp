@@ -15,23 +15,23 @@ struct Hindrance {
 
 std::optional<Hindrance> hindrance_of(const OptionSet& options, const RayTracers& tracers, const core::BuildOptions& build) {
   if (tracers.tested_objects > 0) {
-    return Hindrance{"--tested-objects", "a list names blocks, and one of a mesh that is kept stands in many places"};
+    return Hindrance{"--tested-objects", "a list names leaves, and a leaf of a base mesh occurs in many instances"};
   }
   if (tracers.tracer == TracerChoice::embree) {
-    return Hindrance{"--tracer=embree", "Embree has a copy in each place"};
+    return Hindrance{"--tracer=embree", "Embree has a copy for each instance"};
   }
   const bool is_open = !options.is_given("--structure") && !tracers.system;
   if (!is_open && build.structure != core::Structure::extents) {
     return Hindrance{
         tracers.system ? std::string("--system=") + name_of(*tracers.system)
                        : std::string("--structure=") + name_of(build.structure),
-        std::string("meshes that are kept are trees of boxes below one of all") +
+        std::string("base meshes are trees of boxes below one tree of all") +
             (tracers.system ? ", as svm-extents, replicated-extents, pixel-machine, forest and forest-static have them, and "
                               "--strategy=dataflow without --system"
                             : "")};
   }
   if (build.record_order != core::RecordOrder::spatial) {
-    return Hindrance{"--record-order=scattered", "a mesh that is kept lies in one piece"};
+    return Hindrance{"--record-order=scattered", "a base mesh is stored in one piece"};
   }
   return std::nullopt;
 }
@@ -54,7 +54,7 @@ void settle_instances(const OptionSet& options, const RayTracers& tracers, Datab
   const auto hindrance = hindrance_of(options, tracers, database.build);
   if (hindrance && database.instances == InstancesChoice::keep) {
     throw core::UsageError("--instances=keep does not go with " + hindrance->option + ": " + hindrance->reason +
-                           "; --instances=expand has a copy in each place");
+                           "; --instances=expand makes a copy for each instance");
   }
   if (hindrance) {
     database.why_copied = hindrance->option;

@@ -72,7 +72,9 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
 
 void check_tracer(const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
-    throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
+    throw UsageError(
+        "--tracer=embree needs --strategy=replicated: Embree needs the whole scene, and nodes of other strategies hold parts of "
+        "it");
   }
 }
 
@@ -88,18 +90,18 @@ constexpr Conflict conflicts[] = {
     {"--pool-threads", RunnerKind::threads, "each node has a thread of its own"},
     {"--machine", RunnerKind::pool, "threads model no machine"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
-    {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
-    {"--machine", RunnerKind::mpi, "what ranks run on is no model"},
+    {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole run"},
+    {"--machine", RunnerKind::mpi, "ranks run on a real machine"},
     {"--pool-threads", RunnerKind::virtual_time, "a model has no threads"},
 };
 
 void check_tracer_and_runner(const RenderOptions& render) {
   const RunnerKind runner = render.runner.kind;
   if (render.tracer == TracerChoice::embree && runner == RunnerKind::virtual_time) {
-    throw UsageError("--tracer=embree does not go with --runner=virtual: nobody knows what Embree's operations would cost");
+    throw UsageError("--tracer=embree does not go with --runner=virtual: the cost of Embree's operations is not known");
   }
   if (render.tracer == TracerChoice::embree && runner == RunnerKind::mpi) {
-    throw UsageError("--tracer=embree does not go with --runner=mpi: Embree sees the whole scene, which one process alone has");
+    throw UsageError("--tracer=embree does not go with --runner=mpi: Embree needs the whole scene, which only one process has");
   }
 }
 
@@ -118,7 +120,7 @@ void check_references(const RenderOptions& render) {
                      ": a node that counts the pages of each pixel does not note their order");
   }
   if (render.checkpoint.resumes) {
-    throw UsageError("--resume does not go with --references: those of what was done before would be missing");
+    throw UsageError("--resume does not go with --references: those of the part that was rendered before would be missing");
   }
 }
 
@@ -157,10 +159,10 @@ void check(const OptionSet& options, const RenderOptions& render) {
     throw UsageError("--serve=" + render.serve_port + ": expected a port from 0 (any that is free) to 65,535, such as 8080");
   }
   if (!render.serve_port.empty() && render.pages.bundles_on_machines) {
-    throw UsageError("--bundles does not go with --serve, which looks on pixel by pixel: there rays walk alone");
+    throw UsageError("--bundles does not go with --serve, which observes each pixel: rays are then traced one by one");
   }
   if (render.checkpoint.resumes && !render.heat_maps.empty()) {
-    throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");
+    throw UsageError("--resume does not go with --heatmap: the part that was rendered before would be missing");
   }
 }
 

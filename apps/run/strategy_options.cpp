@@ -72,7 +72,7 @@ void check_regions(const OptionSet& options, const dataflow::BalanceOptions& bal
     throw core::UsageError("--regions goes with --balance=scattered or moving: else a node has one region");
   }
   if (balance.balance == Balance::moving && balance.regions_a_node < 2) {
-    throw core::UsageError("--balance=moving needs --regions=K, from 2 units a node on, such as 16");
+    throw core::UsageError("--balance=moving needs --regions=K, at least 2 units per node, such as 16");
   }
   if (options.is_given("--cuts") && balance.balance == Balance::scattered) {
     throw core::UsageError("--cuts does not go with --balance=scattered: a lattice is not cut box by box");

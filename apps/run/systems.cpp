@@ -22,10 +22,9 @@ constexpr std::array<SystemDescription, 13> descriptions = {{
     {System::svm_extents, "svm-extents", "the same with one tree of boxes for the scene, a page each for its subtrees", boxes,
      "nobody described it"},
     {System::svm_resident, "svm-resident",
-     "as svm, with what helps green-paddon: the host assigns all work, and half of what a node keeps is what a small picture "
-     "uses "
-     "most",
-     boxes, "nobody described it: what green-paddon has, beside which it stands"},
+     "as svm, with the advantages of green-paddon: the host assigns all work, and half of the pages that a node keeps are those "
+     "that a small picture uses most",
+     boxes, "not described: that of green-paddon, with which it is compared"},
     {System::pixel_machine, "pixel-machine",
      "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
      "come from the host, where the article of 1994 says that virtual memory was",
@@ -36,9 +35,8 @@ constexpr std::array<SystemDescription, 13> descriptions = {{
      "half of what a node keeps is what a small picture uses most; the top of their octree, which every node had, is paged, too",
      boxes, "an octree, to which of ours a tree of boxes is nearest"},
     {System::forest, "forest",
-     "after Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked; idle nodes get pixels "
-     "of "
-     "busy ones, which they did not",
+     "after Goldsmith and Salmon (1988): every node has the top of one tree and queries the owners of subtrees; idle nodes get "
+     "pixels of busy ones, which the original did not do",
      boxes, "a tree of bounding volumes"},
     {System::forest_static, "forest-static",
      "after Goldsmith and Salmon (1988): the same, but each node has every m-th pixel of every n-th line for good", boxes,

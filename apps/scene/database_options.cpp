@@ -53,7 +53,7 @@ std::string text_of(const core::VoxelRule& rule) { return rule == core::article_
 void check_voxels(const OptionSet& options, const core::BuildOptions& build) {
   if (options.is_given("--voxels") && build.structure != core::Structure::voxels) {
     throw core::UsageError(std::string("--voxels does not go with --structure=") + name_of(build.structure) +
-                           ": only --structure=voxels has any");
+                           ": only --structure=voxels has voxels");
   }
 }
 

@@ -51,9 +51,9 @@ bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
 /// Of a scene that is not lit, and may have a sky of its own.
 std::string dark_text(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (has_what_shines(scene)) {
-    return "no light is in it but what shines by itself, which lights other things by --transport=paths alone";
+    return "its only lights are emissive surfaces, which light other things with --transport=paths only";
   }
-  return std::string("no light is in it: what reflects none is black; --light=X,Y,Z adds one") +
+  return std::string("it has no light: what reflects none is black; --light=X,Y,Z adds one") +
          (transport.is_by_paths() ? ", --sky=1 a sky"
           : has_sky               ? ", --transport=paths the sky that its file may have"
                                   : "");
@@ -62,7 +62,7 @@ std::string dark_text(const core::Scene& scene, const TransportOptions& transpor
 /// Warns of pictures that are black, or nothing but background, because the scene is.
 void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (object_count(scene) == 0) {
-    say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
+    say_once({scene.name + ": the scene is empty: the picture shows the background only"});
   } else if (!is_lit(scene, transport)) {
     say_once({scene.name + ": " + dark_text(scene, transport, has_sky)});
   }
@@ -88,9 +88,10 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
 
 /// Of lights that --light-radius leaves as they are.
 std::string points_text(std::uint64_t count) {
-  return count == 0 ? ""
-                    : counted(count, "light") + (count == 1 ? " stays a point" : " stay points") +
-                          ": as spheres of --light-radius they would be around the eye, or too small or too far away to show";
+  return count == 0
+             ? ""
+             : counted(count, "light") + (count == 1 ? " stays a point" : " stay points") +
+                   ": as spheres of --light-radius they would contain the camera, or be too small or too far away to be seen";
 }
 
 /// Of bounces that the file says, where nobody asks for others.
@@ -98,13 +99,13 @@ std::string bounces_text(const core::Scene& scene, const PictureOptions& picture
   const int bounces = depth_of(picture, scene) - 1;
   return bounces == picture.depth - 1 || !scene.bounces
              ? ""
-             : "the scene's file says how often light goes on: " + counted(static_cast<std::uint64_t>(bounces), "bounce") +
-                   "; --bounces=" + std::to_string(picture.transport.bounces) + " takes as many as other scenes have";
+             : "the scene's file sets the number of bounces: " + counted(static_cast<std::uint64_t>(bounces), "bounce") +
+                   "; --bounces=" + std::to_string(picture.transport.bounces) + " sets the default of other scenes";
 }
 
-constexpr const char* one_path_note = "one path a pixel shows mostly noise, which falls with more, such as --samples=256";
+constexpr const char* one_path_note = "one path per pixel gives mostly noise; more of them reduce it, such as --samples=256";
 
-constexpr const char* no_points_note = "--light-radius changes nothing: no point light is in the scene";
+constexpr const char* no_points_note = "--light-radius has no effect: there is no point light in the scene";
 
 /// What is to be done about a file that no reader reads.
 std::string advice_on(const std::string& path, const std::string& ending) {
@@ -112,7 +113,7 @@ std::string advice_on(const std::string& path, const std::string& ending) {
   constexpr std::array foreign{".wrl",  ".vrml", ".x3dv", ".blend", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".3dm", ".dxf",
                                ".step", ".stp",  ".iges", ".igs",   ".max", ".c4d",  ".ma",   ".mb",   ".skp", ".b3d", ".dwg"};
   const auto is_in = [&](const auto& endings) { return std::find(endings.begin(), endings.end(), ending) != endings.end(); };
-  return is_in(packed)    ? ": unpack " + path + " first, and take what is in it"
+  return is_in(packed)    ? ": unpack " + path + " first, and render what is in it"
          : is_in(foreign) ? ": convert " + path + " to glTF, OBJ, PLY, STL or OFF"
                           : "";
 }

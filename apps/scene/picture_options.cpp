@@ -93,7 +93,7 @@ void refine_paths(PictureOptions& picture) {
     picture.samples = core::first_refined_samples(core::ErrorKind::noise);
     if (picture.refinement.samples_max < least) {
       throw core::UsageError("--samples-max=" + std::to_string(picture.refinement.samples_max) + ": by paths expected at least " +
-                             std::to_string(least) + ", from which an error of noise is told; or say --transport=whitted");
+                             std::to_string(least) + ", from which the error can be estimated; or give --transport=whitted");
     }
   }
 }
@@ -105,8 +105,8 @@ void check_presented(const OptionSet& options, const PictureOptions& picture) {
     return;
   }
   if (const char* const said = light_said(options)) {
-    throw core::UsageError(std::string("--sky goes with --transport=paths, which a mesh has by itself only where ") + said +
-                           " is not given: say --transport=paths, too");
+    throw core::UsageError(std::string("--sky goes with --transport=paths, which is the default of a mesh only if ") + said +
+                           " is not given: give --transport=paths, too");
   }
 }
 

@@ -42,7 +42,7 @@ void check_light(const Image& image) {
   const std::string value = std::isnan(*fault) ? "not a number" : std::isinf(*fault) ? "infinite" : shortest(double{*fault});
   throw core::InputError(place_text(image, place) + " has " + channels[place % 3] + " that is " + value +
                          (count > 1 ? ", one of " + counted(count, "such number") : "") +
-                         "; expected light from 0 to 1e30: write the picture anew with such numbers replaced, black by 0");
+                         "; expected light from 0 to 1e30: write the picture again with such numbers replaced, black by 0");
 }
 
 void check_shape(const Image& image) {

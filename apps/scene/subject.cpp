@@ -153,13 +153,12 @@ std::string loss_text(const core::RoundingLoss& loss) {
 
 std::string crowd_text(std::uint8_t one_child_from) {
   const std::string depth = std::to_string(one_child_from), before = std::to_string(one_child_from - 1);
-  return one_child_from == 0
-             ? ""
-             : "glass that mirrors, too, has a sample shoot more than " + grouped(core::crowd_rays) + " rays: from depth " +
-                   depth +
-                   " on each hit sends one of its two, chosen by chance, so that the picture is right on average and "
-                   "noisy where such rays count; with --depth=" +
-                   before + " none is chosen";
+  return one_child_from == 0 ? ""
+                             : "glass that mirrors, too, makes a sample trace more than " + grouped(core::crowd_rays) +
+                                   " rays: from depth " + depth +
+                                   " on each hit traces one of its two, chosen at random, so that the picture is right on "
+                                   "average and noisy where such rays count; with --depth=" +
+                                   before + " none is chosen";
 }
 
 std::string duplicates_text(std::uint64_t count) {

@@ -20,8 +20,8 @@ using core::UsageError;
 /// One fewer than below other skies.
 constexpr int bounces_below_picture_max = 253;
 constexpr const char* beside_sky =
-    " does not go with --sky, nor with the sky below which a mesh is shown that nothing else lights, since a sky is what no ray "
-    "meets: say --sky alone, or --transport=whitted";
+    " does not go with --sky, nor with the default sky of a mesh without other light, since a sky is the background: give --sky "
+    "alone, or --transport=whitted";
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
@@ -40,15 +40,16 @@ void refuse_each(const OptionSet& options, std::initializer_list<const char*> na
 void check_paths(const OptionSet& options, const TransportOptions& transport) {
   const std::string by_paths = options.is_given("--transport")
                                    ? " does not go with --transport=paths: "
-                                   : " does not go with paths, by which a mesh is shown unless --transport=whitted is given: ";
-  refuse_each(options, {"--depth"}, by_paths + "say --bounces");
-  refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
-  refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
+                                   : " does not go with paths, the default of a mesh unless --transport=whitted is given: ";
+  refuse_each(options, {"--depth"}, by_paths + "use --bounces");
+  refuse_each(options, {"--cutoff"},
+              by_paths + "paths that contribute little are ended by Russian roulette, which loses no light");
+  refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, use --sky");
   if (transport.sky) {
     refuse_each(options, {"--background"}, beside_sky);
     if (transport.sky->is_picture() && transport.bounces > bounces_below_picture_max) {
-      throw UsageError("--bounces=" + std::to_string(transport.bounces) + ": with a picture for a sky expected at most " +
-                       std::to_string(bounces_below_picture_max) + ", as the last look at it takes a ray that is one deeper");
+      throw UsageError("--bounces=" + std::to_string(transport.bounces) + ": with an environment map expected at most " +
+                       std::to_string(bounces_below_picture_max) + ", as the last ray to it is one deeper");
     }
   }
 }
@@ -164,17 +165,18 @@ std::string emitters_text(const EmitterCounts& counts, const TransportOptions& o
     return "";
   }
   const auto shine = [](std::uint64_t count) { return counted(count, "primitive") + (count == 1 ? " shines" : " shine"); };
-  const std::string others = counts.others == 0
-                                 ? ""
-                                 : shine(counts.others) + " and " + (counts.others == 1 ? "is" : "are") +
-                                       " met by chance alone, which is noisy: " +
-                                       (counts.emitters == options.emitters
-                                            ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
-                                            : "cones, what is a millionth as strong as others, and what alpha leaves a part of");
-  const std::string covered = counts.covered == 0 ? ""
-                                                  : shine(counts.covered) +
-                                                        " in the plane of faces that show before: what these leave of that, if "
-                                                        "anything, is met by chance alone";
+  const std::string others =
+      counts.others == 0 ? ""
+                         : shine(counts.others) + " and " + (counts.others == 1 ? "is" : "are") +
+                               " found by BSDF sampling alone, which is noisy: " +
+                               (counts.emitters == options.emitters
+                                    ? "--emitters=" + std::to_string(options.emitters) + " samples no more"
+                                    : "cones, emitters a millionth as strong as others, and those that alpha partly removes");
+  const std::string covered =
+      counts.covered == 0
+          ? ""
+          : shine(counts.covered) +
+                " in the plane of faces that show before: what these leave of that, if anything, is found by BSDF sampling alone";
   return others + (others.empty() || covered.empty() ? "" : "; ") + covered;
 }
 
@@ -187,7 +189,7 @@ std::string gain_text(const std::vector<core::Material>& materials, const Transp
   }
   return count == 0 || !options.is_by_paths()
              ? ""
-             : counted(count, "material") + (count == 1 ? " sends" : " send") + " on more light than comes, up to " +
+             : counted(count, "material") + (count == 1 ? " sends" : " send") + " on more light than arrives, up to " +
                    rounded(most) + " times as much: with many bounces the picture is brighter than it can be";
 }
 

@@ -116,8 +116,7 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
   const core::RefinementResult& result = account.refinement;
   return "samples  " + fixed(mean, 2) + " a pixel, in " + std::to_string(result.passes) +
          (result.passes == 1 ? " pass" : " passes") + "; estimated error " + fixed(255 * result.error, 3) + "/255" +
-         (result.error > options.picture.refinement.error ? ", more than was asked for: no pixel may have more samples" : "") +
-         "\n";
+         (result.error > options.picture.refinement.error ? ", more than requested: no pixel may have more samples" : "") + "\n";
 }
 
 /// Behind the picture's name: how light got about, if not as by default, and samples that nobody asked for.

@@ -63,7 +63,7 @@ std::string text_of(const Compatibility& compatibility) {
 void expect_alike(std::span<const std::string> texts, std::span<const std::string> names) {
   for (std::size_t rank = 1; rank < texts.size(); ++rank) {
     if (texts[rank] != texts[0]) {
-      throw core::InputError("the ranks are not alike, so no one result would come of them: " + names[rank] + " has " +
+      throw core::InputError("the ranks are not compatible, so they cannot compute one result: " + names[rank] + " has " +
                              first_difference(texts[rank], texts[0]) + ", " + names[0] + " has " +
                              first_difference(texts[0], texts[rank]) + ": start the same on all of them");
     }

@@ -36,7 +36,7 @@ bool finish(std::chrono::milliseconds timeout) {
 
 std::string advice_on_srun(const std::string& mpi) {
   return "start it by srun --mpi=" + std::string(mpi.starts_with("MPICH") ? "pmi2" : "pmix") +
-         " (srun --mpi=list says what there is)";
+         " (srun --mpi=list lists the choices)";
 }
 
 /// A launcher of another MPI, or without one, starts processes that know nothing of each other: each knows but `rank_count`.
@@ -114,7 +114,7 @@ int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& ru
     RankGroup group(library, start.own);
     const int status = run(group);
     if (!finish(timeout_at_the_end)) {
-      throw nodes::LostRank("not all ranks have come to the end");
+      throw nodes::LostRank("not all ranks have finished");
     }
     if (status != 0 && !says_errors) {
       leave_time_to_say_it();

@@ -54,7 +54,7 @@ TEST_CASE("light of 10^-10 and of 10^12 is in the picture, without a word, by ev
 
 TEST_CASE("light that a bound did not tell of is cut with a word, and light far below all other is said") {
   const Wall bright("2e9");
-  CHECK(contains(bright.render({"--samples=16"}), "64 of 64 pixels are brighter than the film can hold and were cut"));
+  CHECK(contains(bright.render({"--samples=16"}), "64 of 64 pixels are brighter than the film can hold and were clipped"));
   const Wall dim("1e-10", "l 0 0 -2 1 1 1\n");
   CHECK(contains(dim.render(), "the picture is black, though 64 shadow rays reached a light"));
 }

@@ -512,7 +512,7 @@ TEST_CASE("a signal while a render writes its counters ends with status 130, and
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   process.send(SIGINT);
   CHECK(process.status() == 130);
-  CHECK(contains(process.errors(), "the picture was written, what follows it is incomplete"));
+  CHECK(contains(process.errors(), "the picture was written, the other outputs are incomplete"));
   CHECK(apps::read_image(folder / "a.exr").width == 4);
   CHECK(folder.entry_count() == 2);
 }

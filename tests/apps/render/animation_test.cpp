@@ -283,10 +283,10 @@ TEST_CASE("what an animation cannot do is refused, and says what can be done") {
     const char* says;
   };
   const std::vector<Refusal> refusals = {
-      {{"--animation", "-o", "@a.png"}, 2, "--animation goes with --frames, which says how many there are"},
+      {{"--animation", "-o", "@a.png"}, 2, "--animation goes with --frames, which sets how many there are"},
       {{"--frames=2", "--fps=5", "--turntable=1", "-o", "@a.#.png"}, 2, "--fps goes with --animation"},
       {{"--frames=2", "--fps=0", "--animation", "-o", "@a.#.png"}, 2, "--fps=0: expected frames a second, above 0"},
-      {{"--frames=2", "-o", "@a.#.png"}, 2, "or --animation, which moves what the scene's file says"},
+      {{"--frames=2", "-o", "@a.#.png"}, 2, "or --animation, which plays the animation of the scene's file"},
       {{"--frames=2", "--animation=come", "-o", "@a.#.png"}, 1, "no animation in it is called come, expected one of go"}};
   for (const Refusal& refusal : refusals) {
     const Said said = render(folder, refusal.words);

@@ -170,7 +170,8 @@ TEST_CASE("a checkpoint that cannot be written is a warning") {
 TEST_CASE("a checkpoint that is there is not written over unasked") {
   const TemporaryFolder folder;
   write_text(folder / "a", "precious");
-  CHECK_THROWS_WITH_AS(claim_checkpoint({.file = folder / "a"}), doctest::Contains("--resume goes on from it"), core::InputError);
+  CHECK_THROWS_WITH_AS(claim_checkpoint({.file = folder / "a"}), doctest::Contains("continue from it with --resume"),
+                       core::InputError);
   CHECK(claim_checkpoint({.file = folder / "a", .resumes = true}).has_value());
   CHECK(claim_checkpoint({.file = folder / "b"}).has_value());
   CHECK_FALSE(claim_checkpoint({}).has_value());
@@ -196,7 +197,7 @@ TEST_CASE("two renders cannot have their checkpoints in one file, by whatever na
     const auto lock = claim_checkpoint({.file = folder / "a", .resumes = true});
     for (const char* const name : {"a", "link"}) {
       CHECK_THROWS_WITH_AS(claim_checkpoint({.file = folder / name, .resumes = true}),
-                           doctest::Contains("another dmpc keeps its checkpoint there"), core::InputError);
+                           doctest::Contains("another dmpc writes its checkpoint there"), core::InputError);
     }
   }
   CHECK(claim_checkpoint({.file = folder / "link", .resumes = true}).has_value());
@@ -247,7 +248,7 @@ TEST_CASE("a render that is interrupted, or whose terminal is closed, keeps a ch
     REQUIRE(waits_for_checkpoint(folder));
     process.send(signal);
     CHECK(process.status() == 130);
-    CHECK(contains(process.errors(), "interrupted, no picture was written; --resume goes on from the checkpoint"));
+    CHECK(contains(process.errors(), "interrupted, no picture was written; --resume continues from the checkpoint"));
     CHECK(folder.entry_count() == 1);
   }
 }

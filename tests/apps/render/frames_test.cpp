@@ -80,7 +80,7 @@ TEST_CASE("a frame whose picture is there is never written over: it is an error,
   const std::vector<std::string> words = {"--frames=3", "--turntable=1", "-o", "@a.##.png"};
   const Said refused = render(folder, words);
   CHECK(refused.status == 1);
-  CHECK(contains(refused.errors, "a.02.png: the picture of this frame is there already: --resume leaves out what is there"));
+  CHECK(contains(refused.errors, "a.02.png: the picture of this frame is there already: skip what is there with --resume"));
   CHECK(folder.entry_count() == 1);
   std::vector<std::string> resumed = words;
   resumed.push_back("--resume");
@@ -124,9 +124,9 @@ TEST_CASE("what frames cannot do is refused, and says what can be done") {
     return words;
   };
   const std::vector<Refusal> refusals = {
-      {{"--frames=3", "--turntable=1", "-o", "@a.png"}, "of several frames expected a place for the frame's number"},
+      {{"--frames=3", "--turntable=1", "-o", "@a.png"}, "for several frames expected a placeholder for the frame's number"},
       {{"--frames=0", "--turntable=1", "-o", "@a.#.png"}, "--frames=0: expected how many frames"},
-      {{"--frames=3", "-o", "@a.#.png"}, "expected --turntable=DEGREES or --camera-path=FILE"},
+      {{"--frames=3", "-o", "@a.#.png"}, "expected also --turntable=DEGREES or --camera-path=FILE"},
       {{"--turntable=3", "-o", "@a.png"}, "--turntable goes with --frames"},
       {{"--frames=3", "--turntable=1", "--camera-path=@p", "-o", "@a.#.png"}, "the camera moves in one way"},
       {with("--stats=@a.json"), "--stats="},
@@ -151,7 +151,7 @@ TEST_CASE("more frames than the disk holds are told beforehand, and begun") {
   CHECK(process.status() == 130);
   CHECK(contains(process.errors(), "pictures of 1,000,000,000 frames take up to"));
   const bool is_said_of_frame =
-                 contains(process.errors(), "this frame was not written, those before it were; --resume leaves them out"),
+                 contains(process.errors(), "this frame was not written, the frames before it were; --resume skips them"),
              is_said_of_picture = contains(process.errors(), "picture was ");  // the signal came while one was written
   CHECK((is_said_of_frame || is_said_of_picture));
   CHECK(fs::exists(folder / "a.2.exr"));

@@ -36,7 +36,8 @@ TEST_CASE("nothing is said of light that a film can hold, and of the dark") {
 TEST_CASE("light that was cut is said, with how many pixels and from where on") {
   const auto notes = film_notes(film_of({1e12F, 0, 0}), 7);
   REQUIRE(notes.size() == 1);
-  CHECK(contains(notes[0], "2 of 2 pixels are brighter than the film can hold and were cut, from a radiance of 2.14748e+09 on"));
+  CHECK(contains(notes[0],
+                 "2 of 2 pixels are brighter than the film can hold and were clipped, from a radiance of 2.14748e+09 on"));
 }
 
 TEST_CASE("a picture so dark that the film's steps show in it says so, and a black one that light has reached") {

@@ -53,7 +53,8 @@ TEST_CASE("an unknown ending is refused with those that are known, no ending is 
   CHECK(load_scene((folder / "plain").string()).spheres.size() == 1);
   CHECK(load_scene((folder / "a.NFF").string()).spheres.size() == 1);
   CHECK(tests::contains(scene_complaint(folder / "a.xyz"), "expected .nff or one of obj, ply, stl"));
-  CHECK(tests::contains(scene_complaint("a.obj.gz"), "files that end in .gz are not read: unpack a.obj.gz first, and take what"));
+  CHECK(
+      tests::contains(scene_complaint("a.obj.gz"), "files that end in .gz are not read: unpack a.obj.gz first, and render what"));
   CHECK(
       tests::contains(scene_complaint("a.wrl"), "files that end in .wrl are not read: convert a.wrl to glTF, OBJ, PLY, STL or"));
 }

@@ -41,7 +41,7 @@ std::string said_of(const std::string& text, const std::vector<core::PointLight>
 
 TEST_CASE("a scene without a light is said, unless a light is given") {
   const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0 1\n";
-  CHECK(tests::contains(said_of(sphere), "a.nff: no light is in it"));
+  CHECK(tests::contains(said_of(sphere), "a.nff: it has no light"));
   CHECK(said_of(sphere, {parse_light("1,2,3")}).empty());
   CHECK(said_of(nff_view + "l 1 2 3\nf 1 1 1 1 0 0 0 0\ns 0 0 0 1\n").empty());
 }
@@ -53,7 +53,7 @@ TEST_CASE("by paths a sky lights a scene") {
   paths.sky = SkyChoice{{1, 1, 1}, {}};
   CHECK(said_of(sphere, {}, paths).empty());
   paths.sky = SkyChoice{{}, {}};
-  CHECK(tests::contains(said_of(sphere, {}, paths), "a.nff: no light is in it"));
+  CHECK(tests::contains(said_of(sphere, {}, paths), "a.nff: it has no light"));
   paths.sky = SkyChoice{{}, core::Vec3d{0, 0, 1}};
   CHECK(said_of(sphere, {}, paths).empty());
 }
@@ -64,7 +64,8 @@ TEST_CASE("of a scene that has no light but what shines by itself it is said whi
                     "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\nWorldBegin\nAttributeBegin\n"
                     "AreaLightSource \"diffuse\" \"rgb L\" [4 4 4]\nShape \"sphere\"\nAttributeEnd\n");
   PictureOptions picture{.scene = folder / "a.pbrt"};
-  CHECK(tests::contains(said_of(picture), "what shines by itself, which lights other things by --transport=paths alone"));
+  CHECK(tests::contains(said_of(picture),
+                        "its only lights are emissive surfaces, which light other things with --transport=paths only"));
   picture.transport.kind = core::TransportKind::paths;
   CHECK(!tests::contains(said_of(picture), "no light"));
 }
@@ -81,13 +82,13 @@ TEST_CASE("lights that no radius makes larger are said") {
   const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0.5 1\n";
   const TransportOptions balls{.kind = core::TransportKind::paths, .light_radius = 0.1};
   CHECK(said_of(sphere, {parse_light("1,2,3")}, balls).empty());
-  CHECK(tests::contains(
-      said_of(sphere, {parse_light("1,2,3"), parse_light("1e6,0,0")}, balls),
-      "1 light stays a point: as spheres of --light-radius they would be around the eye, or too small or too far away to show"));
+  CHECK(tests::contains(said_of(sphere, {parse_light("1,2,3"), parse_light("1e6,0,0")}, balls),
+                        "1 light stays a point: as spheres of --light-radius they would contain the camera, or be too small or "
+                        "too far away to be seen"));
 }
 
 TEST_CASE("a scene with nothing in it is said") {
-  CHECK(tests::contains(said_of(nff_view + "l 1 2 3\n"), "a.nff: there is nothing in it"));
+  CHECK(tests::contains(said_of(nff_view + "l 1 2 3\n"), "a.nff: the scene is empty"));
 }
 
 }  // namespace dmpc::apps::said_test

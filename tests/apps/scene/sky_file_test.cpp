@@ -112,7 +112,7 @@ TEST_CASE("numbers that are no light are told with file, pixel, channel and valu
   const std::string complaint = File("a.exr", 8, 4, two).complaint();
   CHECK(contains(complaint, "--sky="));
   CHECK(contains(complaint, "one of 2 such numbers"));
-  CHECK(contains(complaint, "write the picture anew"));
+  CHECK(contains(complaint, "write the picture again"));
 }
 
 TEST_CASE("what is no file, or no picture, is an error that names the option") {

@@ -59,17 +59,18 @@ TEST_CASE("what shines and is met by chance alone is told of, with why") {
   CHECK(emitters_text({7, 0, 0}, paths).empty());
   CHECK(emitters_text({0, 3, 1}, {}).empty());
   CHECK(contains(emitters_text({100, 3, 0}, paths),
-                 "3 primitives shine and are met by chance alone, which is noisy: --emitters=100"));
-  CHECK(contains(emitters_text({7, 1, 0}, paths), "1 primitive shines and is met by chance alone, which is noisy: cones"));
+                 "3 primitives shine and are found by BSDF sampling alone, which is noisy: --emitters=100"));
   CHECK(
-      emitters_text({7, 0, 2}, paths) ==
-      "2 primitives shine in the plane of faces that show before: what these leave of that, if anything, is met by chance alone");
+      contains(emitters_text({7, 1, 0}, paths), "1 primitive shines and is found by BSDF sampling alone, which is noisy: cones"));
+  CHECK(emitters_text({7, 0, 2}, paths) ==
+        "2 primitives shine in the plane of faces that show before: what these leave of that, if anything, is found by BSDF "
+        "sampling alone");
 }
 
 TEST_CASE("materials that give more light than they get are told of, where something scatters it") {
   const TransportOptions paths{.kind = core::TransportKind::paths};
   const std::vector<core::Material> materials{{.color = {1, 1, 1}, .diffuse = 0.75, .specular = 0.5}, {.color = {1, 1, 1}}};
-  CHECK(contains(gain_text(materials, paths), "1 material sends on more light than comes, up to 1.25 times as much"));
+  CHECK(contains(gain_text(materials, paths), "1 material sends on more light than arrives, up to 1.25 times as much"));
   CHECK(gain_text(materials, {}).empty());
   CHECK(gain_text({{.color = {1, 1, 1}}, {.color = {0.5, 0.5, 0.5}, .specular = 0.5}}, paths).empty());
 }

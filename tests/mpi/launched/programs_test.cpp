@@ -219,7 +219,7 @@ TEST_CASE("what does not go with ranks is refused") {
   for (const std::string option : {"--machine=hdr", "--topology=mesh"}) {
     const Said ended = on_ranks(2, "requester", {option});
     CHECK(ended.status == 2);
-    CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: what ranks run on is no model"), ended.errors);
+    CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: ranks run on a real machine"), ended.errors);
   }
 }
 

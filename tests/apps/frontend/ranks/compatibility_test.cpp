@@ -40,7 +40,7 @@ TEST_CASE("ranks that are alike, or one alone, are let pass") {
 
 TEST_CASE("the first that differs is named with its host, what it has, and what rank 0 has") {
   CHECK(complaint_of({usual, usual, {{"version of dmpc", "0.1.0"}, {"byte order", "big"}}}) ==
-        "the ranks are not alike, so no one result would come of them: rank 2 on host c has byte order big, rank 0 on host a "
+        "the ranks are not compatible, so they cannot compute one result: rank 2 on host c has byte order big, rank 0 on host a "
         "has byte order little: start the same on all of them");
   CHECK(complaint_of({usual, {{"version of dmpc", "0.2.0"}, {"byte order", "big"}}, usual})
             .find("rank 1 on host b has version of dmpc 0.2.0, rank 0 on host a has version of dmpc 0.1.0:") !=
