@@ -146,7 +146,7 @@ void check(const PlanRequest& request) {
   const std::uint32_t tested = request.rays.tested_objects;
   check_use(tested <= tested_objects_max, tested_field, "=", tested, ": at most ", tested_objects_max, " names");
   check_use(tested == 0 || !request.has_instances, tested_field, "=", tested,
-            ": a block of a base mesh stands in many places, and a list would name it once for all of them");
+            ": a leaf of a base mesh occurs in many instances, and a list would name it once for all of them");
   const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
   core::Sentence batches(batch_field, "=", batch, ": from 1 to ", batch_max, " rays");
   if (tested > 0) {
@@ -158,7 +158,7 @@ void check(const PlanRequest& request) {
   const std::uint32_t slots = request.rays.ray_slots.value_or(1);
   check_use(slots >= 1 && slots <= ray_slots_max, places_field, "=", slots, ": from 1 to ", ray_slots_max, " packets");
   check_use(!request.rays.ray_slots || !request.rays.ray_credits, places_field, "=", slots, " and ", credits_field, "=", credits,
-            ": senders have credits of their own or share places, not both");
+            ": senders have credits of their own or share slots, not both");
   const std::uint32_t queue = request.rays.queue_packets.value_or(0);
   check_use(queue <= queue_packets_max, field_of<&RayOptions::queue_packets>(), "=", queue, ": at most ", queue_packets_max,
             " packets");
@@ -267,8 +267,8 @@ void note_reductions(Plan& plan) {
   note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
   note("pages of units that a node may take", unbounded.spare_frames, plan.spare_frames);
   note("credits for rays", unbounded.ray_credits, plan.ray_credits);
-  note("places for packets of rays", unbounded.ray_slots, plan.ray_slots);
-  note("rays that walk together", unbounded.rays_a_task, plan.rays_a_task);
+  note("slots for packets of rays", unbounded.ray_slots, plan.ray_slots);
+  note("rays traced together", unbounded.rays_a_task, plan.rays_a_task);
   note("rays in a packet", unbounded.ray_batch, plan.ray_batch);
 }
 

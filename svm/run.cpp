@@ -32,10 +32,10 @@ bool walks_in_bundles(const RunOptions& options) {
 void check_bundles(const core::RenderSettings& settings, const RunOptions& options) {
   constexpr core::Field bundles = core::field_of<&PageOptions::bundles_on_machines>();
   core::check_use(options.computer.machine.has_value(), bundles,
-                  " is for a modelled machine: on threads rays walk together without it");
+                  " is for a modelled machine: on threads rays are traced in bundles without it");
   core::check_use(settings.skips.bundles && may_walk_in_bundles(options), bundles,
-                  " does not go with the skip bundles switched off, nor with what looks on pixel by pixel (heat maps, traces, "
-                  "reports, references, served pages, counted pages): there rays walk alone");
+                  " does not go with the skip bundles switched off, nor with what observes single pixels (heat maps, traces, "
+                  "reports, references, served pages, counted pages): rays are then traced one by one");
   core::check_use(options.pages.in_flight.value_or(bundle_pixels) >= bundle_pixels, core::field_of<&PageOptions::in_flight>(),
                   "=", options.pages.in_flight.value_or(bundle_pixels), " does not go with ", bundles,
                   ": a bundle has the rays of ", bundle_pixels, " pixels");

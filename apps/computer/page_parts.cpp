@@ -17,25 +17,25 @@ namespace {
 
 /// What dmpc itself says of rays and pictures, in words for any program.
 constexpr std::array own_words = {
-    GlossaryEntry{"chaos", "A seed disturbs the computer: packets are held back, nodes pause, credits shrink."},
+    GlossaryEntry{"chaos", "A seed disturbs the computer: packets are delayed, nodes pause, credits shrink."},
     GlossaryEntry{"computing", "Time in which a node's program works, by the operations that it charges."},
-    GlossaryEntry{"home", "The node that keeps a page for good and sends it to those who ask."},
+    GlossaryEntry{"home", "The node that keeps a page for good and sends it on request."},
     GlossaryEntry{"hop", "A step of a message over one link."},
-    GlossaryEntry{"look-up", "The question for one place in the data, and so for the page that it lies in."},
+    GlossaryEntry{"look-up", "A request for one place in the data, and so for the page that holds it."},
     GlossaryEntry{"miss", "A look-up that does not find its page. Several misses that wait for one page are one fault."},
-    GlossaryEntry{"packet", "What a node sends to another at once: a short head and what the program puts into it."},
+    GlossaryEntry{"packet", "A message between two nodes: a short header and what the program puts into it."},
     GlossaryEntry{"page", "A numbered piece of the data, all of one size."},
-    GlossaryEntry{"refused", "Packets that a program tried to send while it might not."},
+    GlossaryEntry{"refused", "Packets that a program tried to send without credit."},
     GlossaryEntry{"run hash", "A digest of all events in virtual time and the machine: equal runs have equal hashes."},
     GlossaryEntry{"virtual time", "The modelled machine's clock. It does not depend on the computer that the program runs on."},
     GlossaryEntry{"wall clock", "Time on the computer that the program runs on."},
-    GlossaryEntry{"step", "One call of a task; where its page is not there the task is called again when it has come."},
+    GlossaryEntry{"step", "One call of a task; if its page is absent, the task is called again when the page has arrived."},
 };
 
 /// What dmpc says of these, any program would.
-constexpr std::array<std::string_view, 14> common_words = {"asleep", "cache",        "eviction",        "fault",        "fetch",
-                                                           "lru",    "node",         "idle at the end", "service while idle", "link",
-                                                           "p95",    "service while busy", "stack distance",  "topology"};
+constexpr std::array<std::string_view, 14> common_words = {
+    "asleep", "cache", "eviction",           "fault",          "fetch",   "lru", "node", "idle at the end", "service while idle",
+    "link",   "p95",   "service while busy", "stack distance", "topology"};
 
 std::vector<GlossaryEntry> all_words() {
   std::vector<GlossaryEntry> all(own_words.begin(), own_words.end());
@@ -61,7 +61,7 @@ void begin_page(Page& page, const Origin& origin, const Facts& facts, const std:
   page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts);
   if (node_count > readable_nodes_max) {
-    page.add_text("Who sends whom how much is shown of up to " + std::to_string(readable_nodes_max) +
+    page.add_text("The traffic of pairs is shown of up to " + std::to_string(readable_nodes_max) +
                   " nodes: the tables have all of them.");
   }
   if (!result.empty()) {

@@ -44,14 +44,14 @@ void add_page_group(OptionSet& options, svm::TaskOptions& tasks) {
   options.begin_group("The pages");
   options.add_text(
       "--page-size", "SIZE [1KiB]", [&tasks](const std::string& text) { tasks.page_size_bytes = page_size_of(text); },
-      "Size of a page, a power of two from 512B to 64KiB");
+      "Page size, a power of two from 512B to 64KiB");
   options.add_number("--cache-pages", tasks.cache_pages, 1, 0x7fffffff, "a quarter of all, at least 64",
-                     "Pages of other nodes that a node can keep");
+                     "Pages of other nodes that a node can cache");
   OptionSet::Choices<svm::Replacement> policies;
   for (const svm::PolicyKind& kind : svm::policy_kinds()) {
     policies.emplace_back(kind.name, static_cast<svm::Replacement>(policies.size()));
   }
-  options.add_choice<svm::Replacement>("--replacement", tasks.replacement, policies, "Which of them makes room for another");
+  options.add_choice<svm::Replacement>("--replacement", tasks.replacement, policies, "Replacement policy of the page cache");
   options.add_number("--in-flight", tasks.in_flight, 1, svm::in_flight_max, "16", "Tasks that a node works on at once");
 }
 
@@ -66,8 +66,9 @@ void add_task_options(OptionSet options, ProgramOptions& program, const std::vec
   add_computer_options(options, program, own);
   add_page_group(options, program.tasks);
   add_closer_look(options, program);
-  options.add_path("--references", "FILE.csv", program.references,
-                   "Write which pages each node looked up in the last run, one task after the other, for dmpc study references");
+  options.add_path(
+      "--references", "FILE.csv", program.references,
+      "Write the pages that each node looked up in the last run, one task after the other, for dmpc study references");
   options.add_path("--heat", "FILE.csv", program.heat,
                    "Write what each task of the last run took: its node, steps, look-ups, faults, operations and, on a modelled "
                    "machine, computing");

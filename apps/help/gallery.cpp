@@ -116,7 +116,7 @@ void write_gallery(const fs::path& folder, Interrupt& interrupt) {
   check_nothing_there(folder);
   make_output_folder(folder, "--pictures");
   const std::vector<ScenePicture> pictures = rendered_scenes(interrupt);
-  interrupt.set_consequence("perhaps not all pictures were written");
+  interrupt.set_consequence("some pictures may not have been written");
   const Interrupt::EndAtOnce end_at_once(interrupt);
   check_nothing_there(folder);  // that has come meanwhile
   for (const ScenePicture& picture : pictures) {

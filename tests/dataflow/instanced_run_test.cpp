@@ -179,7 +179,7 @@ TEST_CASE("a list of tested objects does not go with what is kept: a plan that a
   const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 27);
   const Subject kept(scene, {8, 8}, with_instances());
   CHECK_THROWS_WITH_AS(run_dataflow(kept, {.computer = {.node_count = 2}, .rays = {.tested_objects = 2}}),
-                       doctest::Contains("stands in many places"), core::Refusal<core::UsageError>);
+                       doctest::Contains("occurs in many instances"), core::Refusal<core::UsageError>);
 }
 
 }  // namespace dmpc::tests::dataflow_instanced_run_test

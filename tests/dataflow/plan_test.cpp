@@ -127,7 +127,7 @@ TEST_CASE("where memory is scarce rays walk alone before packets get shorter, an
   request.computer.node_memory_bytes = dataflow::smallest_node_memory_bytes(request);
   const std::vector<std::string> notes = make_plan(request).notes;
   CHECK(std::any_of(notes.begin(), notes.end(),
-                    [](const std::string& note) { return note.starts_with("rays that walk together reduced from 16 to 1"); }));
+                    [](const std::string& note) { return note.starts_with("rays traced together reduced from 16 to 1"); }));
 }
 
 TEST_CASE("nodes whose regions move have room for as many pages again as they have on average, and for others' primary rays") {

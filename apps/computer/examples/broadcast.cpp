@@ -140,10 +140,10 @@ int main(int count, char** words) {
   };
   return dmpc::run<Broadcast>(
       count, words,
-      {.description = "Give data of node 0 to all nodes",
-       .options = {{"--bytes", &tree.bytes, 1, 1U << 24U, "Of the data"},
-                   {"--children", &tree.children, 0, 4095, "Of a node of the tree: 1 is a chain, 0 a binomial tree"},
-                   {"--pieces", &tree.pieces, 1, 1024, "In which the data are sent, one behind the other"}},
+      {.description = "Broadcast data of node 0 to all nodes",
+       .options = {{"--bytes", &tree.bytes, 1, 1U << 24U, "Size of the data"},
+                   {"--children", &tree.children, 0, 4095, "Children of a node of the tree: 1 is a chain, 0 a binomial tree"},
+                   {"--pieces", &tree.pieces, 1, 1024, "Number of pieces in which the data are sent, one after the other"}},
        .needs = needs,
        .make = [&tree](dmpc::Node& node) { return std::make_unique<Broadcast>(node, tree); },
        .result = result});

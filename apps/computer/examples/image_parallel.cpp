@@ -211,10 +211,10 @@ int main(int count, char** words) {
   };
   return dmpc::run<ImageParallel>(
       count, words,
-      {.description = "Render a scene of which each node keeps the pages that its part of the picture needs most",
-       .options = {{"--size", &choice.size, 1, 6, "Of the scene rings-SIZE-t1"},
-                   {"--width", &choice.width, 1, 4096, "Of the square picture, in pixels"},
-                   {"--kept", &choice.kept, 0, 1'000'000, "Pages that a node keeps beside those at home"},
+      {.description = "Render a scene; each node keeps the pages that its part of the picture needs most",
+       .options = {{"--size", &choice.size, 1, 6, "Size of the scene rings-SIZE-t1"},
+                   {"--width", &choice.width, 1, 4096, "Side of the square picture in pixels"},
+                   {"--kept", &choice.kept, 0, 1'000'000, "Pages that a node keeps in addition to those at home"},
                    {"--every", &choice.every, 1, 1'000'000, "Of so many pixels one tells which pages that are"}},
        .needs = needs,
        .make = [&map](dmpc::Node& node) { return std::make_unique<ImageParallel>(node, *map); },

@@ -137,10 +137,10 @@ int main(int count, char** words) {
     return "rank of vertex 0: " + std::to_string(ranks[0]) + (ranks == expected ? ", as in one memory" : ", WRONG");
   };
   return dmpc::run_tasks(count, words,
-                         {.description = "Rank the vertices of a graph whose pages are spread over the nodes",
-                          .options = {{"--vertices", &vertices, 1, 10'000'000, "Of the graph"},
-                                      {"--degree", &degree, 1, 1000, "Edges to each of them"},
-                                      {"--rounds", &rounds, 1, 1000, "How often ranks are made of ranks"}},
+                         {.description = "Rank the vertices of a graph whose pages are distributed over the nodes",
+                          .options = {{"--vertices", &vertices, 1, 10'000'000, "Vertices of the graph"},
+                                      {"--degree", &degree, 1, 1000, "Edges to each vertex"},
+                                      {"--rounds", &rounds, 1, 1000, "Number of iterations"}},
                           .operations = {{"addition", 1}},
                           .act = act});
 }

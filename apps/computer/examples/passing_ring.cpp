@@ -113,9 +113,9 @@ int main(int count, char** words) {
   };
   return dmpc::run<PassingRing>(
       count, words,
-      {.description = "Pass items on round a ring of nodes",
-       .options = {{"--items", &ring.items, 1, 1'000'000, "Of each node"},
-                   {"--places", &ring.places, 1, 1000, "At each node and lane, for items that pass"},
+      {.description = "Pass items round a ring of nodes",
+       .options = {{"--items", &ring.items, 1, 1'000'000, "Items of each node"},
+                   {"--places", &ring.places, 1, 1000, "Places at each node and lane for items that pass"},
                    {"--lanes", &ring.lanes, 1, 2, "With 2 items change from the first to the second at node 0"}},
        .needs = needs,
        .make = [&ring](dmpc::Node& node) { return std::make_unique<PassingRing>(node, ring); },

@@ -132,7 +132,7 @@ int main(int count, char** words) {
   return dmpc::run<RingProduct>(
       count, words,
       {.description = "Multiply two matrices on a ring of nodes",
-       .options = {{"--size", &size, 1, 4096, "Rows and columns of the matrices, a multiple of the nodes"}},
+       .options = {{"--size", &size, 1, 4096, "Rows and columns of the matrices, a multiple of the number of nodes"}},
        .needs = needs,
        .make = [&size](dmpc::Node& node) { return std::make_unique<RingProduct>(node, size); },
        .result = result});

@@ -212,7 +212,7 @@ int main(int count, char** words) {
                                        dmpc::bytes_of<std::uint8_t>(nodes)}}};
   };
   return dmpc::run<SampleSort>(count, words,
-                               {.description = "Sort keys that are spread over the nodes",
+                               {.description = "Sort keys that are distributed over the nodes",
                                 .options = {{"--keys", &keys, 1, 1'000'000, "Keys of each node, at least as many as nodes"}},
                                 .needs = needs,
                                 .make = [&keys](dmpc::Node& node) { return std::make_unique<SampleSort>(node, keys); },

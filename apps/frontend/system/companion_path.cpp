@@ -78,7 +78,7 @@ fs::path companion_path(const std::string& name, const std::string& installed, c
     if (!why) {
       return found;
     }
-    looked_at += " (which is passed over, since others than you may have put it there: " + *why + ")";
+    looked_at += " (which is ignored, since other users may have put it there: " + *why + ")";
   }
   throw InstallationError(what + " cannot be opened: it is in none of its places (" +
                           (looked_at.empty() ? "it has none: no run path, or no /proc" : looked_at) +

@@ -97,7 +97,7 @@ class Trust {
   std::optional<std::string> why_not(const fs::path& place) const {
     struct stat found {};
     if (::lstat(place.c_str(), &found) != 0) {
-      return std::string("whose it is cannot be told (") + std::strerror(errno) + ")";
+      return std::string("its owner is not known (") + std::strerror(errno) + ")";
     }
     return why_not(place, found);
   }
@@ -182,7 +182,7 @@ Descriptor open_trusted(const std::string& path) {
   auto why = trust.why_not(lies_at, found);
   why = why ? why : trust.why_not_above(lies_at);
   if (why) {
-    throw core::InputError(path + ": others can write what it says, since " + *why + expected);
+    throw core::InputError(path + ": others can change it, since " + *why + expected);
   }
   return file;
 }

@@ -19,15 +19,15 @@ constexpr int not_found = 404, wrong_method = 405, wrong_type = 415, come_later 
 
 const char* why_refused(int status) {
   return status == wrong_method ? "Only GET and POST are answered here.\n"
-         : status == wrong_type ? "What is sent here is JSON, as application/json without more.\n"
+         : status == wrong_type ? "Requests to this page are JSON, with exactly the type application/json.\n"
          : status == come_later ? "Nothing is here yet.\n"
-                                : "This is for who has the whole address, as dmpc has said it.\n";
+                                : "This page needs the whole address, as dmpc printed it.\n";
 }
 
 std::string why_not(const std::string& option, std::uint16_t port, int error) {
   const std::string named =
-      option + "=" + std::to_string(port) + ": this port of 127.0.0.1 cannot be had: " + std::strerror(error);
-  return port == 0 ? named : named + "; give another, from 1024 on, or " + option + "=0, which takes one that is free";
+      option + "=" + std::to_string(port) + ": this port of 127.0.0.1 cannot be opened: " + std::strerror(error);
+  return port == 0 ? named : named + "; give another, from 1024 on, or " + option + "=0, which takes a free one";
 }
 
 }  // namespace
@@ -99,7 +99,8 @@ WebAnswer PageServer::events() {
   has_had_visitors_.store(true, std::memory_order_relaxed);
   std::shared_ptr<const void> seat = feed_.take_seat(viewers_max);
   if (!seat) {
-    return {.status = come_later, .body = std::to_string(viewers_max) + " look on already, and there is room for no more.\n"};
+    return {.status = come_later,
+            .body = std::to_string(viewers_max) + " viewers are connected already, and there can be no more.\n"};
   }
   return {.type = "text/event-stream",
           .body = "",

@@ -4,7 +4,7 @@ namespace dmpc::apps {
 
 const WebLibrary& web_library() {
   static const auto* const library =
-      static_cast<const WebLibrary*>(open_module("http", "shows a picture in a browser as it comes"));
+      static_cast<const WebLibrary*>(open_module("http", "shows a picture in a browser while it is rendered"));
   return *library;
 }
 

@@ -27,13 +27,12 @@ constexpr double reported_error_least = 0.001;  ///< less is not worth a sentenc
 
 std::string why_wide(const CacheForecast& forecast) {
   std::string text =
-      "The band lies between two readings of that run: that all of its time but for computing grows with the faults, or page "
-      "wait, "
-      "service of interrupts and messages alone.";
+      "The band lies between two readings of that run: that all of its time except computing grows with the faults, or only page "
+      "wait, service of interrupts and messages.";
   if (forecast.curve_error >= reported_error_least) {
     text += " It is wider by " + share_text(forecast.curve_error) +
-            ", by which the curve misses that run's own faults, as where several pixels wait for one page, lru is not what "
-            "replaces, or it is from a sample.";
+            ", by which the curve misses that run's own faults, as several pixels wait for one page, the policy is not lru, or "
+            "the curve is from a sample.";
   }
   if (forecast.sample_error > 0) {
     text += " It is wider by up to " + share_text(forecast.sample_error) +

@@ -17,7 +17,7 @@ using nlohmann::json;
 /// More than any data of ours have, and little enough for a function that calls itself.
 constexpr int depth_max = 16;
 
-constexpr const char* what_to_do = "; the page is damaged, or was changed: render it anew with --report";
+constexpr const char* what_to_do = "; the page is damaged, or was changed: render it again with --report";
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<json> data_in(std::string_view page, const std::string& file) {
   page.remove_prefix(at + begin.size());
   const std::size_t length = page.find(end);
   if (length == std::string_view::npos) {
-    throw core::InputError(file + ": this page ends within its data, it was cut off; copy it again, or render it anew");
+    throw core::InputError(file + ": this page ends within its data, it was cut off; copy it or render it again");
   }
   try {
     json data = json::parse(page.substr(0, length), [&file](int depth, json::parse_event_t, const json&) {

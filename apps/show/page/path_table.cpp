@@ -59,8 +59,8 @@ Table path_table(const nodes::PathTimes& path, std::span<const char* const> kind
   }
   add_rows(table, kinds, path.total_ns());
   table.add_note(
-      "The chain of causes from the start to the end, each of which begins when the one before ends: had all else taken no time, "
-      "the run would have ended no sooner. It crossed between nodes by " +
+      "The chain of causes from the start to the end, each of which begins when the one before ends: the run would have ended no "
+      "earlier if all else had taken no time. It crossed between nodes by " +
       counted(path.messages, "message") + ".");
   return table;
 }

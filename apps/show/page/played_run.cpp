@@ -45,7 +45,7 @@ json data_of(std::string_view page, const std::string& file) {
   if (const json format = data->value("format", json()); format != play_format) {
     throw core::InputError(file + ": its data have format " +
                            format.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40) + ", expected format " +
-                           std::to_string(play_format) + "; compare it with the dmpc that wrote it, or render it anew");
+                           std::to_string(play_format) + "; compare it with the dmpc that wrote it, or render it again");
   }
   return std::move(*data);
 }

@@ -111,8 +111,8 @@ void add_misses(Page& page, const RenderRecord& record, const MissEstimate& miss
     add_forecast(page, *forecast);
   } else if (!report.virtual_time) {
     page.add_text(
-        "How long the run would take with other caches is predicted on modelled machines (`--runner=virtual`) alone: times by "
-        "the wall clock compare schedules of this computer.");
+        "The run time with other caches is predicted on modelled machines (`--runner=virtual`) only: times by the wall clock "
+        "compare schedules of this computer.");
   }
 }
 

@@ -81,13 +81,13 @@ void write_trace(const RenderRecord& record, std::ostream& stream) {
 std::string loss_note(const nodes::Trace& trace) {
   return trace.events_lost == 0
              ? ""
-             : "the trace is full: " + lost_text(trace) + "; --trace-window=FROM,TO records a part of the run, and all of that";
+             : "the trace is full: " + lost_text(trace) + "; --trace-window=FROM,TO records a part of the run completely";
 }
 
 std::string empty_note(const nodes::Trace& trace) {
   const bool is_empty = trace.messages.empty() && std::all_of(trace.nodes.begin(), trace.nodes.end(),
                                                               [](const nodes::TraceNode& node) { return node.spans.empty(); });
-  return is_empty && trace.events_lost == 0 ? "the trace is empty: nothing of what it was to record happened in this run" : "";
+  return is_empty && trace.events_lost == 0 ? "the trace is empty: no event that it records happened in this run" : "";
 }
 
 }  // namespace dmpc::apps

@@ -39,7 +39,7 @@ TEST_CASE("the page of a run on threads is of the wall clock, and says by what i
 
 TEST_CASE("the page says how to make it again") {
   const std::string page = requester_page(requester(1), {"--nodes=2"});
-  check_has(page, {"To make it again, and to cite it</h2>", "requester on dmpc ", "Run of requester. requester on dmpc "});
+  check_has(page, {"To reproduce and to cite it</h2>", "requester on dmpc ", "Run of requester. requester on dmpc "});
 }
 
 // On the page stands the command line, too: with this name, where a test is called by it.
@@ -56,7 +56,7 @@ TEST_CASE("a node alone sends to itself, and has a page, too") {
 
 TEST_CASE("of more nodes than can be told apart a page does not show who sends to whom, and says so; bars become bands") {
   const std::string many = requester_page(requester(1), {"--nodes=257", "--runner=virtual"});
-  check_has(many, {"Who sends whom how much is shown of up to 256 nodes", "What each node did"});
+  check_has(many, {"The traffic of pairs is shown of up to 256 nodes", "What each node did"});
   const std::string few = requester_page(requester(1), {"--nodes=256", "--runner=virtual"});
   CHECK_FALSE(contains(many, "Who sent packets to whom"));
   CHECK(contains(few, "Who sent packets to whom"));

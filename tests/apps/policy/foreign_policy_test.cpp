@@ -211,9 +211,7 @@ TEST_CASE("a place that says nothing is refused with what one may say") {
 
 TEST_CASE("a policy that others may write, or put another in its place, is not even read") {
   const Python python("raise Exception('it ran')\n");
-  const auto refused = [](const std::string& place) {
-    return contains(refusal_of(place), "others can write what it says, since ");
-  };
+  const auto refused = [](const std::string& place) { return contains(refusal_of(place), "others can change it, since "); };
   fs::permissions(python.file, fs::perms(0646));
   CHECK(refused(python.place()));
   fs::permissions(python.file, fs::perms(0644));

@@ -66,8 +66,7 @@ TEST_CASE("a reader that another user has put where dmpc looks for its own is pa
   for (const uid_t user : {victim, ::geteuid()}) {
     const Said said = shared.run_as(user, {"info", shared.folder / "model.obj"});
     CHECK(said.status == 3);
-    CHECK_MESSAGE(contains(said.errors, planted + " (which is passed over, since others than you may have put it there: "),
-                  said.errors);
+    CHECK_MESSAGE(contains(said.errors, planted + " (which is ignored, since other users may have put it there: "), said.errors);
     CHECK_MESSAGE(contains(said.errors, "it belongs to user " + std::to_string(stranger)), said.errors);
     CHECK_FALSE(fs::exists(shared.traces));
   }
@@ -78,7 +77,7 @@ TEST_CASE("a reader that everybody may write is passed over") {
   fs::permissions(shared.plant("libexec/dmpc/dmpc_mesh_reader"), fs::perms(0777));
   const Said said = shared.run_as(::geteuid(), {"info", shared.folder / "model.obj"});
   CHECK(said.status == 3);
-  CHECK_MESSAGE(contains(said.errors, "which is passed over"), said.errors);
+  CHECK_MESSAGE(contains(said.errors, "which is ignored"), said.errors);
   CHECK_FALSE(fs::exists(shared.traces));
 }
 

@@ -183,7 +183,7 @@ TEST_CASE("as many look on as there are places, ten of them deaf, and who comes 
     }
   }
   CHECK(contains(small.got("events"), "503 Service Unavailable"));
-  CHECK(contains(small.got("events"), "48 look on already"));
+  CHECK(contains(small.got("events"), "48 viewers are connected already"));
   CHECK(contains(small.got(""), "200 OK"));
   viewers.resize(20);  // 28 go away, which is found out when they are told something
   bool is_let_in = false;

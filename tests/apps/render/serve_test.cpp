@@ -177,7 +177,7 @@ TEST_CASE("a port that is none, or has somebody, and the viewer that was before,
   const Served served(endless);
   const Said taken = said("--serve=" + std::to_string(served.page.port));
   CHECK(taken.status == 1);
-  CHECK_MESSAGE(contains(taken.errors, "this port of 127.0.0.1 cannot be had: Address already in use; give another"),
+  CHECK_MESSAGE(contains(taken.errors, "this port of 127.0.0.1 cannot be opened: Address already in use; give another"),
                 taken.errors);
   const Said before = said("--preview");
   CHECK(before.status == 2);

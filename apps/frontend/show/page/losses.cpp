@@ -35,11 +35,11 @@ bool has_part(const Losses& losses, const std::string& name) {
 
 std::string note_on(const Losses& losses) {
   if (!losses.is_virtual) {
-    return "Wall clock. Asleep: for want of packets. The nodes share this computer's cores, and those of a pool their threads.";
+    return "Wall clock. Asleep: waiting for packets. The nodes share this computer's cores, and those of a pool their threads.";
   }
   const bool has_service = has_part(losses, "service while busy") || has_part(losses, "service while idle");
-  return std::string("Virtual time.") + (has_service ? " Service while busy and service while idle: others' requests served "
-                                                       "while there was something else to do, and while there was not."
+  return std::string("Virtual time.") + (has_service ? " Service while busy and service while idle: requests of others served "
+                                                       "while the node had other work, and while it had none."
                                                      : "");
 }
 
@@ -68,7 +68,7 @@ std::string wall_conclusion(std::span<const double> parts) {
   if (whole == 0) {
     return "No time passed.";
   }
-  return "The nodes computed for " + share_text(share_of(parts[0], whole)) + " of their time, slept for want of packets for " +
+  return "The nodes computed for " + share_text(share_of(parts[0], whole)) + " of their time, slept without packets for " +
          share_text(share_of(parts[1], whole)) + " and waited for a core of this computer, or for their turn in a pool, for " +
          share_text(share_of(parts[2], whole)) + ".";
 }

@@ -21,8 +21,8 @@ struct Band {
 constexpr std::array<Band, 5> bands = {{{"least", 0}, {"5 %", 0.05}, {"50 %", 0.5}, {"95 %", 0.95}, {"most", 1}}};
 
 constexpr const char* explained =
-    "Over all nodes: the line is what half of them have at most, within the box are nine of ten, and the thin lines lead to the "
-    "least and the most.";
+    "Over all nodes: the line is the median, the box holds nine of ten nodes, and the thin lines lead to the minimum and the "
+    "maximum.";
 
 /// Numbered, and no sum.
 bool is_node(const Cell& cell) {

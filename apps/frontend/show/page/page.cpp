@@ -144,7 +144,7 @@ void Page::add_figure(const std::string& url, const std::string& attributes, con
 }
 
 void Page::add_origin(const Origin& origin, const Facts& results) {
-  begin_section("To make it again, and to cite it");
+  begin_section("To reproduce and to cite it");
   add_text("The command:");
   add_code(origin.command);
   Facts facts = {{"Program", origin.program}, {"Date", origin.date}, {"Computer that ran it", origin.computer}};
@@ -178,7 +178,7 @@ std::string Page::text() const {
   std::vector<std::string> headings = headings_;
   std::string glossary_section;
   if (!list.empty()) {
-    headings.emplace_back("What the words mean");
+    headings.emplace_back("Glossary");
     glossary_section = heading_of(headings.size(), headings.back()) + list;
   }
   std::string contents;

@@ -93,7 +93,7 @@ std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& 
                            : fetches.where == svm::PageHomes::tree
                                ? "The host, home to all pages, served " +
                                      share_text(share_of(served.back(), static_cast<double>(pages.faults))) +
-                                     ", nodes above who asked the others"
+                                     ", nodes above the requester the others"
                                : evenness(served, "served");
   return counted(pages.faults, "page fault") + " in " + counted(pages.references, "look-up") + " (" + share_text(asked) +
          "); the tenth of the pages that was fetched most had " + share_text(top_tenth_share(by_page)) + " of the fetches. " +
@@ -128,10 +128,9 @@ std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pag
   }
   const auto cold = static_cast<double>(misses.curve.cold_misses()) * misses.every;
   const std::string cold_text = share_text(share_of(cold, own)) +
-                                " of the misses are of pages that a node looks up for the first time, "
-                                "which no cache saves.";
+                                " of the misses are of pages that a node looks up for the first time, which no cache avoids.";
   if (2 * cache_pages >= page_count || twice > hardly_less * own) {
-    return "A larger cache would save next to nothing: " + cold_text;
+    return "A larger cache would save almost nothing: " + cold_text;
   }
   return "Caches of twice as many pages would miss " + times_text(twice / own) + " as often; " + cold_text;
 }

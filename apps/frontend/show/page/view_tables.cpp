@@ -228,8 +228,8 @@ Table fetch_table(const Fetches& fetches) {
     add_fetch_row(table, "p99", around(all, 0.99), parts);
   }
   table.add_note(sample_note(fetches) +
-                 ". From the beginning of the request to when the page is taken; p95: means of the hundredth of "
-                 "them around the one than which 95 % are shorter.");
+                 ". From the start of the request until the page is taken; p95: means of the hundredth of the fetches around the "
+                 "95th percentile.");
   return table;
 }
 
@@ -326,10 +326,10 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
     }
     table.add_row(std::move(row));
   }
-  table.add_note("Lru, by the stack distances of this run's references in their own order. This run: pages that it fetched.");
+  table.add_note("LRU, from the stack distances of this run's references in their own order. This run: pages that it fetched.");
   if (estimate.every > 1) {
     table.add_note("Estimated from the references of one page in " + std::to_string(estimate.every) +
-                   " (SHARDS), which tell nothing of caches of less than " + std::to_string(size_min) + " pages.");
+                   " (SHARDS), which say nothing about caches of less than " + std::to_string(size_min) + " pages.");
   }
   return table;
 }

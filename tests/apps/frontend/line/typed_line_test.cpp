@@ -130,7 +130,7 @@ constexpr Slip slips[] = {
     {"render a.obj -o a.png +W640 +H480", "+W640 is no option: expected --resolution=WxH"},
     {"render a.obj -o a.png --fov=60", "expected --camera=FROM/AT[/UP[/DEGREES]], which ends with the angle"},
     {"render a.obj -o a.png -fov 60", "-fov is no option of dmpc render: expected --camera="},
-    {"render a.obj -o a.png --spp=16", "expected --samples=1..32768|auto, the rays through each pixel"},
+    {"render a.obj -o a.png --spp=16", "expected --samples=1..32768|auto, the samples per pixel"},
     {"render a.obj -o a.png -j8", "-j8 is no option of dmpc render: expected --nodes="},
     {"render a.obj -o a.png -n 4", "-n is no option of dmpc render: expected --nodes="},
     {"render a.obj -o a.png --threads=4", "each of which is a thread"},

@@ -47,10 +47,9 @@ TEST_CASE("threads compute, sleep and wait for a core, and clocks that disagree 
   const Losses losses = wall_losses(counters);
   CHECK(losses.nodes[0] == std::vector<std::uint64_t>{50, 25, 25});
   CHECK(losses.nodes[1].back() == 0);
-  CHECK(
-      loss_conclusion(wall_losses(std::vector<nodes::NodeCounters>{{.busy_ns = 50, .asleep_ns = 25, .wall_ns = 100}})) ==
-      "The nodes computed for 50 % of their time, slept for want of packets for 25 % and waited for a core of this computer, or "
-      "for their turn in a pool, for 25 %.");
+  CHECK(loss_conclusion(wall_losses(std::vector<nodes::NodeCounters>{{.busy_ns = 50, .asleep_ns = 25, .wall_ns = 100}})) ==
+        "The nodes computed for 50 % of their time, slept without packets for 25 % and waited for a core of this computer, or "
+        "for their turn in a pool, for 25 %.");
   CHECK(loss_conclusion(wall_losses(std::vector<nodes::NodeCounters>(1))) == "No time passed.");
 }
 

@@ -176,7 +176,7 @@ TEST_CASE("words that occur on a page are explained at its end, and no others") 
     page.begin_section("Faults");
     page.add_text("Service while busy time.");
   });
-  CHECK(contains(text, "What the words mean</h2>"));
+  CHECK(contains(text, "Glossary</h2>"));
   CHECK(contains(text, "<dt>fault</dt>"));
   CHECK(contains(text, "<dt>service while busy</dt>"));
   CHECK_FALSE(contains(text, "<dt>service while idle</dt>"));

@@ -74,9 +74,8 @@ TEST_CASE("a cache is concluded with what twice as many pages would do") {
   const MissEstimate misses{.curve = svm::MissCurve(pages)};
   CHECK(cache_conclusion(misses, 1, 100) ==
         "Caches of twice as many pages would miss 0.50 times as often; 50 % of the misses are of pages that a node looks up for "
-        "the "
-        "first time, which no cache saves.");
-  CHECK(cache_conclusion(misses, 2, 100).starts_with("A larger cache would save next to nothing: 100 %"));
+        "the first time, which no cache avoids.");
+  CHECK(cache_conclusion(misses, 2, 100).starts_with("A larger cache would save almost nothing: 100 %"));
   CHECK(cache_conclusion({}, 2, 100).empty());
 }
 
