@@ -23,8 +23,8 @@ void announce(RenderCall& call, const DueFrame& frame) {
   }
   if (call.live) {
     call.live->say(frames.are_several()
-                       ? "Frame " + grouped(*frame.number) + " comes, the last is " + grouped(frames.range->last) + "."
-                       : "The picture comes.");
+                       ? "Frame " + grouped(*frame.number) + " is rendered, the last is " + grouped(frames.range->last) + "."
+                       : "Rendering the picture.");
   }
 }
 

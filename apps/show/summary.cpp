@@ -161,7 +161,7 @@ std::string regions_text(const RenderOptions& options, const dataflow::Report& r
 }
 
 std::string places_text(const dataflow::Plan& plan) {
-  return plan.shares_slots() ? counted(plan.ray_slots, "place") + " a node to be asked for"
+  return plan.shares_slots() ? counted(plan.ray_slots, "slot") + " a node, on request"
                              : counted(plan.ray_credits, "credit") + " a pair";
 }
 

@@ -211,7 +211,7 @@ class Viewing {
     return [this, last = std::chrono::steady_clock::now()](std::uint32_t done, std::uint32_t total) mutable {
       if (const auto now = std::chrono::steady_clock::now(); now - last >= report_interval) {
         last = now;
-        notify({.said = "The picture comes.", .done = done, .total = total});
+        notify({.said = "Rendering the picture.", .done = done, .total = total});
       }
     };
   }

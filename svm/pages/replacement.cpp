@@ -27,15 +27,17 @@ std::unique_ptr<ReplacementPolicy> made(const PolicySite& site) {
 std::vector<PolicyKind>& kinds() {
   static std::vector<PolicyKind> all = {
       {"lru", "the page that was looked up least recently", false, laid_out<LeastRecentlyUsed>, made<LeastRecentlyUsed>},
-      {"clock", "going round, the first page that was not looked up since the last time round", false, nothing, made<Clock>},
-      {"fifo", "the page that came first", false, nothing, made<FirstInFirstOut>},
-      {"random", "any page, with equal chances", false, nothing, made<RandomVictim>},
-      {"2q", "of new pages the one that came first, of those that have come back the least recent", true, laid_out<TwoQueues>,
-       made<TwoQueues>},
-      {"arc", "of pages looked up once or again the least recent, whose share learns from pages that come back", true,
-       laid_out<AdaptiveReplacement>, made<AdaptiveReplacement>},
-      {"s3-fifo", "of a small queue and a main one the page that came first and was not looked up again", true,
-       laid_out<SmallAndMain>, made<SmallAndMain>},
+      {"clock", "the first page, in circular order, that was not looked up since the last round", false, nothing, made<Clock>},
+      {"fifo", "the page that was cached first", false, nothing, made<FirstInFirstOut>},
+      {"random", "a random page", false, nothing, made<RandomVictim>},
+      {"2q", "the oldest of the new pages, or the least recently used of those that were fetched again", true,
+       laid_out<TwoQueues>, made<TwoQueues>},
+      {"arc",
+       "the least recently used of the pages looked up once or of those looked up again, whose shares adapt to pages that are "
+       "fetched again",
+       true, laid_out<AdaptiveReplacement>, made<AdaptiveReplacement>},
+      {"s3-fifo", "the first page of a small or a main queue that was not looked up again", true, laid_out<SmallAndMain>,
+       made<SmallAndMain>},
   };
   return all;
 }

@@ -23,7 +23,7 @@ constexpr std::array entries = {
     GlossaryEntry{"coarse proxy", "The top levels of the whole database, small enough for every node to have (dataflow)."},
     GlossaryEntry{"computing", "The time in which a node traces and shades rays."},
     GlossaryEntry{"convention",
-                  "Which shadow rays are shot: towards lights that the surface faces (haines), or towards all (paper, as the "
+                  "Which shadow rays are traced: towards lights that the surface faces (haines), or towards all (paper, as the "
                   "article of 1994 counts)."},
     GlossaryEntry{"coplanar faces",
                   "Triangles that overlap in one plane. The first in the scene's file is visible; what lets light through lies "
@@ -31,7 +31,7 @@ constexpr std::array entries = {
     GlossaryEntry{"credit",
                   "The right to send one more packet or to start one more ray. It comes back when a slot is free again."},
     GlossaryEntry{"crossbar", "A network in which each node has a link of its own to every other node."},
-    GlossaryEntry{"cutoff", "Rays that could bring less light than this are not shot."},
+    GlossaryEntry{"cutoff", "Rays that could contribute less light than this are not traced."},
     GlossaryEntry{"database", "The scene as flat records (grid, primitives, shading data, materials, lights), cut into pages."},
     GlossaryEntry{"dataflow",
                   "The strategy in which rays travel: each node owns a region of space, and a ray goes to the owner of the "

@@ -15,13 +15,11 @@ namespace dmpc::apps {
 namespace {
 
 constexpr const char* description =
-    "dmpc emulates a distributed-memory parallel computer on this machine and renders on it. N nodes, as a rule each a thread, "
-    "with a strictly "
-    "bounded memory of its own, share nothing and talk only through mailboxes; scenes need not fit into the memory of any of "
-    "them. "
-    "Either pages of the scene's database travel to the nodes whose rays need them, or rays travel to the nodes that have the "
-    "part of "
-    "space through which they pass. Everything that travels is counted, and the picture is the same to the last bit.";
+    "dmpc emulates a distributed-memory parallel computer on this machine and renders on it. N nodes, usually one thread each, "
+    "with strictly bounded memories of their own, share nothing and communicate only by messages; scenes need not fit into the "
+    "memory of any of them. Either pages of the scene's database travel to the nodes whose rays need them, or rays travel to the "
+    "nodes that have the part of space through which they pass. Everything that travels is counted, and the picture is the same "
+    "to the last bit.";
 
 struct EnvironmentVariable {
   const char* name;
@@ -29,8 +27,8 @@ struct EnvironmentVariable {
 };
 
 constexpr EnvironmentVariable variables[] = {
-    {"TMPDIR", "Where files go that are not kept; /tmp if not set."},
-    {"NO_COLOR", "Is obeyed whatever its value: dmpc never writes in colour. Progress is shown on terminals only."},
+    {"TMPDIR", "Folder of temporary files; /tmp if not set."},
+    {"NO_COLOR", "Always respected: dmpc never writes in colour. Progress is shown on terminals only."},
 };
 
 bool is_help(const OptionDescription& option) { return option.names.back() == "--help"; }
@@ -101,8 +99,8 @@ class Writer {
       add_option(option, "");
     }
     page_.add_paragraph(
-        "Every command takes --help, too. A value follows its option as --option=VALUE or as the next word; what is "
-        "in brackets is taken without the option.");
+        "Every command takes --help, too. A value follows its option as --option=VALUE or as the next word; the default is in "
+        "brackets.");
   }
 
   void add_commands() {

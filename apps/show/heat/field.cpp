@@ -69,11 +69,11 @@ HeatMeaning meaning_of(HeatKind kind, Strategy strategy) {
     case HeatKind::pages:
       return {"different pages looked up", "pages"};
     case HeatKind::rays:
-      return {"rays shot", "rays"};
+      return {"rays traced", "rays"};
     case HeatKind::time:
       return {"computing", "us"};
     case HeatKind::node:
-      return {strategy == Strategy::dataflow ? "node that shot the first ray" : "node that finished the pixel", "number"};
+      return {strategy == Strategy::dataflow ? "node that traced the first ray" : "node that finished the pixel", "number"};
     case HeatKind::depth:
       return {"depth of the deepest ray", "rays"};
     case HeatKind::samples:

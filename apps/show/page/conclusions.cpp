@@ -45,11 +45,11 @@ std::string ray_conclusion(std::span<const std::uint64_t> rays, std::uint64_t sh
 std::string node_conclusion(const Account& account) {
   const std::vector<double> rays = by_node(account, [&](std::size_t node) { return account.nodes[node].operations.ray_count(); });
   if (rays.size() == 1) {
-    return "The one node shot all " + counted(account.operations.ray_count(), "ray") + ".";
+    return "The one node traced all " + counted(account.operations.ray_count(), "ray") + ".";
   }
   const std::string even = evenness(rays, "shot");
   if (even.empty()) {
-    return "No ray was shot.";
+    return "No ray was traced.";
   }
   const auto least = static_cast<std::size_t>(std::min_element(rays.begin(), rays.end()) - rays.begin());
   const double mean = sum_of(rays) / static_cast<double>(rays.size());

@@ -50,7 +50,7 @@ Facts facts_of(const RenderRecord& record, const Account& account) {
       {"Computer", computer_text(record)},
       {"Runner", runner_text(options.computer, account.ranks.empty() ? "" : " on " + counted(account.ranks.size(), "rank"))},
       {"Memory of the fullest node", bytes_text(account.node_memory_max_bytes)},
-      {"Rays shot", grouped(account.operations.ray_count())},
+      {"Rays traced", grouped(account.operations.ray_count())},
       {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " +
                            amount_text(static_cast<double>(nodes::total(account.sent).bytes), "bytes")},
       {"Rendering took", seconds_text(record.seconds.render) + " by the wall clock, " +

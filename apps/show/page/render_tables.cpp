@@ -74,7 +74,7 @@ NodeColumns memory_columns(const Account& account) {
 Table node_table(const RenderRecord& record) {
   const Account account = account_of(record.report);
   const std::vector<NodeAccount>& all = account.nodes;
-  NodeColumns columns = {count_column("rays shot", [&](std::size_t node) { return all[node].operations.ray_count(); })};
+  NodeColumns columns = {count_column("rays traced", [&](std::size_t node) { return all[node].operations.ray_count(); })};
   append(columns,
          counter_columns<core::Operations>([&](std::size_t node) -> const core::Operations& { return all[node].operations; }));
   append(columns, std::visit([&](const auto& report) { return own_columns(report, record.options.strategy); }, record.report));
@@ -84,7 +84,8 @@ Table node_table(const RenderRecord& record) {
 
 std::vector<Plot> node_plots(const RenderRecord& record) {
   const PlotAxis from_0{.label = "", .least = 0};
-  std::vector<Plot> plots = {bars_by_node("node_rays", "Rays shot by each node", from_0, {{"rays shot", "rays shot"}}, false)};
+  std::vector<Plot> plots = {
+      bars_by_node("node_rays", "Rays traced by each node", from_0, {{"rays traced", "rays traced"}}, false)};
   if (record.options.strategy == Strategy::svm && std::get<svm::Report>(record.report).pages().faults > 0) {
     plots.push_back(fault_plot());
   }

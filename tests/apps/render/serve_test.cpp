@@ -103,7 +103,7 @@ TEST_CASE("who looks on when a signal ends the run is told so, and what it means
   Served served(endless);
   WebClient viewer(served.page.port);
   viewer.get(served.page.path("events"), served.page.host);
-  viewer.heard_until("The picture comes.");
+  viewer.heard_until("Rendering the picture.");
   served.page.process.send(SIGTERM);
   CHECK(
       contains(viewer.heard_all(),
@@ -115,7 +115,7 @@ TEST_CASE("who looks on may stop the run, as a signal does, and nobody who has n
   Served served(endless);
   WebClient viewer(served.page.port);
   viewer.get(served.page.path("events"), served.page.host);
-  viewer.heard_until("The picture comes.");
+  viewer.heard_until("Rendering the picture.");
   CHECK(contains(served.page.sent("stop", "{}", "Origin: http://evil.example\r\n"), "403 Forbidden"));
   CHECK(contains(served.page.got("stop"), "404 Not Found"));
   CHECK(contains(served.page.sent("go", "{}"), "405 Method Not Allowed"));
@@ -131,7 +131,7 @@ TEST_CASE("a stop that is asked for again, or beside a signal, ends nothing at o
     Served served({endless[0], endless[1], "--checkpoint=" + (folder / "a.ck").string()});
     WebClient viewer(served.page.port);
     viewer.get(served.page.path("events"), served.page.host);
-    viewer.heard_until("The picture comes.");
+    viewer.heard_until("Rendering the picture.");
     viewer.heard_until("event: tile");
     has_signal ? served.page.process.send(SIGINT) : static_cast<void>(served.page.sent("stop", "{}"));
     for (int i = 0; i < 3; ++i) {

@@ -134,7 +134,7 @@ TEST_CASE("a mesh with a camera of its own, and no light, is lit as the command 
 TEST_CASE("of a picture that takes long nothing is waited for when the camera moves on") {
   Viewed viewed("balls-4", {"--resolution=1024x1024", "--samples=4096"});
   CHECK(Viewed::value(viewed.picture(), "moving") == "true");
-  viewed.viewer.heard_until("The picture comes.");
+  viewed.viewer.heard_until("Rendering the picture.");
   viewed.wish("3,2,2/0,0,0/0,0,1/40", true);
   CHECK(Viewed::value(viewed.picture(), "camera") == "3,2,2/0,0,0/0,0,1/40");
 }

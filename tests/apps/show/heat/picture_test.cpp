@@ -13,7 +13,7 @@ namespace {
 
 HeatField field(int width, int height, const std::vector<double>& values) {
   return {
-      .kind = core::HeatKind::rays, .width = width, .height = height, .values = values, .meaning = "rays shot", .unit = "rays"};
+      .kind = core::HeatKind::rays, .width = width, .height = height, .values = values, .meaning = "rays traced", .unit = "rays"};
 }
 
 core::Color pixel(const Image& image, int x, int y) {

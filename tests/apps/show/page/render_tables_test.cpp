@@ -46,7 +46,7 @@ TEST_CASE("the rows of the nodes add up to the run's counters") {
   const auto& report = std::get<svm::Report>(*rendered.report);
   const Table table = node_table(record);
   CHECK(table.rows().size() == 3);
-  CHECK(sum(table, "rays shot") == report.operations().ray_count());
+  CHECK(sum(table, "rays traced") == report.operations().ray_count());
   CHECK(sum(table, "faults") == report.pages().faults);
   CHECK(sum(table, "pages served") == report.pages().faults);
   CHECK(sum(table, "pixels") == 16 * 12);
