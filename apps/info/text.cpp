@@ -48,7 +48,7 @@ std::string triple(const core::Vec3d& vector, const std::string& mark) {
 }
 
 std::string bounds_text(const core::Box& bounds) {
-  return bounds.empty() ? "nothing is in it"
+  return bounds.empty() ? "the scene is empty"
                         : triple(bounds.low, ",") + " to " + triple(bounds.high, ",") + ", extent " +
                               triple(bounds.high - bounds.low, " x ");
 }

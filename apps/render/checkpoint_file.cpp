@@ -136,11 +136,11 @@ class Reader {
   void check(bool is_whole) const {
     check_read();
     if (!is_whole) {
-      fail(path_, "this checkpoint is damaged or cut short: start again without --resume, when it is removed");
+      fail(path_, "this checkpoint is damaged or cut short: remove it and start again without --resume");
     }
   }
   void refuse(const std::string& impossible) const {
-    fail(path_, "this checkpoint is damaged, it tells of " + impossible + ": start again without --resume, when it is removed");
+    fail(path_, "this checkpoint is damaged, it contains " + impossible + ": remove it and start again without --resume");
   }
   /// A number that has more room in the file than it can need.
   std::uint32_t narrow(std::uint64_t number) const {

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string start_text(const fs::path& file, const core::PartialPicture& start) {
-  return "going on from " + file.string() + ": " + grouped(start.done.count()) + " of " +
+  return "continuing from " + file.string() + ": " + grouped(start.done.count()) + " of " +
          counted(start.pass.pixel_count(), "pixel") + " of pass " + std::to_string(start.passes) + " are done";
 }
 
@@ -44,7 +44,8 @@ Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity ident
     has_one_ = true;
   }
   if (options.resumes && !is_quiet) {
-    messages_ << "dmpc: " << (start_ ? start_text(file, *start_) : "there is no " + file.string() + " yet: from the start")
+    messages_ << "dmpc: "
+              << (start_ ? start_text(file, *start_) : "there is no " + file.string() + " yet: starting from the beginning")
               << '\n';
   }
 }

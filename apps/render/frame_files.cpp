@@ -92,7 +92,7 @@ DueFrames::DueFrames(const RenderOptions& asked) : asked_(asked) {
 std::string DueFrames::note() const {
   return there_.empty() ? ""
                         : counted(there_.size(), "frame") + " of " + grouped(asked_.frames.range->count()) +
-                              (there_.size() == 1 ? " is there and stays as it is" : " are there and stay as they are");
+                              (there_.size() == 1 ? " is there and is skipped" : " are there and are skipped");
 }
 
 std::optional<DueFrame> DueFrames::first() const {

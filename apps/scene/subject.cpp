@@ -66,9 +66,8 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
   const std::string emitters =
       emitters_text({database.header().emitter_count, records.emitters_met, records.emitters_covered}, picture.transport);
   const bool has_copies = database.primitives().size() == database.header().primitive_count;
-  const std::string kept =
-      instances_text(options, build.keeps_instances, database.records(), share) +
-      (has_copies ? "" : "; what rounding moves, or leaves nothing of, was looked for outside of these alone");
+  const std::string kept = instances_text(options, build.keeps_instances, database.records(), share) +
+                           (has_copies ? "" : "; the effects of rounding were determined outside of these only");
   return {std::move(database), built, settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
 

@@ -66,7 +66,7 @@ bool is_among(const std::vector<std::string>& words, const std::string& word) {
 [[noreturn]] void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& words,
                               const std::string& more = "") {
   if (const std::string instead = said_instead_of(option + "=" + word); !instead.empty()) {
-    throw UsageError(option + "=" + word + " is there no more: " + instead);
+    throw UsageError(option + "=" + word + " no longer exists: " + instead);
   }
   const std::string advice = core::did_you_mean(word, words);
   throw UsageError(option + "=" + word + ": expected " + listed(words) + more + (advice.empty() ? "" : ".") + advice);

@@ -102,8 +102,8 @@ Interrupt::Interrupt(std::function<void()> look) : look_(std::move(look)) {
     waiter_ = std::jthread([this](const std::stop_token& closing) { wait_for_signals(closing); });
   } catch (const std::system_error&) {
     throw core::CapacityError(
-        "dmpc takes a thread that waits for signals, and this computer lets it start none: ask for a higher limit (ulimit -u, "
-        "pids.max of a container)");
+        "dmpc needs a thread that waits for signals, and this computer does not let it start one: ask for a higher limit (ulimit "
+        "-u, pids.max of a container)");
   }
 }
 

@@ -159,7 +159,7 @@ TEST_CASE("an empty scene is told without numbers that it has not") {
   CHECK(json["computers"][0]["dataflow_copies"].is_null());
   const std::string text = info_text(record);
   CHECK(contains(text, "no objects"));
-  CHECK(contains(text, "nothing is in it"));
+  CHECK(contains(text, "the scene is empty"));
   CHECK_FALSE(contains(text, "**Textures**"));
 }
 

@@ -167,7 +167,7 @@ TEST_CASE("who reads a forged checkpoint is told what it says that cannot be") {
   text[forged.parts[0]] = 2;
   write_text(forged.folder / "forged", forged.with_digest(text));
   CHECK_THROWS_WITH_AS(read_checkpoint(forged.folder / "forged", forged.identity),
-                       doctest::Contains("damaged, it tells of a pass that the picture does not have: start again"),
+                       doctest::Contains("damaged, it contains a pass that the picture does not have: remove it and start again"),
                        core::InputError);
 }
 

@@ -102,7 +102,7 @@ TEST_CASE("who resumes is told how far the picture was, unless quiet, or that th
   std::ostringstream messages;
   const CheckpointOptions options{.file = folder / "a", .resumes = true};
   Checkpoints first(options, small_identity, messages, false);
-  CHECK(contains(messages.str(), "yet: from the start"));
+  CHECK(contains(messages.str(), "yet: starting from the beginning"));
   CHECK(first.continuation().start == nullptr);
   keep(first.continuation(), 3);
   Checkpoints second(options, small_identity, messages, false);

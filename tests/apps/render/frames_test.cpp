@@ -86,7 +86,7 @@ TEST_CASE("a frame whose picture is there is never written over: it is an error,
   resumed.push_back("--resume");
   const Said done = render(folder, resumed);
   CHECK_MESSAGE(done.status == 0, done.errors);
-  CHECK(contains(done.errors, "1 frame of 3 is there and stays as it is"));
+  CHECK(contains(done.errors, "1 frame of 3 is there and is skipped"));
   CHECK(folder.entry_count() == 3);
   CHECK(file_text(folder / "a.02.png") == "precious");
   CHECK(render(folder, resumed).status == 0);

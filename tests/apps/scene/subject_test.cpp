@@ -102,9 +102,9 @@ TEST_CASE("of so many copies that none is made, it is told that nobody looked at
   core::settle(scene, instances, core::Copies::left_out);
   const DatabaseOptions options{.build = {.structure = core::Structure::extents, .keeps_instances = true}};
   const Subject subject = build_subject_quietly(scene, {.resolution = Resolution{8, 8}}, options);
-  CHECK(subject.kept ==
-        "kept 1 mesh in 520 places: 4,096 triangles for 2,129,920; what rounding moves, or leaves nothing of, "
-        "was looked for outside of these alone");
+  CHECK(
+      subject.kept ==
+      "kept 1 mesh in 520 places: 4,096 triangles for 2,129,920; the effects of rounding were determined outside of these only");
 }
 
 TEST_CASE("what rounding takes is told in pixels") {

@@ -21,7 +21,7 @@ inline void on_threads(std::size_t count, const std::function<void(std::size_t)>
       crew.push_back(std::async(std::launch::async, work, crew.size()));
     }
   } catch (const std::system_error&) {
-    throw core::CapacityError("this takes " + std::to_string(count) + " threads, and this computer lets dmpc start but " +
+    throw core::CapacityError("this takes " + std::to_string(count) + " threads, and this computer lets dmpc start only " +
                               std::to_string(crew.size()) + ": ask for a higher limit (ulimit -u, pids.max of a container)");
   }
   for (std::future<void>& one : crew) {

@@ -52,7 +52,7 @@ SpeedPart parse_part(const std::string& word) {
     list += names.back() + ", ";
   }
   if (const std::string instead = said_instead_of("--parts=" + word); !instead.empty()) {
-    throw core::UsageError("--parts=" + word + " is no part any more: " + instead);
+    throw core::UsageError("--parts=" + word + " is no longer a part: " + instead);
   }
   const std::string meant = core::did_you_mean(word, names);
   throw core::UsageError("--parts=" + word + ": expected " + list + "with commas between" + (meant.empty() ? "" : ".") + meant);

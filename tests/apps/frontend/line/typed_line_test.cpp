@@ -142,7 +142,7 @@ constexpr Slip slips[] = {
     {"info a.obj --preview", "--preview is no option of dmpc info any more: --serve shows the picture"},
     {"study sweep rings-3 --vary=preview:on,off", "--vary=preview:on,off: preview is no option of dmpc render any more: --serve"},
     {"render a.obj --no-skip=any-hit,empty-space -o a.png",
-     "--no-skip=empty-space is there no more: empty voxels are passed over"},
+     "--no-skip=empty-space no longer exists: empty voxels are passed over"},
     {"render a.obj --strip=a.png -o a.png", "any more: --heatmap=done:FILE.png shows when each pixel was done"},
     {"render a.obj --trace-every=4 -o a.png", "any more: --trace-window=FROM,TO records all pixels"},
     {"render a.obj --trace-events=9 -o a.png", "any more: a million events are kept, spread over the run"},
