@@ -250,7 +250,7 @@ const finish = ({said, figures, page}) => {
   source.close();
   byId("ways").hidden = true;
   byId("when").textContent = "What all of them did, in parts of their time";
-  say(page ? `${said} Its page comes.` : `${said} What stands here is the last of it.`);
+  say(page ? `${said} Its page is loading.` : `${said} This is the final state.`);
   if (figures) copyable(figures);
   if (page) location.reload();
 };
@@ -260,11 +260,11 @@ for (const [name, draw] of [["step", drawStep], ["tile", drawTile], ["picture", 
 on("end", finish);
 source.onerror = () => {
   if (source.readyState === EventSource.CLOSED) {
-    say("No more viewers are let in, or all is over: reload the page to ask again.");
+    say("No more viewers are accepted, or the run is over: reload the page to try again.");
   } else if (++tries < triesMax) {
-    say("The connection is lost, and is asked for again.");
+    say("The connection is lost; trying again.");
   } else {
     source.close();
-    say("dmpc answers no more: it has ended, or was killed, before it could say so. What stands here is the last that was told.");
+    say("dmpc no longer answers: it has ended or was killed without notice. This is the last state that it sent.");
   }
 };
