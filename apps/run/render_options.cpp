@@ -65,8 +65,8 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
       "computer during the run). They hold for caches of all sizes if --work-item=0 --in-flight=1 fixes their order");
   options.add_flag_with_text("--serve", "0", render.serve_port,
                              "Serve a page that shows the picture as it is rendered, and on modelled machines or with --report "
-                             "what the nodes do, to browsers on this computer; its address is printed. At the end it shows the "
-                             "page of --report, if there is one. --serve=PORT uses this port");
+                             "what the nodes do, to browsers on this computer that know its address, which is printed. At the "
+                             "end it shows the page of --report, if there is one. --serve=PORT uses this port");
   options.add_flag("--quiet", render.quiet, "Print no progress and no closing lines");
 }
 

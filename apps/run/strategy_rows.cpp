@@ -77,7 +77,7 @@ std::vector<PageRow> rows_of_pages() {
        .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
       {.name = "--resident",
        .takes = number<&PageOptions::resident_percent>(0, 100, "0"),
-       .help = "Percent of those cached pages that every node keeps permanently: what a small picture uses most (svm)",
+       .help = "Percent of the cached pages that every node keeps permanently: those that a small picture uses most (svm)",
        .why = "nodes of the other strategies have no frames for pages",
        .key = "resident_pages",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
