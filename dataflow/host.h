@@ -24,7 +24,7 @@
 
 namespace dmpc::dataflow {
 
-/// The primary rays of a pass, but for those of pixels that are done, by node: all of them, or nothing if a stop of the run was
+/// The primary rays of a pass, except for those of pixels that are done, by node: all of them, or nothing if a stop of the run was
 /// requested meanwhile.
 using AssignPrimaries =
     std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::Pass& pass, const core::PixelMask& done)>;
@@ -54,7 +54,7 @@ class HostProgram final : public pictures::Host {
   /// What the constructor takes of the local memory.
   static nodes::MemoryPlan layout(const Plan& plan);
 
-  /// Whose the picture's primary rays are `deal` tells. What is counted goes on, but for what saturates. Where the plan says that
+  /// Whose the picture's primary rays are `deal` tells. What is counted goes on, except for what saturates. Where the plan says that
   /// the host assigns all primary rays.
   void begin_frame(const core::FineDetail* detail) override;
 

@@ -109,7 +109,7 @@ struct Plan {
   std::uint32_t largest_node() const;
   /// The most that any node takes.
   std::size_t node_memory_max_bytes() const { return node_memory(largest_node()).total(); }
-  /// But for the rays that overflow, which grow as they come (Report says how far), and those of later passes not yet assigned.
+  /// Except for the rays that overflow, which grow as they come (Report says how far), and those of later passes not yet assigned.
   nodes::MemoryPlan host_memory() const;
 };
 

@@ -47,7 +47,7 @@ core::RenderSettings settings_for(const NodeAssignment& assign) {
   return settings;
 }
 
-/// What never changes but for whose the regions are, in local memory.
+/// What never changes except for whose the regions are, in local memory.
 struct Constants {
   core::RenderSettings settings;  ///< header: the part's
   Regions regions;

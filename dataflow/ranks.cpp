@@ -26,7 +26,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
   return request;
 }
 
-/// What a node is assigned but for its records, which its program reads itself, behind it.
+/// What a node is assigned except for its records, which its program reads itself, behind it.
 struct Assigned {
   core::DatabaseHeader header;
   std::size_t record_bytes = 0;

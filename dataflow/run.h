@@ -28,7 +28,7 @@
 
 namespace dmpc::dataflow {
 
-/// A run, but for the database and the picture.
+/// A run, except for the database and the picture.
 struct RunOptions {
   nodes::ComputerRequest computer = {};
   RayOptions rays = {};

@@ -89,7 +89,7 @@ class LocalMemory {
  public:
   static constexpr std::size_t alignment = 64;
 
-  /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
+  /// Reserves plan.total() bytes at once, except for the `reserve` category: that is the thread's stack, which the runner makes; it
   /// counts as used from the start. Where immutable bytes are referred to, it reserves no room for them, either. The real
   /// computer sets bytes aside when they are first written. Throws core::CapacityError if it has not so much, as far as it knows
   /// by then.

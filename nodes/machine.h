@@ -42,7 +42,7 @@ struct Machine {
   const MessageCost& cost_of_message(std::uint64_t bytes) const {
     return bytes <= short_bytes_max ? short_message : long_message;
   }
-  /// What these operations take; where that is too much for 64 bits, modulo 2^64, so that differences are right none the less.
+  /// What these operations take; where that is too much for 64 bits, modulo 2^64, so that differences are right nevertheless.
   std::uint64_t price_ps(const Charges& done) const {
     std::uint64_t sum_ps = 0;
     for (std::size_t i = 0; i < charge_count; ++i) {

@@ -13,7 +13,7 @@
 // after that is done, but may owe a wake-up to a receiver that was asleep: that can be had by no order of the two, as
 // the system wakes only who sleeps on a word that has changed. So a sleeper looks for itself at times, and finds the
 // packet: a wake-up owed makes it sleep as long again as it has slept, 16 ms at least and a second at most. The
-// receiver stopped half-way holds what it took; senders go on while they have credits. drain() is wait-free but for
+// receiver stopped half-way holds what it took; senders go on while they have credits. drain() is wait-free except for
 // give(), which is lock-free.
 //
 // Invariants

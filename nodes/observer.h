@@ -72,7 +72,7 @@ struct Span {
   std::uint64_t call = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< what it takes by itself, without interrupts and packets that came meanwhile
-  Charges before, after;     ///< operations charged until its begin and its end; equal but for calls of the program
+  Charges before, after;     ///< operations charged until its begin and its end; equal except for calls of the program
 
   /// A call of the program that is no interrupt.
   bool is_own_call() const { return activity == Activity::work || activity == Activity::receive; }

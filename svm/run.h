@@ -32,7 +32,7 @@
 
 namespace dmpc::svm {
 
-/// A run, but for the database and the picture.
+/// A run, except for the database and the picture.
 struct RunOptions {
   nodes::ComputerRequest computer = {};
   PageOptions pages = {};

@@ -31,7 +31,7 @@ struct WorkShape {
 
 /// A node without pixels sends one work request at a time. It hops along the ring of workers, from i to i + 1 mod N; the first
 /// that has items left answers the requester directly; the last of all others to be asked tells it that there is no more work,
-/// and since shares only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
+/// and since shares only shrink this stays true (except for a node that the word to begin a later pass has not reached yet:
 /// a requester that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Where the host assigns all items, every request goes to it.
 ///

@@ -25,7 +25,7 @@ struct BuildOptions {
   RecordOrder record_order = RecordOrder::spatial;
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
-  /// Of what shines by itself at most so many are aimed at by paths (core/database/shading/emitters.h). 0: none, as Whitted's has
+  /// Of emitters at most so many are aimed at by paths (core/database/shading/emitters.h). 0: none, as Whitted's has
   /// it.
   std::uint32_t emitters_max = 0;
   bool for_paths = false;  ///< surfaces are as pictures by paths show them: Material::microfacets

@@ -18,7 +18,7 @@ struct DatabasePart {
   DatabaseHeader header;         ///< header.region is the region, the first of several
   std::vector<std::byte> bytes;  ///< overread_bytes more than the records take
   std::size_t record_bytes = 0;  ///< the size of the records alone, also when `bytes` are forgotten
-  /// Lanes of its leaves but for those of base meshes, whose places count: summed over all parts and divided by the whole's, the
+  /// Lanes of its leaves except for those of base meshes, whose places count: summed over all parts and divided by the whole's, the
   /// duplication.
   std::uint64_t primitive_copies = 0;
   std::vector<bool> holds;  ///< by region, in the order asked for: whether a leaf's box touches it
@@ -32,7 +32,7 @@ struct DatabasePart {
 DatabasePart extract(const Database& database, std::span<const Region> regions);
 inline DatabasePart extract(const Database& database, const Region& region) { return extract(database, std::span(&region, 1)); }
 
-/// What extract() answers but for the bytes, which are not copied: there are none.
+/// What extract() answers except for the bytes, which are not copied: there are none.
 DatabasePart measure_part(const Database& database, std::span<const Region> regions);
 
 }  // namespace dmpc::core

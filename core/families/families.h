@@ -1,6 +1,6 @@
 // The generators of the Standard Procedural Databases (E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A
 // 7(11), 1987): each sends its scene of the given size to a sink, entity by entity in the order of the SPD's own files,
-// unrounded. Sizes are checked by core/families/scenes.h. Thread safety: all are pure but for what they send.
+// unrounded. Sizes are checked by core/families/scenes.h. Thread safety: all are pure except for what they send.
 #pragma once
 
 #include <initializer_list>

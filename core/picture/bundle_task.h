@@ -1,4 +1,4 @@
-// Some neighbouring pixels under way: their rays of one kind walk together, run against any tracer of bundles.
+// Several neighbouring pixels in progress: their rays of one kind are traced together by any tracer of bundles.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace dmpc::core {
 
-/// Renders samples of up to 16 pixels, of each those of a step of its own: 16 rays at a time, those of a pixel one behind the
-/// other, so that bundles are full however few samples each brings. Depth first, last in first out: a bundle's hits are shaded
-/// one bundle of children at a time, and each is traced to its end before the next is made, and hits leave for those of their
-/// last one, so the stack holds at most one BundleHit a depth, by paths one. Lives in memory given by its owner; never allocates.
-/// Copyable as bytes. The deposits are those of PixelTask, in another order, which sums do not know. `Bundle`: RayBundle, or of a
-/// database with instances InstanceBundle, which is longer.
+/// Renders samples of up to 16 pixels, each with its own step: 16 rays at a time, those of a pixel one after the other, so that
+/// bundles are full however few samples each pixel needs. Depth first, last in first out: a bundle's hits are shaded one bundle
+/// of children at a time, each is traced to its end before the next is made, and hits are popped for their last one, so the stack
+/// holds at most one BundleHit per depth, with paths one. Lives in memory given by its owner; never allocates. Copyable as bytes.
+/// The deposits are those of PixelTask in another order, on which sums do not depend. `Bundle`: RayBundle, or InstanceBundle,
+/// which is longer, for a database with instances.
 template <class Bundle>
 class BundleTaskWith {
  public:
@@ -28,7 +28,7 @@ class BundleTaskWith {
   /// `stack` has at least waiting_hits_max() entries and outlives the task.
   explicit BundleTaskWith(std::span<BundleHit> stack) : stack_(stack) {}
 
-  /// Starts on each of `pixels`, at most 16, with as many steps, each of which brings samples.
+  /// Starts rendering `pixels`, at most 16, with as many steps, each of which adds samples.
   void start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
              Operations& operations);
 
@@ -38,12 +38,12 @@ class BundleTaskWith {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
-  /// Rays that a run() which returned `more` has ended.
+  /// Number of rays that ended in the last run() that returned `more`.
   std::uint32_t rays_ended() const { return ended_; }
   std::uint32_t pixel_count() const { return pixel_count_; }
   std::uint32_t pixel(std::uint32_t place = 0) const { return pixels_[place]; }
   const PixelSums& sums(std::uint32_t place = 0) const { return sums_[place]; }
-  /// The first of those under way, or that ended last.
+  /// The first ray in progress, or the last that ended.
   const Ray& ray() const { return bundle_.rays[0]; }
 
  private:
@@ -63,13 +63,13 @@ class BundleTaskWith {
   std::span<BundleHit> stack_;
   std::array<std::uint32_t, pixels_max> pixels_;
   std::array<PixelSums, pixels_max> sums_;
-  std::array<std::uint8_t, bundle_rays_max> place_;  ///< of the pixel of each of the bundle's rays
-  std::array<SampleStep, pixels_max> steps_;         ///< of each pixel
+  std::array<std::uint8_t, bundle_rays_max> place_;  ///< the pixel's slot of each ray of the bundle
+  std::array<SampleStep, pixels_max> steps_;  ///< each pixel's
   Address absent_ = no_address;
-  std::uint32_t sample_ = 0;  ///< that the next round begins with, of the pixel at next_place_
+  std::uint32_t sample_ = 0;  ///< first sample of the next round, of the pixel at next_place_
   std::uint16_t ended_ = 0;
   std::uint8_t pixel_count_ = 0, next_place_ = 0;
-  std::uint8_t stack_size_ = 0;  ///< at most a depth
+  std::uint8_t stack_size_ = 0;  ///< at most one entry per depth
   bool tracing_ = false;
   Bundle bundle_;
 };
@@ -98,7 +98,7 @@ TaskState BundleTaskWith<Bundle>::run(T& tracer, const RenderSettings& settings,
   return TaskState::more;
 }
 
-/// Shades the newest hits until they yield a bundle to be traced, or samples have ended that meet nothing (`more`), an absent
+/// Shades the newest hits until they yield a bundle to be traced, or samples have ended that hit nothing (`more`), an absent
 /// record is needed, or no hit and no sample is left.
 template <class Bundle>
 template <BundleTracer T>

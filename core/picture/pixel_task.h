@@ -1,4 +1,4 @@
-// One pixel under way: a bounded stack of hits and one ray, run against any tracer until it ends or needs an absent record.
+// One pixel in progress: a bounded stack of hits and one ray, run with any tracer until it ends or needs an absent record.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace dmpc::core {
 
-/// Finds what a ray hits, and the records that shading reads. trace() has the contract of core/trace/traversal.h's.
+/// Finds a ray's hit, and the records that shading reads. trace() has the contract of core/trace/traversal.h.
 template <class T>
 concept Tracer = requires(T& tracer, const Ray& ray, Cursor& cursor, Operations& operations, Address address) {
   { tracer.trace(ray, cursor, operations) } -> std::same_as<Traced>;
@@ -37,24 +37,24 @@ class GridTracer {
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
-  /// Of a database with instances.
+  /// For a database with instances.
   Traced trace(const Ray& ray, InstanceCursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
-  /// Traces with a test of leaves of one's own: test(record, address, best).
+  /// Traces with the caller's test of leaves: test(record, address, best).
   template <class Test>
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
     return RayTraversal(ray, cursor, *records_, operations).trace(header_, skips_, meet_children, test);
   }
-  /// Traces rays that walk together.
+  /// Traces the rays of a bundle.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
   bool trace(InstanceBundle& bundle, Operations& operations) {
     return core::trace(bundle, *records_, header_, skips_, operations);
   }
   const std::byte* find(Address address) { return records_->find(address); }
-  /// In which rays walk: the header's, or that of the last move_to().
+  /// The region that rays traverse: the header's, or that of the last move_to().
   const Region& region() const { return header_.region; }
-  /// The records are those of this region, too.
+  /// Changes the region; the records include those of this region.
   void move_to(const Region& region) { header_.region = region; }
 
  private:
@@ -63,32 +63,32 @@ class GridTracer {
   Skips skips_;
 };
 
-/// What a pixel needs beside the records; by value in every node.
+/// What a pixel needs in addition to the records; copied to every node.
 struct RenderSettings {
   DatabaseHeader header;
-  Camera camera;  ///< knows the samples of the first pass
+  Camera camera;  ///< includes the number of samples of the first pass
   ShadeOptions shade;
   RefinementOptions refinement;
   Skips skips;
-  BackgroundTiles background;  ///< find_background() of the database and the camera, if that is known
+  BackgroundTiles background;  ///< find_background() of the database and the camera, if known
 
-  /// Whether what lies behind everything is the same for all rays that meet nothing.
+  /// Whether the background is the same for all rays that hit nothing.
   bool is_beyond_alike() const { return !shade.transport.has_gradient && !has_sky_picture(header); }
-  /// Whether a ray that meets nothing shows what a record says.
+  /// Whether a ray that hits nothing reads its light from a record.
   bool asks_sky(const Ray& ray) const { return has_sky_picture(header) && ray.kind != RayKind::shadow; }
   /// Whether the pixel's primary rays are certain to miss, and need not be traced.
   bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
-  /// Settings of this picture for a tracer that is to be asked about every ray.
+  /// Settings of this picture for a tracer that has to trace every ray.
   RenderSettings with_every_ray_traced() const {
     RenderSettings settings = *this;
     settings.skips.background = false;
     return settings;
   }
-  /// What refinement is to know of the scene, beside the film: of nothing, if none is wanted.
+  /// What refinement needs to know of the scene, in addition to the film; empty if no refinement is wanted.
   FineDetail fine_detail(const Database& database) const {
     return refinement.is_wanted() ? find_fine_detail(database, camera) : FineDetail();
   }
-  /// What a ray finds that meets nothing, and is no shadow ray, and does not ask the sky's picture.
+  /// The radiance for a ray that hits nothing, is no shadow ray, and does not read the sky's picture.
   Color light_beyond(const Ray& ray) const {
     const Transport& transport = shade.transport;
     if (transport.has_sky) {
@@ -96,9 +96,9 @@ struct RenderSettings {
     }
     return ray.kind == RayKind::scattered ? Color{} : header.background;
   }
-  /// What a ray that meets nothing brings to its pixel: a shadow ray its light, any other what lies behind everything.
+  /// The light that a ray that hits nothing adds to its pixel: for a shadow ray its weight, otherwise the background.
   Color light_of_miss(const Ray& ray) const { return ray.kind == RayKind::shadow ? ray.weight : ray.weight * light_beyond(ray); }
-  /// A primary ray that is known to miss: its direction is there where light_beyond() asks for it.
+  /// A primary ray that is known to miss: has its direction if light_beyond() needs it.
   Ray missing_ray(std::uint32_t pixel, std::uint32_t sample) const {
     return shade.transport.has_gradient ? camera.primary_ray(pixel, sample)
                                         : Ray{.pixel = pixel, .sample = static_cast<std::uint16_t>(sample)};
@@ -107,16 +107,16 @@ struct RenderSettings {
   Pass first_pass() const { return {camera.pixel_count(), first_samples().count}; }
 };
 
-/// Adds what a sample of the ray's number finds to its pixel's sums.
+/// Adds what the ray's sample finds to its pixel's sums.
 inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const RenderSettings& settings, Operations& operations) {
   if (add(sums.plane[plane_of(ray.sample)], to_fixed(light, settings.shade.film_scale))) {
     ++operations.deposits_saturated;
   }
 }
 
-/// What each of `pixels` pixels of settings.background has, with the samples of the first pass; counted as if a task had rendered
-/// every one. Requires that settings.shows_background() them, and that they are alike: settings.is_beyond_alike(). Thread safety:
-/// pure but for the counts.
+/// The sums of `pixels` pixels of settings.background, with the samples of the first pass; counted as if a task had rendered
+/// each. Requires settings.shows_background() for them, and settings.is_beyond_alike(). Thread safety: pure except for the
+/// counts.
 inline PixelSums background_sums(std::uint64_t pixels, const RenderSettings& settings, Operations& operations) {
   const SampleRange samples = settings.first_samples();
   PixelSums sums;
@@ -131,8 +131,8 @@ inline PixelSums background_sums(std::uint64_t pixels, const RenderSettings& set
   return sums;
 }
 
-/// What a ray that has been traced brings to its pixel. None if it brings nothing: then a shadow ray was blocked, and the hit of
-/// any other is to be shaded. Requires that it does not ask the sky's picture.
+/// The light that a traced ray adds to its pixel. None if a shadow ray was blocked, or the hit of another ray is to be shaded.
+/// Requires that it does not read the sky's picture.
 inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const RenderSettings& settings, Operations& operations) {
   if (hit) {
     ++(ray.kind == RayKind::shadow    ? operations.shadow_blocked
@@ -143,10 +143,10 @@ inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const Rende
   return settings.light_of_miss(ray);
 }
 
-/// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
-/// traced to its end before the next is made, and a hit leaves for that of its last one, so the stack holds at most one hit a
-/// depth, by paths one, whatever the number of lights. Lives in memory given by its owner; never allocates. Copyable as bytes.
-/// `RayCursor`: Cursor, or of a database with instances InstanceCursor, which is longer.
+/// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, each child is traced to its
+/// end before the next is made, and a hit is popped for its last one, so the stack holds at most one hit per depth, with paths
+/// one, for any number of lights. Lives in memory given by its owner; never allocates. Copyable as bytes. `RayCursor`: Cursor, or
+/// InstanceCursor, which is longer, for a database with instances.
 template <class RayCursor>
 class PixelTaskWith {
  public:
@@ -157,7 +157,7 @@ class PixelTaskWith {
   explicit PixelTaskWith(std::span<HitState> stack) : stack_(stack) {}
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
-  /// Starts on one pixel, by the interface of tasks of several.
+  /// Starts one pixel, through the interface of tasks for several.
   void start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
              Operations& operations) {
     start(pixels.front(), steps.front().samples(settings.first_samples().count), settings, operations);
@@ -169,32 +169,31 @@ class PixelTaskWith {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
-  /// Whether what needs an absent record is the traversal of the task's ray, so that somebody else may walk on below it, or the
-  /// shading of a hit.
+  /// Whether the task needs an absent record for its ray's traversal, so that another node may continue below it, or for shading.
   bool is_tracing() const { return tracing_; }
   core::Below below(const Skips& skips) const { return core::below(ray_, cursor_, skips); }
-  /// Where the mesh stands that the traversal is in; nothing if it is in none.
+  /// The instance that the traversal is in; nothing if it is in none.
   std::optional<ReportedInstance> instance_of_traversal() const {
     if constexpr (std::is_same_v<RayCursor, InstanceCursor>) {
       return cursor_.is_inside ? std::optional(reported_instance(cursor_)) : std::nullopt;
     }
     return std::nullopt;
   }
-  /// What lies below has been looked through; run() goes on behind it.
+  /// Takes what was found below the absent record; run() goes on after it.
   void take_below(const Hit& found, const Skips& skips, Operations& operations) {
     expect(tracing_, "a traversal is what waits for what lies below");
     core::take_below(found, ray_, skips, cursor_, operations);
   }
-  /// Which record the shading needs, or the traversal outside of meshes.
+  /// The kind of record that shading needs, or the traversal outside of meshes.
   RecordKind absent_kind() const {
     return !tracing_ ? record_kind_of(stack_[stack_size_ - 1]) : cursor_.next.is_leaf() ? RecordKind::leaf : RecordKind::bvh_node;
   }
-  /// Rays that a run() which returned `more` has ended.
+  /// Number of rays that ended in the last run() that returned `more`.
   std::uint32_t rays_ended() const { return 1; }
   std::uint32_t pixel_count() const { return 1; }
   std::uint32_t pixel(std::uint32_t = 0) const { return pixel_; }
   const PixelSums& sums(std::uint32_t = 0) const { return sums_; }
-  /// Under way, or the one that ended last.
+  /// The ray in progress, or the last that ended.
   const Ray& ray() const { return ray_; }
 
  private:
@@ -215,7 +214,7 @@ class PixelTaskWith {
   std::uint32_t sample_ = 0, sample_end_ = 0;
   std::uint32_t stack_size_ = 0;
   bool tracing_ = false;
-  bool shows_background_ = false;  ///< the pixel's primary rays are not traced: they miss
+  bool shows_background_ = false;  ///< the pixel's primary rays are not traced, since they miss
 };
 
 extern template class PixelTaskWith<Cursor>;
@@ -224,7 +223,7 @@ extern template class PixelTaskWith<InstanceCursor>;
 using PixelTask = PixelTaskWith<Cursor>;
 using InstancePixelTask = PixelTaskWith<InstanceCursor>;
 
-/// work(task) with a task that a database's rays fit.
+/// Calls work(task) with the type of task for the database's rays.
 template <class Work>
 void with_pixel_task(const DatabaseHeader& header, std::span<HitState> stack, const Work& work) {
   if (header.has_instances != 0) {

@@ -9,7 +9,7 @@
 
 namespace dmpc::core {
 
-/// Renders the samples of one pixel with `tracer`, which never answers absent, and adds the work to `operations`.
+/// Renders the samples of one pixel with `tracer`, which never returns absent, and adds the work to `operations`.
 template <class Task, Tracer T>
 PixelSums render_pixel(Task& task, std::uint32_t pixel, const SampleRange& samples, T& tracer, const RenderSettings& settings,
                        Operations& operations) {
@@ -22,7 +22,7 @@ PixelSums render_pixel(Task& task, std::uint32_t pixel, const SampleRange& sampl
   return task.sums();
 }
 
-/// Renders every pixel in order, pass after pass. `detail` is the picture's, if it is refined: find_fine_detail().
+/// Renders every pixel in order, pass after pass. `detail`: the picture's find_fine_detail(), if it is refined.
 template <Tracer T>
 Film render(T& tracer, const RenderSettings& settings, Operations& operations, const FineDetail* detail = nullptr) {
   const int width = settings.camera.width(), height = settings.camera.height();

@@ -73,7 +73,7 @@ void cover(MaterialRecord& material, float share) {
   material.transmittance = material.transmittance * share + (1.0F - share);
 }
 
-/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 but for rounding, for the sake of which
+/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 except for rounding, for the sake of which
 /// no ray is sent, and no texel of just the cutoff is cut away.
 float share_left(std::uint16_t cutoff, float alpha) {
   constexpr float rounding = 0x1p-16F;
@@ -97,7 +97,7 @@ float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_ind
 
 /// Makes a surface's record, which is that of one without metal, what a texture says. What alpha leaves out is no metal.
 void multiply(const HitState::FacetShares& shares, MicrofacetRecord& facets, MaterialRecord& material) {
-  facets.metallic *= std::min(shares.metallic, 1.0F);  // the weights of a look-up add up to 1 but for rounding
+  facets.metallic *= std::min(shares.metallic, 1.0F);  // the weights of a look-up add up to 1 except for rounding
   facets.alpha *= std::min(shares.roughness * shares.roughness, 1.0F);
   const float dielectric = 1.0F - facets.metallic, absent = 1.0F - material.specular;
   material.diffuse *= dielectric;
@@ -377,7 +377,7 @@ Stage Shader::after_lights_of_path(const HitState& state) const {
   return finds_light ? Stage::continued : Stage::finished;
 }
 
-/// Of lights that are asked. A path beyond its last bounce looks for what shines by itself alone.
+/// Of lights that are asked. A path beyond its last bounce looks for emitters alone.
 std::uint32_t Shader::light_count(const HitState& state) const {
   const bool asks = !options_.transport.is_by_paths() || state.ray.depth <= options_.depth_max;
   return asks ? header_.light_count : 0;

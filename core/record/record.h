@@ -281,7 +281,7 @@ struct MaterialRecord {
   float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
 
   /// In the place of `shine`: of a surface of microfacets, whose finish is a MicrofacetRecord. Its `diffuse` and `transmittance`
-  /// are so, but for what the tiny mirrors reflect of either, and `specular` is the share of it that is there.
+  /// are so, except for what the tiny mirrors reflect of either, and `specular` is the share of it that is there.
   static constexpr float microfacet_mark = -1;
   static constexpr std::uint32_t extension_mark = 0xffc00000U, extension_max = ~extension_mark;
 
@@ -298,7 +298,7 @@ static_assert(sizeof(MaterialRecord) == 32);
 struct MaterialExtensionRecord {
   static constexpr std::uint16_t share_max = 65535;
 
-  Color specular;              ///< of highlight and mirror, but for what has the surface's own colour
+  Color specular;              ///< of highlight and mirror, except for what has the surface's own colour
   Color emission;              ///< radiance
   float refraction_index = 1;  ///< as a MaterialRecord has it
   /// In 65535ths: where what alpha leaves of the surface is less, nothing is there, elsewhere all; 0: as much as alpha leaves.

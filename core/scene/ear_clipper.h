@@ -41,7 +41,7 @@ class CornerTree {
     bool is_one_place = false;  ///< where they all lie: one speaks for all
   };
 
-  /// What a node may hold of a triangle, but for rounding: where none of three straight lines has it on its right.
+  /// What a node may hold of a triangle, except for rounding: where none of three straight lines has it on its right.
   struct Query {
     /// The turn at (u, v) is at most offset + slope[0] u + slope[1] v.
     struct Edge {

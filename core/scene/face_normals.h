@@ -7,7 +7,7 @@
 
 namespace dmpc::core {
 
-/// Whether a face looks as it would without them: all are alike and stand on its plane but for what writing them in a few digits
+/// Whether a face looks as it would without them: all are alike and stand on its plane except for what writing them in a few digits
 /// has done to them, or are 0. Cards of leaves have normals that are alike, and point elsewhere. A normal for each corner, of any
 /// length; at least one.
 bool are_the_faces_own(std::span<const Vec3d> normals, std::span<const Vec3d> corners);

@@ -28,7 +28,7 @@ double angle_above(const SkyReference& sky, std::uint32_t row) {
   return pi * std::clamp(row - 0.5, 0.0, static_cast<double>(sky.height)) / sky.height;
 }
 
-/// A number of whole cells and the rest, of something from 0 to less than `count`, but for rounding.
+/// A number of whole cells and the rest, of something from 0 to less than `count`, except for rounding.
 struct Split {
   std::uint32_t cell;
   double rest;

@@ -24,7 +24,7 @@ inline double sum_of_channels(std::uint32_t texel) {
 float alpha_of(TexelFormat format, std::uint32_t texel);
 
 /// The texel nearest to `color`, with the alpha nearest to `alpha` where the format has one; what is negative or no number counts
-/// as 0, what is too large as the largest: 1, but for shared_exponent 65,408, whose error is up to 1/512 of the largest channel.
+/// as 0, what is too large as the largest: 1, except for shared_exponent 65,408, whose error is up to 1/512 of the largest channel.
 /// With the curve: nearest on its scale.
 std::uint32_t encoded(TexelFormat format, const Vec3d& color, double alpha = 1);
 

@@ -165,7 +165,7 @@ void keep_coverage(Texture& texture, double cutoff) {
   if (!(cutoff > 0) || texture.format != TexelFormat::srgb_alpha) {
     return;
   }
-  const double least_there = std::ceil(std::min(cutoff, 1.0) * alpha_max - 0.01);  // but for rounding
+  const double least_there = std::ceil(std::min(cutoff, 1.0) * alpha_max - 0.01);  // except for rounding
   const auto cut = static_cast<std::uint32_t>(std::max(least_there, 1.0));
   const TextureLevel& finest = texture.levels.front();
   const std::size_t there = count_from(alpha_counts(finest), cut), all = finest.texels.size();

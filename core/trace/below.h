@@ -1,4 +1,4 @@
-// A part of a ray's traversal that somebody else does: all that lies below a child whose record is absent.
+// The part of a ray's traversal that another node does: everything below a child whose record is absent.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace dmpc::core {
 
-/// All that decides what a traversal finds below `child`, and what it counts on the way: the ray and the bounds as the walk
-/// itself would use them, bit by bit.
+/// Everything that decides what a traversal finds below `child` and what it counts: the ray and the bounds, with the bits that
+/// the traversal itself would use.
 struct Below {
   Vec3f origin, origin_rest, direction, direction_rest;  ///< as a Ray has them
   float t_max = 0;
   std::uint32_t ignored_primitive = no_primitive;
   BvhChild child = BvhChild::none();
-  float t_low = 0, t_high = 0;                  ///< of the macro cell
-  float best_t = 0;                             ///< of the nearest hit so far
-  std::uint32_t best_primitive = no_primitive;  ///< no_primitive: there is none
+  float t_low = 0, t_high = 0;  ///< the macro cell's
+  float best_t = 0;  ///< t of the nearest hit so far
+  std::uint32_t best_primitive = no_primitive;  ///< no_primitive: no hit so far
   std::uint32_t any = 0;                        ///< 1: any hit will do
 };
 static_assert(sizeof(Below) == 80 && std::is_trivially_copyable_v<Below>);
@@ -31,7 +31,7 @@ static_assert(sizeof(Below) == 80 && std::is_trivially_copyable_v<Below>);
 /// Whether any hit ends the ray's traversal.
 inline bool ends_at_any_hit(const Ray& ray, const Skips& skips) { return skips.any_hit && ray.kind == RayKind::shadow; }
 
-/// What trace() has left undone that has answered Traced::absent at `child`.
+/// The rest of a traversal for which trace() has returned Traced::absent at `child`.
 inline Below below(const Ray& ray, const Cursor& cursor, BvhChild child, const Skips& skips) {
   expect(cursor.stage == Cursor::Stage::child && child.found(), "a traversal that waits for a child is below the directory");
   return {.origin = ray.origin,
@@ -50,7 +50,7 @@ inline Below below(const Ray& ray, const Cursor& cursor, BvhChild child, const S
 
 inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) { return below(ray, cursor, cursor.next, skips); }
 
-/// The ray as far as a traversal below a child knows it.
+/// The part of the ray that a traversal below a child knows.
 inline Ray ray_of(const Below& below) {
   return {.origin = below.origin,
           .t_max = below.t_max,
@@ -60,13 +60,13 @@ inline Ray ray_of(const Below& below) {
           .direction_rest = below.direction_rest};
 }
 
-/// Where a traversal is that looks through what is below.
+/// The cursor of a traversal that visits what is below.
 template <class RayCursor = Cursor>
 RayCursor cursor_of(const Below& below) {
   RayCursor cursor;
   cursor.best.t = below.best_t;
   cursor.best.primitive = below.best_primitive;
-  cursor.best.leaf = Address{0};  // known to whoever asks
+  cursor.best.leaf = Address{0};  // known to the requester
   cursor.t_enter = double{below.t_low};
   cursor.exit.t = double{below.t_high};
   cursor.next = below.child;
@@ -75,12 +75,12 @@ RayCursor cursor_of(const Below& below) {
   return cursor;
 }
 
-/// What a traversal that is through has found, if that is not what was known.
+/// The hit of a finished traversal, if it differs from the one known before.
 inline Hit found_below(const Below& below, const Cursor& cursor) {
   return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
 }
 
-/// Does it with records that are all here. Found if something is nearer than what was the nearest.
+/// Traverses with all records present. Found if something is nearer than the nearest hit so far.
 template <Records R>
 Hit trace_below(const Below& below, R& records, Operations& operations) {
   const Ray ray = ray_of(below);
@@ -95,7 +95,7 @@ Hit trace_below(const Below& below, R& records, Operations& operations) {
   return found_below(below, cursor);
 }
 
-/// Takes what was found below a child for the nearest. Returns whether that ends the traversal.
+/// Takes what was found below a child as the nearest hit. Returns whether that ends the traversal.
 inline bool take_found(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
   if (found.found()) {
     expect(nearer(found.t, found.primitive, cursor.best), "what is found below a child is nearer than what was known");
@@ -109,7 +109,7 @@ inline bool take_found(const Hit& found, const Ray& ray, const Skips& skips, Cur
   return ends;
 }
 
-/// Takes what trace_below() has found into the traversal that asked: trace() then goes on behind the child.
+/// Merges the result of trace_below() into the requesting traversal; trace() then goes on after the child.
 inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
   if (!take_found(found, ray, skips, cursor, operations)) {
     cursor.next = cursor.waiting.take_up_to(cursor.best.t);

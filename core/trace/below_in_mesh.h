@@ -1,4 +1,4 @@
-// A part of a ray's traversal that somebody else does, where a database has instances: in a base mesh its place has to be told.
+// The part of a ray's traversal that another node does, for databases with instances: in a base mesh the instance is sent, too.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace dmpc::core {
 
-/// What a traversal in a base mesh needs of the InstanceRecord at `record`, beside a Below.
+/// What a traversal in a base mesh needs from the InstanceRecord at `record`, in addition to a Below.
 struct ReportedInstance {
   std::array<double, 12> world{};
   Address record = no_address;
@@ -21,12 +21,12 @@ struct ReportedInstance {
 };
 static_assert(sizeof(ReportedInstance) == 112 && std::is_trivially_copyable_v<ReportedInstance>);
 
-/// Outside of meshes it is a Cursor's.
+/// Outside of meshes: below() of a Cursor.
 inline Below below(const Ray& ray, const InstanceCursor& cursor, const Skips& skips) {
   return below(ray, cursor, cursor.is_inside ? cursor.next_in_mesh : cursor.next, skips);
 }
 
-/// Where the mesh stands that the traversal is in.
+/// The instance that the traversal is in.
 inline ReportedInstance reported_instance(const InstanceCursor& cursor) {
   expect(cursor.is_inside, "a place is told of a traversal in a mesh");
   const InstanceRecord& instance = cursor.instance;
@@ -50,7 +50,7 @@ Hit trace_below(const Below& below, const ReportedInstance& place, R& records, c
   return found_below(below, cursor);
 }
 
-/// Outside of meshes as a Cursor does.
+/// Outside of meshes: take_below() of a Cursor.
 inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, InstanceCursor& cursor, Operations& operations) {
   if (!cursor.is_inside) {
     take_below(found, ray, skips, static_cast<Cursor&>(cursor), operations);

@@ -1,4 +1,4 @@
-// Up to 16 rays of one kind that walk the grid together, between two records.
+// The state, between two records, of up to 16 rays of one kind that traverse the grid together.
 #pragma once
 
 #include <array>
@@ -21,34 +21,34 @@ inline constexpr std::size_t bundle_rays_max = 16;
 /// A bit for each ray of a bundle.
 using RayMask = std::uint32_t;
 
-/// How many. Spelt out, since std::popcount is a call where not all processors have an instruction for it.
+/// Number of rays in the mask. Written out, since std::popcount is a call where not all processors have an instruction for it.
 constexpr std::uint32_t count_of(RayMask rays) {
   const std::uint32_t pairs = rays - (rays >> 1U & 0x5555U);
   const std::uint32_t fours = (pairs & 0x3333U) + (pairs >> 2U & 0x3333U);
   return (((fours + (fours >> 4U)) & 0x0f0fU) * 0x0101U >> 8U) & 0x1fU;
 }
 
-/// A value of each ray, side by side, so that an instruction works on many.
+/// One value per ray, side by side for SIMD.
 template <class T>
 using Row = std::array<T, bundle_rays_max>;
 
-/// Up to so many rays of a BVH node are tested one by one, each against all its children at once.
+/// Up to this many rays of a BVH node are tested one by one, each against all its children at once.
 inline constexpr std::size_t apart_max = 3;
 
-/// Met children that have not been visited, the nearest last, each with the rays that have met it. Not initialised.
+/// Children that were met and not yet visited, the nearest last, each with the rays that met it. Not initialised.
 struct BundleChildren {
-  /// As MetChildren; and where rays are tested one by one, which happens once on a way down, each adds children of its own.
+  /// As MetChildren; where rays are tested one by one, which happens once on a way down, each adds its own children.
   static constexpr std::size_t count_max = MetChildren::count_max + (apart_max - 1) * bvh_children_max;
 
   alignas(64) std::array<Row<float>, count_max> t_enter;  ///< where each of the rays enters the box
-  std::array<float, count_max> nearest;                   ///< of those, about: what the order goes by
+  std::array<float, count_max> nearest;  ///< about the least of t_enter: the sort key
   std::array<BvhChild, count_max> record;
   std::array<RayMask, count_max> rays;
   std::uint32_t count;
 };
 
-/// A ray's t, primitive, and where that was read, of up to 16 rays. A candidate whose record is not here has `elsewhere` for a
-/// leaf and the next higher id: so the same hit counts as nearer where it is met, see replaces(), and no other that did not.
+/// t, primitive, and where that was read, for up to 16 rays. A candidate whose record is on another node has `elsewhere` for a
+/// leaf and the next higher id: so the same hit counts as nearer where it is met (see replaces()), and no other hit that did not.
 struct BundleHits {
   static constexpr Address elsewhere{0xfffffffeU};
   alignas(64) Row<float> t;
@@ -63,16 +63,16 @@ struct BundleHits {
   }
 };
 
-/// Rays and their walk, which core/trace/bundle_traversal.h takes from record to record. A step reads exactly one record, and
-/// whatever the next one needs is here by value, as in a Cursor. Each ray has its own bit in the masks, its own nearest hit and
-/// its own end. Neither initialised nor ever allocated: its owner has room for it.
+/// Rays and the state of their traversal, which core/trace/bundle_traversal.h takes from record to record. A step reads exactly
+/// one record, and whatever the next one needs is here by value, as in a Cursor. Each ray has its own bit in the masks, its own
+/// nearest hit and its own end. Neither initialised nor allocated: the owner provides the memory.
 struct RayBundle {
-  // What its owner sets.
+  // Set by the owner.
   std::array<Ray, bundle_rays_max> rays;
-  std::uint32_t count;  ///< of them, all of one kind
+  std::uint32_t count;  ///< number of rays, all of one kind
   RayMask arrived;      ///< rays that come from another region, by arrive()
 
-  // What the rays and the grid determine: see Walk, BoxRay and ShearedRay, whose bits these are.
+  // Computed from the rays and the grid, with the bits of CellTraversal, BoxRay and ShearedRay.
   alignas(64) std::array<Row<float>, 3> origin, direction, reciprocal;
   Row<float> shear_x, shear_y, scale_z, t_max;
   Row<std::uint32_t> ignored_primitive;
@@ -80,22 +80,22 @@ struct RayBundle {
   std::array<RayMask, 3> forward, backward;  ///< rays with a step of +1, of -1
   /// By the axis along which rays are sheared, and whether they go up (0) or down (1) along it.
   std::array<std::array<RayMask, 2>, 3> sheared_along;
-  std::array<std::uint32_t, 3> near_row, far_row;  ///< of a BVH node's bounds, where all rays agree
+  std::array<std::uint32_t, 3> near_row, far_row;  ///< rows of a BVH node's bounds, where all rays agree
   bool is_one_octant;                              ///< all rays agree
   Corner grid_size;                                ///< in finest cells
-  Region region;                                   ///< in which they walk
-  bool is_whole;                                   ///< that is the whole grid: nothing leaves it
+  Region region;  ///< the region that is traversed
+  bool is_whole;  ///< the region is the whole grid: no ray leaves it
   float rest_most;                                 ///< the largest of ShearedRay::rest() of all rays
   Vec3d grid_low;                                  ///< where the grid begins
-  double finest_cells;                             ///< a unit of length, in finest cells
+  double finest_cells;  ///< finest cells in a unit of length
 
-  // Where they are.
+  // The state of the traversal.
   enum class Stage : std::uint8_t { start, directory, child, finished } stage;
   bool any;                                              ///< any hit will do
-  RayMask alive;                                         ///< rays whose walk has not ended
+  RayMask alive;  ///< rays whose traversal has not ended
   RayMask found;                                         ///< rays that have a hit
   RayMask left;                                          ///< rays that have left the region: see passage()
-  RayMask group;                                         ///< the rays in `cell`, of those alive
+  RayMask group;  ///< live rays in `cell`
   Corner cell;                                           ///< the lower corner of the macro cell that comes next, in finest cells
   BvhChild next;                                         ///< what the next step reads, with Stage::child
   RayMask next_rays;                                     ///< for these rays
@@ -103,22 +103,22 @@ struct RayBundle {
   std::array<RayMask, 3> exit_axis;                      ///< through which plane rays leave the cell
   alignas(64) std::array<Row<std::int32_t>, 3> cells;    ///< each ray's macro cell
   alignas(64) Row<double> t_enter, t_exit;               ///< where the ray enters its cell, and leaves it
-  alignas(64) Row<float> t_low, t_high;                  ///< the same as boxes need it
-  std::array<Row<std::int32_t>, 3> arrival;              ///< of a ray that has left: the finest cell that it enters
-  std::array<std::uint8_t, bundle_rays_max> entry_axis;  ///< and through which plane
+  alignas(64) Row<float> t_low, t_high;  ///< t_enter and t_exit for boxes
+  std::array<Row<std::int32_t>, 3> arrival;  ///< the finest cell that a ray enters when it leaves the region
+  std::array<std::uint8_t, bundle_rays_max> entry_axis;  ///< the axis of the plane through which it enters
   BundleHits best;
   BundleChildren waiting;
 
-  /// The ray as its triangles need it.
+  /// The ray as triangle tests need it.
   ShearedRay sheared(std::size_t ray) const;
 
   RayMask all() const { return (RayMask{1} << count) - 1; }
-  /// Once `count` rays are set: their walk is to begin.
+  /// Begins the traversal, once `count` rays are set.
   void start() {
     stage = Stage::start;
     arrived = 0;
   }
-  /// After start(): this ray does not begin, but enters the region by `passage`.
+  /// After start(): the ray does not begin here, but enters the region by `passage`.
   void arrive(std::size_t ray, const Passage& passage);
   /// A ray's nearest hit, or candidate, as Cursor::best has it.
   Hit hit(std::size_t ray) const;

@@ -1,5 +1,4 @@
-// trace(bundle, records): all rays' hits or ways out, or absent record r; resumable at every record, with the bits that single
-// rays have.
+// trace(bundle, records): all rays' hits or exits, or absent record r; resumable at every record, with the bits of single rays.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +20,8 @@
 
 namespace dmpc::core {
 
-/// Walks bundles over one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
-/// `Bundle`: RayBundle, or of a database with instances InstanceBundle.
+/// Traverses with bundles over one kind of records. The constructor's arguments outlive it. Not thread-safe; costs nothing to
+/// make. `Bundle`: RayBundle, or InstanceBundle for a database with instances.
 template <Records R, class Bundle = RayBundle>
 class BundleTraversal {
  public:
@@ -37,8 +36,8 @@ class BundleTraversal {
         steps_(steps),
         intersectors_(intersectors) {}
 
-  /// Goes on until every ray's traversal has ended (true), or a record is absent: bundle.absent. Then call again once that is
-  /// there.
+  /// Goes on until every ray's traversal has ended (true), or a record is absent: bundle.absent. Then call again once it is
+  /// present.
   bool run() {
     if (bundle_.stage == RayBundle::Stage::start) {
       start();
@@ -96,7 +95,7 @@ class BundleTraversal {
     }
   }
 
-  /// The record that so many rays want, looked up once.
+  /// The record that `wanted` rays need, looked up once.
   const std::byte* find(Address address, std::uint32_t wanted) {
     const std::byte* const record = records_.find(address);
     if (record == nullptr) {
@@ -107,7 +106,7 @@ class BundleTraversal {
     return record;
   }
 
-  /// The planes where rays leave the box of all cells nearer to the bundle's than `reach`, as far as they lie within `limits`.
+  /// The planes through which rays leave the box of all cells nearer to the bundle's than `reach`, clipped to `limits`.
   PlanesAhead planes_ahead(std::int32_t reach, const Region& limits) const {
     PlanesAhead ahead;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -137,7 +136,7 @@ class BundleTraversal {
     return true;
   }
 
-  /// Leaves the box of empty cells nearer than `radius`; with 0 others have something in this cell.
+  /// Leaves the box of empty cells nearer than `radius`; 0: only other rays have something in this cell.
   void pass(std::int32_t radius) {
     const bool jumps = radius > 1;
     const Region limits = radius > 0 ? Region{.high = bundle_.grid_size} : bundle_.region;
@@ -174,7 +173,7 @@ class BundleTraversal {
     return true;
   }
 
-  /// As InstanceTraversal has it: takes what a child is, and comes to the next.
+  /// As in InstanceTraversal: handles a child and moves on to the next.
   void visit(const std::byte* record, Address address, std::uint32_t wanted) {
     const bool is_leaf = bundle_.next.is_leaf();
     const bool is_of_instances = is_leaf && !bundle_.is_inside && read<LeafHeader>(record).kind == PrimitiveKind::instance;
@@ -235,7 +234,7 @@ class BundleTraversal {
     return meets;
   }
 
-  /// Of the rays that have been tested, those that have another hit than before.
+  /// The tested rays whose hit has changed.
   template <class Visit>
   void for_each_new(const BundleHits& before, const Visit& visit) const {
     for (RayMask rays = bundle_.next_rays; rays != 0; rays &= rays - 1) {
@@ -246,7 +245,7 @@ class BundleTraversal {
     }
   }
 
-  /// RayTraversal::first_block_in_cell(), then leaves it. Boxes behind the first leaf are as those behind a hit.
+  /// RayTraversal::first_block_in_cell(), then leaves the cell. Boxes behind the first leaf are treated as those behind a hit.
   RayMask first_leaves_in_cell() {
     RayMask met = 0;
     if (header_.has_voxels()) {
@@ -258,7 +257,7 @@ class BundleTraversal {
       if (bundle_.next.is_leaf()) {
         met |= bundle_.next_rays;
         set_first(bundle_.next_rays,
-                  bundle_.waiting.t_enter[bundle_.waiting.count]);  // where the child that was taken last waited
+                  bundle_.waiting.t_enter[bundle_.waiting.count]);  // t_enter of the child that was taken last
       } else {
         const std::uint32_t wanted = count_of(bundle_.next_rays);
         operations_.bvh_node_reads += wanted;
@@ -278,7 +277,7 @@ class BundleTraversal {
     }
   }
 
-  /// Tests what the list of the voxel names, as RayTraversal::visit_list() does, then leaves it.
+  /// Tests the leaves in the voxel's list, as RayTraversal::visit_list() does, then leaves it.
   bool visit_list() {
     BvhChild& behind = bundle_.waiting.record[0];
     while (bundle_.next.found()) {
@@ -307,10 +306,10 @@ class BundleTraversal {
     return true;
   }
 
-  /// Those that have a hit, if any will do.
+  /// Rays that end at any hit and have one.
   RayMask rays_done() const { return bundle_.any ? bundle_.found : 0; }
 
-  /// All of the group's but those of `done`, whose walk ends.
+  /// Takes the group's rays on, except those of `done`, whose traversal ends.
   void leave_cell(RayMask done) {
     const RayMask leaving = bundle_.group & ~done;
     bundle_.alive &= ~(bundle_.group & done);
@@ -321,7 +320,7 @@ class BundleTraversal {
     next_cell();
   }
 
-  /// The primitives of a leaf, which so many rays want.
+  /// Tests the primitives of a leaf that `wanted` rays need.
   void test_leaf(const std::byte* record, Address leaf, std::uint32_t wanted) {
     const auto header = read<LeafHeader>(record);
     const RayMask rays = bundle_.next_rays, found = bundle_.found;
@@ -352,7 +351,7 @@ class BundleTraversal {
     }
   }
 
-  /// The triangles that share their planes: few scenes have any.
+  /// Triangles that share their planes: rare.
   [[gnu::noinline]] void test_shared(const std::byte* record, Address leaf, RayMask rays) {
     const auto header = read<LeafHeader>(record);
     const std::byte* const ids = ids_of(header, record);
@@ -382,17 +381,16 @@ class BundleTraversal {
   std::conditional_t<may_go_inside, std::optional<PlacedMesh>, std::monostate> place_;  ///< of the mesh that the bundle is in
 };
 
-/// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,
-/// unless that skip is off), or it has left the region that `header` is of, or a record is absent (false). After that, call again
-/// with the same bundle once the record of bundle.absent is there. What bundle.best then holds, and where rays leave, has the
-/// bits that trace() finds for each ray by itself; what is counted is a little more, since a bundle comes to children in one
-/// order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive Rendering with Coherent
-/// Ray Tracing", Eurographics 2001.
+/// Traverses the grid with the rays of `bundle` until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,
+/// unless that skip is off), or it has left the region of `header`, or a record is absent (false). Then call again with the same
+/// bundle once the record of bundle.absent is present. bundle.best, and where rays leave, have the bits that trace() finds for
+/// each ray by itself; slightly more is counted, since a bundle visits children in one order for all its rays. Source: I. Wald,
+/// P. Slusallek, C. Benthin, M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Eurographics 2001.
 template <Records R>
 bool trace(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
   return BundleTraversal<R>(bundle, records, header, skips, operations).run();
 }
-/// Where a database has instances.
+/// For a database with instances.
 template <Records R>
 bool trace(InstanceBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
   return BundleTraversal<R, InstanceBundle>(bundle, records, header, skips, operations).run();

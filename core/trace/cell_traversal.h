@@ -1,4 +1,4 @@
-// The traversal of one ray through the grid, one record a step.
+// The traversal of the grid by one ray, one record per step.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,9 @@
 
 namespace dmpc::core {
 
-/// What a ray and a grid determine: nothing here is carried from step to step, everything is recomputed from the ray's bits.
+/// Values that follow from a ray and a grid: they are recomputed from the ray's bits, not carried from step to step.
 ///
-/// Since RayPlanes keep order, "which planes has the ray crossed at t" has one answer: macro cells, empty boxes of them and
-/// regions are all boxes of one lattice, and leaving a box of empty cells in one step leads to the same cell as leaving it cell
+/// RayPlanes keep order, so "which planes has the ray crossed at t" has one answer: macro cells, empty boxes of them and
 /// by cell. Planes crossed at equal t are crossed in the order x, y, z.
 ///
 /// Within a macro cell a tree of BVH nodes leads to the leaves whose boxes the ray meets, nearest first. The cell is left when
@@ -28,10 +27,10 @@ class CellTraversal {
  public:
   CellTraversal(const Ray& ray, const GridFrame& frame, const Region& region);
 
-  /// Goes on as in another region: only what is left for what differs.
+  /// Continues in another region; recomputes only what depends on the region.
   void move_to(const Region& region);
 
-  /// That of the direction, as reciprocal_direction() has it.
+  /// As reciprocal_direction() returns it.
   const Vec3d& reciprocal() const { return planes_.reciprocal(); }
 
   /// Puts the cursor on the first macro cell; false if the ray misses the grid or is not finite.
@@ -40,8 +39,8 @@ class CellTraversal {
   /// The finest cell that a traversal which enter() has put on its first macro cell starts in.
   Corner first_cell(const Cursor& cursor) const;
 
-  /// Takes the directory entry of the cursor's cell: then a BVH node is to be visited, or another entry is needed, or the
-  /// traversal is finished (false) or has left the region (false, and cursor.stage says so).
+  /// Takes the directory entry of the cursor's cell. Afterwards a BVH node is to be visited, or another entry is needed, or the
+  /// traversal is finished (false) or has left the region (false, with Stage::left).
   bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, Operations& operations) const;
 
   /// Leaves the cursor's cell, whose children have been visited, for one whose entry is needed, unless the traversal is finished
@@ -50,10 +49,10 @@ class CellTraversal {
     return leave(ray, cursor.exit, nullptr, cursor, operations);
   }
 
-  /// Takes a ray that enters the region in finest cell `cell` through all of it, as if nothing were there. The traversal is then
-  /// finished or has left.
+  /// Takes a ray that enters the region in finest cell `cell` through all of it, as if it were empty. Afterwards the traversal is
+  /// finished or has left the region.
   void leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const;
-  /// Where it would leave the region then, if it went on for ever.
+  /// Where the ray would leave the region then, if it had no end.
   Exit region_exit() const;
 
  private:
@@ -70,13 +69,13 @@ class CellTraversal {
 
   RayPlanes planes_;
   Region grid_, region_;
-  bool whole_;  ///< the region is the whole grid: nothing leaves it
+  bool whole_;  ///< the region is the whole grid: no ray leaves it
 };
 
-// What a ray does at every step is here, so that it becomes one loop with whatever finds the records.
+// The functions that a ray needs at every step are inline, so that they form one loop with the look-up of records.
 
-/// The planes, one of each axis, that the ray comes to when it leaves the box of all cells nearer to `cell` than `reach` (finest
-/// cells, a multiple of a macro cell's) as far as they lie within `limits`.
+/// The planes, one per axis, through which the ray may leave the box of all cells nearer to `cell` than `reach` (in finest cells,
+/// a multiple of a macro cell's) clipped to `limits`.
 inline Corner CellTraversal::planes_ahead(const Corner& cell, std::int32_t reach, const Region& limits) const {
   Corner planes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -86,7 +85,7 @@ inline Corner CellTraversal::planes_ahead(const Corner& cell, std::int32_t reach
   return planes;
 }
 
-/// The first of them.
+/// The first plane that is crossed.
 inline Exit CellTraversal::exit_through(const Corner& planes) const {
   Exit exit{std::numeric_limits<double>::infinity()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -122,12 +121,12 @@ inline bool CellTraversal::read(const Ray& ray, const DirectoryEntry& entry, Cur
   return leave(ray, exit_through(planes_ahead(cursor.cell, finest_per_macro, limits)), nullptr, cursor, operations);
 }
 
-/// Goes on to the next macro cell: the neighbour, or, from several cells `around` the cursor's, that which holds the ray. False
+/// Goes on to the next macro cell: the neighbour, or, from several cells `around` the cursor's, the one that holds the ray. False
 /// if the traversal ends.
 inline bool CellTraversal::leave(const Ray& ray, const Exit& exit, const Region* around, Cursor& cursor,
                                  Operations& operations) const {
   ++operations.cell_steps;
-  // At equality the next cell may hold the same t with a lower id.
+  // If they are equal, the next cell may hold a hit at the same t with a lower id.
   if (double{cursor.best.t} < exit.t || exit.t >= double{ray.t_max}) {
     return false;
   }

@@ -89,7 +89,7 @@ struct RealTriangle {
   std::array<Reals, 3> vertex, seen;
 };
 
-/// Sets t, u and v. Returns the determinant D . (edge2 x edge1): |D_z| times the sum of the exact edge functions, but for its
+/// Sets t, u and v. Returns the determinant D . (edge2 x edge1): |D_z| times the sum of the exact edge functions, except for its
 /// sign.
 Interval solve(const RealTriangle& real, Certificate& certificate) {
   const Reals edge1 = real.vertex[1] - real.vertex[0], edge2 = real.vertex[2] - real.vertex[0], from_v0 = -real.seen[0];

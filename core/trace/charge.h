@@ -1,4 +1,4 @@
-// What ray tracing asks a price for: its operations by class, and those of strategies, which bring rays and pages together.
+// Classes of charged operations: those of ray tracing, and those of strategies, which bring rays and pages together.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@
 
 namespace dmpc::core {
 
-/// The classes of operations, by which machines give prices.
+/// Classes of operations, for each of which a machine model has a price.
 enum class Charge : std::uint8_t {
-  ray_setup,      ///< a ray made and its traversal begun
-  cell_step,      ///< of the traversal through the grid
-  bvh_node_read,  ///< a record of the grid read; a ray's way into a base mesh counts as bvh_nodes_an_entry of them
-  triangle_test,  ///< one primitive of a leaf against a ray; a triangle of a base mesh that is placed as tests_a_placing of them
+  ray_setup,  ///< a ray made and its traversal begun
+  cell_step,  ///< a step of the traversal through the grid
+  bvh_node_read,  ///< a record of the grid read; entering a base mesh counts as bvh_nodes_an_entry
+  triangle_test,  ///< a primitive of a leaf tested with a ray; placing a triangle of a base mesh counts as tests_a_placing
   sphere_test,
   cone_test,
-  shading,        ///< of a hit: geometry, normals, material, lights
-  home_lookup,    ///< of a record in a page that is at home
-  cached_lookup,  ///< of a record in a page of another home
-  page_install,   ///< a page that has come put into a frame
+  shading,  ///< a hit shaded: geometry, normals, material, lights
+  home_lookup,  ///< a record looked up in a page that is at home
+  cached_lookup,  ///< a record looked up in a page of another home
+  page_install,  ///< a page that arrived put into a frame
   ray_packing,    ///< a ray put into a packet or taken out of one
   tile_read,      ///< a tile of a texture found and read
-  question_setup  ///< a traversal broken off for a question about a ray, or taken up where it is answered
+  question_setup  ///< a traversal suspended for a question about a ray, or resumed where it is answered
 };
 inline constexpr std::array<std::string_view, 13> charge_names = {
     "ray_setup",   "cell_step",     "bvh_node_read", "triangle_test", "sphere_test", "cone_test",     "shading",
@@ -34,7 +34,7 @@ inline constexpr std::array<std::string_view, 13> charge_names = {
 /// A number for each Charge.
 using ChargeCounts = std::array<std::uint64_t, charge_names.size()>;
 
-/// What these operations are charged as. Look-ups, pages and packing are the strategies' to add.
+/// How these operations are charged. Look-ups, pages and packing are added by the strategies.
 inline ChargeCounts charges_of(const Operations& operations) {
   ChargeCounts counts{};
   const auto set = [&counts](Charge charge, std::uint64_t count) { counts[static_cast<std::size_t>(charge)] = count; };

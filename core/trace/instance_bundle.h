@@ -1,4 +1,4 @@
-// Up to 16 rays that walk together through a database in which meshes are kept once.
+// Up to 16 rays that traverse a database with instances together.
 #pragma once
 
 #include <array>
@@ -11,35 +11,35 @@
 
 namespace dmpc::core {
 
-/// A RayBundle, and where it is within a mesh: by value, so that pages may leave. In a mesh `waiting`, `next` and `next_rays` are
-/// of its tree. Not initialised.
+/// A RayBundle and its state within a mesh, all by value, since pages may be evicted. In a mesh `waiting`, `next` and `next_rays`
+/// refer to its tree. Not initialised.
 struct InstanceBundle : RayBundle {
-  /// Rays as the boxes of one tree need them: rows of a RayBundle.
+  /// Rays as box tests in one tree need them: rows of a RayBundle.
   struct BoxRows {
     alignas(64) std::array<Row<float>, 3> origin, reciprocal;
     std::array<std::uint32_t, 3> near_row, far_row;
     bool is_one_octant;
   };
 
-  bool is_inside;  ///< of the mesh of `instance`: the rest is known
+  bool is_inside;  ///< in the mesh of `instance`; otherwise the fields below are not set
   InstanceRecord instance;
   Address instance_address;
-  double mesh_pad;  ///< how far in front of a box, and behind it, a ray may be for it to count, in the mesh's records' units
-  BoxRows in_mesh;  ///< of the rays that are inside
-  BundleChildren outside;  ///< what waits outside meanwhile
+  double mesh_pad;  ///< tolerance in front of a box and behind it, in units of the mesh's records
+  BoxRows in_mesh;  ///< rows of the rays that are inside
+  BundleChildren outside;  ///< children that wait outside meanwhile
 
-  /// Those of `next_rays` go into a mesh: `next` is its first BVH node.
+  /// Takes `next_rays` into a mesh: `next` becomes its first BVH node.
   void enter(const InstanceRecord& record, Address address, const GridFrame& frame);
-  /// What waits outside is what waits.
+  /// Restores the children that wait outside.
   void leave_mesh();
-  /// Puts the rows of the mesh in the place of the grid's, or back.
+  /// Swaps the mesh's rows with the grid's.
   void swap_rows();
-  /// Those instances of a leaf come to wait whose boxes some of `next_rays` meet.
+  /// Adds the instances of a leaf whose boxes some of `next_rays` meet to the waiting children.
   void meet_instances(const std::byte* leaf, bool in_order);
 };
 static_assert(std::is_trivially_copyable_v<InstanceBundle>);
 
-/// The BVH node with boxes as much larger on all sides as `pad`, or more.
+/// The BVH node with boxes enlarged on all sides by at least `pad`.
 BvhNode padded(const BvhNode& bvh_node, double pad);
 
 }  // namespace dmpc::core

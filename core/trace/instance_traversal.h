@@ -1,4 +1,4 @@
-// A ray's traversal where a database has instances: it goes into meshes for their boxes, and triangles come out to the ray.
+// A ray's traversal of a database with instances: boxes are tested in the mesh's coordinates, triangles in the grid's.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace dmpc::core {
 
-/// A Cursor, and where it is within a mesh: by value, so that pages may leave. In the grid an InstanceRecord is a child like
+/// A Cursor and its state within a mesh, all by value, since pages may be evicted. In the grid an InstanceRecord is a child like
 /// others.
 struct InstanceCursor : Cursor {
-  bool is_inside = false;  ///< the rest is known: of the instance at `next`
+  bool is_inside = false;  ///< the fields below are set, for the instance at `next`
   InstanceRecord instance;
   MeshRay ray;
   BvhChild next_in_mesh = BvhChild::none();
@@ -26,8 +26,9 @@ struct InstanceCursor : Cursor {
 };
 static_assert(std::is_trivially_copyable_v<InstanceCursor>);
 
-/// One ray's way, as a RayTraversal. Boxes decide what of a mesh is looked at, never what is hit: a leaf that is reached is
-/// placed, corner by corner, and then tested as its copy would be. So t, id and what follows from them have the copy's bits.
+/// One ray's traversal, as RayTraversal. Boxes decide which leaves of a mesh are visited, never what is hit: a leaf that is
+/// reached is placed, corner by corner, and tested as its copy would be. So t, id and what follows from them have the copy's
+/// bits.
 template <Records R>
 class InstanceTraversal {
  public:
@@ -40,7 +41,7 @@ class InstanceTraversal {
     });
   }
 
-  /// Goes through the mesh that the cursor is in. False if a record is absent.
+  /// Traverses the mesh that the cursor is in. False if a record is absent.
   bool visit_mesh(bool any) {
     const auto t_low = static_cast<float>(cursor_.t_enter), t_high = std::min(static_cast<float>(cursor_.exit.t), ray_.t_max);
     for (BvhChild child = cursor_.next_in_mesh; child.found();) {
@@ -105,7 +106,7 @@ class InstanceTraversal {
     return true;
   }
 
-  /// Takes what a child is. Returns the child that comes next, if there is one below.
+  /// Handles a child. Returns the child below it that comes next, if there is one.
   BvhChild visit(BvhChild child, const std::byte* record, const BoxRay& box, float t_low, float t_high, bool any) {
     const float t_most = std::min(t_high, cursor_.best.t);
     if (!child.is_leaf()) {
@@ -126,7 +127,7 @@ class InstanceTraversal {
     return BvhChild::none();
   }
 
-  /// Those of a leaf whose boxes the ray meets come to wait.
+  /// Adds those of a leaf whose boxes the ray meets to the waiting children.
   BvhChild meet_instances(const std::byte* record, const BoxRay& box, float t_low, float t_high, bool in_order) {
     const auto header = read<LeafHeader>(record);
     const std::size_t count = header.count;
@@ -178,7 +179,7 @@ class InstanceTraversal {
     core::test_leaf(ray_, sheared_, placed.record(), leaf, best, operations_);
     return best;
   }
-  /// Another leaf, if it is the same hit of which nobody here knew where its record is.
+  /// False if it is the known hit, whose record's address this node did not know.
   bool is_new(const Hit& hit) const {
     return hit.t != cursor_.best.t || hit.primitive != cursor_.best.primitive || hit.leaf != cursor_.best.leaf;
   }
@@ -189,10 +190,10 @@ class InstanceTraversal {
   R& records_;
   const DatabaseHeader& header_;
   Operations& operations_;
-  std::optional<PlacedMesh> instance_;  ///< of the instance that the ray is in, once a leaf of it is placed
+  std::optional<PlacedMesh> instance_;  ///< the instance that the ray is in, once one of its leaves is placed
 };
 
-/// trace() where a database has instances.
+/// trace() for a database with instances.
 template <Records R>
 Traced trace(const Ray& ray, InstanceCursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
              Operations& operations) {

@@ -1,4 +1,4 @@
-// Which of the functions that Highway compiles for each instruction set this processor runs.
+// Chooses among the functions that Highway compiles for each instruction set.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace dmpc::core {
 
-/// Of a function that is compiled for several instruction sets, or nullptr where it is not, the one number `rank` of those that
-/// this processor has, the fastest first; nullptr if it has no more.
+/// For a function that is compiled for several instruction sets (nullptr where it is not): number `rank` of those that this
+/// processor has, the fastest first; nullptr if there are no more.
 template <class Function>
 Function* compiled_for(std::size_t rank, Function* by_512, Function* by_256, Function* by_any) {
   const VectorWidth width = vector_width();
@@ -25,8 +25,8 @@ Function* compiled_for(std::size_t rank, Function* by_512, Function* by_256, Fun
 
 }  // namespace dmpc::core
 
-/// compiled_for() of a function of HWY_NAMESPACE, behind Highway's header. Highway's own dispatch takes the same, but loads its
-/// library, which measures this processor's clock for 4 ms whenever a program starts.
+/// compiled_for() of a function in HWY_NAMESPACE, after Highway's header. Highway's own dispatch chooses the same, but loads its
+/// library, which measures this processor's clock for 4 ms at every program start.
 #define DMPC_COMPILED_FOR(rank, function)                                                              \
   ::dmpc::core::compiled_for<decltype(HWY_STATIC_DISPATCH(function))>(rank, HWY_CHOOSE_AVX3(function), \
                                                                       HWY_CHOOSE_AVX2(function), &HWY_STATIC_DISPATCH(function))

@@ -16,19 +16,19 @@
 
 namespace dmpc::core {
 
-/// A ray as boxes need it, from reciprocal_direction(): with a component next to 0 it passes the planes of a box that it lies
+/// A ray as box tests need it, from reciprocal_direction(): with a component near 0 it crosses the planes of a box that it lies
 /// between far behind and far ahead.
 struct BoxRay {
   BoxRay(const Ray& ray, const Vec3d& reciprocal_direction);
 
   Vec3f origin, reciprocal;
-  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a BVH node's bounds the ray comes to first and last
+  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a BVH node's bounds the ray crosses first and last
 };
 
-/// Which of a BVH node's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the
-/// others to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. A ray enters a
-/// box at t_low or later; waiting.t_taken is where it enters that of the child returned. Planes are off by less than 2^-22 of
-/// their distance from the origin, which the insertion pad around the boxes makes good.
+/// Returns one of a BVH node's children whose boxes the ray meets in [t_low, t_high], if any, and adds the others to the waiting
+/// ones. With `in_order` it returns the nearest, and the nearest of the others is last; otherwise any. A ray enters a box at
+/// t_low or later; waiting.t_taken is where it enters that of the returned child. Planes are off by less than 2^-22 of their
+/// distance from the origin, for which the insertion pad around the boxes compensates.
 using BvhNodeKernel = BvhChild (*)(const BoxRay& ray, const BvhNode& bvh_node, float t_low, float t_high, bool in_order,
                                    MetChildren& waiting);
 /// The fastest kernel for this processor.
@@ -41,13 +41,13 @@ BvhChild meet_children_scalar(const BoxRay& ray, const BvhNode& bvh_node, float 
 struct TriangleRows {
   const float* rows;
   std::size_t count;
-  std::uint32_t left_out = 0;  ///< a bit for each that bundles do not test
+  std::uint32_t left_out = 0;  ///< a bit for each triangle that bundles do not test
 
   const std::byte* ids() const { return reinterpret_cast<const std::byte*>(rows + 9 * count); }
 };
 
-/// Which triangles the ray hits at a t in (0, t_most], a bit each, the one with id `ignored` left out; times[lane] is the t of
-/// those. `times` has room for 8.
+/// A bit for each triangle that the ray hits at a t in (0, t_most], except the one with id `ignored`; times[lane] is its t.
+/// `times` holds 8 values.
 using TriangleKernel = std::uint32_t (*)(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored,
                                          float t_most, float* times);
 /// The fastest kernel for this processor.
@@ -56,7 +56,7 @@ extern const TriangleKernel hit_triangles;
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times);
 
-/// Tests those triangles of a leaf that share their planes, in scalar code: sets their bits and times alone.
+/// Tests the triangles of a leaf that share their planes, in scalar code: sets only their bits and times.
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times);
 
 /// Tests the spheres or cones of a leaf, in scalar code.
@@ -65,8 +65,8 @@ std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, 
 /// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".
 const char* simd_name();
 
-/// Merges the hits of `ray` with the leaf at `record` (whose address is `leaf`) into `best`: the least (t, primitive) with t in
-/// (0, ray.t_max), the ignored primitive left out. Order and repetition of calls do not change the result.
+/// Merges the hits of `ray` with the leaf at `record` (with address `leaf`) into `best`: the least (t, primitive) with t in (0,
+/// ray.t_max), without the ignored primitive. Order and repetition of calls do not change the result.
 inline void test_leaf(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address leaf, Hit& best,
                       Operations& operations) {
   const auto header = read<LeafHeader>(record);

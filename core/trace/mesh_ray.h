@@ -1,4 +1,4 @@
-// A ray on its way through a base mesh: its boxes alone, since triangles come out to the ray.
+// A ray in a base mesh, for its boxes alone: triangles are tested in the grid's coordinates.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace dmpc::core {
 
-/// What a ray is to a base mesh, in the mesh's records' units. Its direction is not made unit length, so t is the grid's.
+/// A ray in a base mesh, in units of the mesh's records. Its direction is not normalised, so t is the grid's.
 struct MeshWay {
   Vec3d origin;
-  Vec3d slope;     ///< one over each component of the direction, never infinite
-  double pad = 0;  ///< how far in front of a box, and behind it, the ray may be for it to count: for all that rounds
+  Vec3d slope;  ///< the reciprocal of each component of the direction, never infinite
+  double pad = 0;  ///< tolerance in front of a box and behind it, for all rounding
 };
 
-/// The way into a base mesh.
+/// Transforms rays into a base mesh.
 class MeshGate {
  public:
   MeshGate(const InstanceRecord& instance, const GridFrame& frame);
@@ -28,17 +28,17 @@ class MeshGate {
  private:
   Vec3d inside(const Vec3d& v) const { return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z; }
 
-  std::array<Vec3d, 3> columns_;  ///< of the inverse of what places the mesh in the grid
+  std::array<Vec3d, 3> columns_;  ///< columns of the inverse of the mesh's transform into the grid
   Vec3d shift_;
   double pad_;
 };
 
-/// A ray as the boxes of a mesh need it: each begins by the pad earlier, and ends by it later.
+/// A ray as boxes of a mesh need it: each begins earlier by the pad, and ends later by it.
 struct MeshRay {
   MeshRay() = default;
   MeshRay(const Ray& ray, const InstanceRecord& instance, const GridFrame& frame);
 
-  /// As a BvhNodeKernel: which of a BVH node's children it meets in [t_low, t_high].
+  /// As a BvhNodeKernel: the BVH node's children that the ray meets in [t_low, t_high].
   BvhChild meet(const BvhNode& bvh_node, float t_low, float t_high, bool in_order, MetChildren& waiting) const;
 
   Vec3f near_origin, far_origin, reciprocal;

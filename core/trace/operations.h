@@ -1,4 +1,4 @@
-// Counts of the work that core does. The machine model of nodes/ alone knows what each costs.
+// Counts of core's work. Only the machine model of nodes/ knows what each costs.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@ namespace dmpc::core {
 /// Counted in one place each, the same under every runner and strategy.
 struct Operations {
   std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
-  /// More steps that rays would take if they left each empty cell by itself; a traversal's last jump, out of the grid or beyond
-  /// the light, is not counted.
+  /// Steps that rays would take in addition if they left each empty cell by itself; a traversal's last jump, out of the grid or
+  /// beyond the light, is not counted.
   std::uint64_t empty_cells = 0;
   std::uint64_t bvh_node_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
-  std::uint64_t instance_entries = 0;                                 ///< rays that went into a base mesh, by its place
+  std::uint64_t instance_entries = 0;  ///< rays that entered a base mesh by an instance
   std::uint64_t placed_triangles =
-      0;  ///< of base meshes, brought to a place: by a traversal, once for all rays of a bundle, or to be shaded
+      0;  ///< triangles of base meshes placed: by a traversal, once for all rays of a bundle, or for shading
   std::uint64_t shadings = 0;         ///< hits that were shaded
-  std::uint64_t normal_reads = 0;     ///< of those, hits on smooth triangles
-  std::uint64_t texture_lookups = 0;  ///< of those, hits on textured triangles
-  std::uint64_t tile_reads = 0;       ///< of tiles of textures: 1 to 8 for each probe of those
+  std::uint64_t normal_reads = 0;  ///< hits on smooth triangles that were shaded
+  std::uint64_t texture_lookups = 0;  ///< hits on textured triangles that were shaded
+  std::uint64_t tile_reads = 0;  ///< tiles of textures: 1 to 8 for each probe of a look-up
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;
@@ -33,14 +33,14 @@ struct Operations {
   std::uint64_t shadow_blocked = 0;
   std::uint64_t total_internal_reflections = 0;
   std::uint64_t deposits_saturated = 0;
-  std::uint64_t rays_cut = 0;         ///< not shot, because they could bring less light than the cutoff
-  std::uint64_t bundles = 0;          ///< walks of several rays together
-  std::uint64_t rays_in_bundles = 0;  ///< rays that walked so
+  std::uint64_t rays_cut = 0;  ///< rays that were not shot because they could bring less light than the cutoff
+  std::uint64_t bundles = 0;  ///< traversals of several rays together
+  std::uint64_t rays_in_bundles = 0;  ///< rays in these
   SkippedWork skipped;
 
   /// Rays shot, of all kinds.
   std::uint64_t ray_count() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
-  /// Those of them that were not known to meet only the background.
+  /// Rays that were not known to meet only the background.
   std::uint64_t traced_ray_count() const { return ray_count() - skipped.background; }
 };
 

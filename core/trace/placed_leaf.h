@@ -1,4 +1,4 @@
-// A leaf of a base mesh as the grid has it where an instance stands: what its copy's leaf would hold, to the bit.
+// A leaf of a base mesh placed in the grid by an instance: what its copy's leaf would hold, with the same bits.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dmpc::core {
 
-/// What an instance does to its mesh's records. Keeps `frame`, which outlives it.
+/// Places a mesh's records by an instance. Keeps a reference to `frame`, which outlives it.
 class PlacedMesh {
  public:
   PlacedMesh(const InstanceRecord& instance, const GridFrame& frame);
@@ -24,7 +24,7 @@ class PlacedMesh {
   const Placing& placing() const { return placing_; }
   double unit() const { return unit_; }
   std::uint32_t first() const { return first_; }
-  /// Of a triangle's corners, in the order of the copy's.
+  /// Normals of a triangle's corners, in the copy's order of corners.
   std::array<Vec3f, 3> normals(const std::array<Vec3f, 3>& of_mesh) const;
 
  private:
@@ -38,12 +38,12 @@ class PlacedMesh {
 
 class PlacedLeaf {
  public:
-  /// `record`: a leaf of the mesh. Returns how many triangles it has.
+  /// `record`: a leaf of the mesh. Returns its number of triangles.
   std::uint32_t place(const std::byte* record, const PlacedMesh& place);
   const std::byte* record() const { return record_.data(); }
-  /// Whether the copy has no such triangle, as rounding leaves nothing of it.
+  /// Whether the copy has no such triangle, because it is degenerate after rounding.
   bool has_vanished(std::uint32_t lane) const;
-  /// Makes those of which nothing is left such as no ray hits.
+  /// Replaces degenerate triangles by ones that no ray hits.
   void take_vanished_away();
 
  private:

@@ -38,7 +38,7 @@ float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
 /// Whether the edge functions differ in sign; zeros are on either side, so an edge belongs to both its triangles.
 bool outside(float u, float v, float w) { return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F); }
 
-/// A vertex as seen from the ray's origin, in the ray's order of axes: exact but for double's rounding.
+/// A vertex as seen from the ray's origin, in the ray's order of axes: exact except for double's rounding.
 Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {
   const auto along = [&](std::uint32_t axis) {
     return double{vertex[axis * stride]} - double{ray.origin[axis]} - double{ray.origin_rest[axis]};
@@ -95,7 +95,7 @@ struct SeenTriangle {
   }
 };
 
-/// Distances that differ by less than this share are the same but for rounding.
+/// Distances that differ by less than this share are the same except for rounding.
 constexpr double same_distance = 0x1p-20;
 
 float rounded(double t) { return static_cast<float>(t); }
@@ -239,7 +239,7 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
 namespace {
 
 /// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem: `size` is the sum of their
-/// coordinates, of which all their rests are a share but for those next to zero.
+/// coordinates, of which all their rests are a share except for those next to zero.
 double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
 
 /// For certain: the ray's line passes the sphere.

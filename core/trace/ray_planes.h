@@ -14,13 +14,13 @@
 
 namespace dmpc::core {
 
-/// In place of the axis of the plane through which a cell was entered: the traversal starts there.
+/// Stands for the axis of the entry plane where the traversal starts in a cell.
 inline constexpr std::uint8_t traversal_starts = 3;
-/// Up to here a point on a ray, in double, is off by less than 2^-31 of the grid.
+/// Up to this t a point on a ray, in double, is off by less than 2^-31 of the grid.
 inline constexpr double near_t_max = 0x1p20;
 
-/// The cell in [low, high) that holds a ray whose step along the axis is `step`, sought from `cell` on. `crossed(index)`: whether
-/// it has crossed that plane.
+/// The cell in [low, high) that holds a ray with this `step` along the axis, searched from `cell` on. `crossed(index)`: whether
+/// the ray has crossed that plane.
 template <class Crossed>
 std::int32_t settle(std::int32_t cell, std::int32_t low, std::int32_t high, std::int32_t step, const Crossed& crossed) {
   if (step > 0) {
@@ -41,10 +41,10 @@ std::int32_t settle(std::int32_t cell, std::int32_t low, std::int32_t high, std:
   return cell;
 }
 
-/// What a ray and a grid determine, recomputed from the ray's bits wherever it comes.
+/// Values that follow from a ray and a grid, recomputed from the ray's bits on every node.
 ///
-/// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.
-/// Rounding keeps order, so t rises or falls with i without exception.
+/// The only formula for planes: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double. Rounding is
+/// monotonic, so t always rises or falls with i.
 class RayPlanes {
  public:
   RayPlanes(const Ray& ray, const GridFrame& frame)
@@ -64,18 +64,18 @@ class RayPlanes {
     }
   }
 
-  /// That of the direction, as reciprocal_direction() has it.
+  /// As reciprocal_direction() returns it.
   const Vec3d& reciprocal() const { return reciprocal_; }
   /// -1, 0 or +1: the direction in which the ray crosses planes of the axis.
   std::int32_t step(std::size_t axis) const { return step_[axis]; }
   /// The t at which the ray crosses a plane, infinite along an axis without a step.
   double plane(std::size_t axis, std::int32_t index) const { return static_cast<double>(index) * slope_[axis] + offset_[axis]; }
-  /// Where the ray is at t, in finest cells, off by rounding.
+  /// The ray's position at t, in finest cells, with rounding errors.
   double place(std::size_t axis, double t) const {
     return (step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis]) * finest_cells_;
   }
 
-  /// The t at which a traversal through a grid of `size` finest cells starts; nothing if the ray misses it or is not finite.
+  /// The t at which a traversal of a grid of `size` finest cells starts; nothing if the ray misses it or is not finite.
   std::optional<double> entry(const Corner& size, float t_max) const {
     const double sum = origin_.x + origin_.y + origin_.z + direction_.x + direction_.y + direction_.z;
     if (!(sum * 0.0 == 0.0)) {  // something is not finite: doubles cannot overflow from floats
@@ -101,11 +101,11 @@ class RayPlanes {
   }
 
  private:
-  Vec3d origin_;  ///< from where the grid begins
+  Vec3d origin_;  ///< relative to the grid's lower corner
   Vec3d direction_, reciprocal_;
   std::array<double, 3> slope_{}, offset_{};
   std::array<std::int32_t, 3> step_{};
-  double finest_cells_;  ///< a unit of length, in finest cells
+  double finest_cells_;  ///< finest cells in a unit of length
 };
 
 }  // namespace dmpc::core

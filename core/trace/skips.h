@@ -1,4 +1,4 @@
-// Work that is left out where a scene does not need it: what can be switched off, and how much of it there was.
+// Work that is left out where a scene does not need it: switches, and how much was left out.
 #pragma once
 
 #include <array>
@@ -6,8 +6,7 @@
 
 namespace dmpc::core {
 
-/// What is left out unless it is switched off. Every switch is exact: it changes no bit of the film. `all_skips` says what each
-/// does.
+/// What is left out unless it is switched off. Every switch is exact: it changes no bit of the film. See `all_skips`.
 struct Skips {
   bool any_hit = true;
   bool unlit = true;
@@ -32,21 +31,21 @@ struct SkippedWork {
 };
 
 struct Skip {
-  const char* name;  ///< as the user calls it
-  const char* what;  ///< is left out, in a few words
-  const char* unit;  ///< of the work left out
+  const char* name;  ///< option's value
+  const char* what;  ///< what is left out, in a few words
+  const char* unit;  ///< unit of the work left out
   bool Skips::*is_on;
   std::uint64_t SkippedWork::*avoided;
 };
 
 /// Every skip, in the order of reports.
 inline constexpr std::array all_skips{
-    // Those whose boxes the ray enters before that hit.
+    // Counts primitives' boxes that the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
          "children of BVH nodes that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
     Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention traces it)", "shadow rays", &Skips::unlit,
          &SkippedWork::unlit},
-    // What those rays would have spawned is not counted.
+    // Does not count what those rays would have spawned.
     Skip{"zero-terms",
          "no ray whose contribution would be zero: reflected by a surface that does not mirror, transmitted by an opaque surface, to "
          "a light that is black or contributes nothing (the paper's convention traces the last), with paths where there is no "
@@ -65,7 +64,7 @@ inline constexpr std::array all_skips{
          "nodes passed over", &Skips::idle_nodes, &SkippedWork::idle_nodes},
 };
 
-/// All on but this one.
+/// All on except this one.
 constexpr Skips without(const Skip& skip) {
   Skips skips;
   skips.*skip.is_on = false;

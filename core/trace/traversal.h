@@ -13,7 +13,7 @@ namespace dmpc::core {
 
 enum class Traced : std::uint8_t { hit, miss, absent, left };
 
-/// The answer of a traversal that has ended or has left its region.
+/// The result of a traversal that has ended or has left its region.
 inline Traced finish(Cursor& cursor) {
   if (cursor.stage == Cursor::Stage::left) {
     return Traced::left;
@@ -48,8 +48,8 @@ inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& fra
   return Passage{.t_enter = cursor.t_enter, .cell = walk.first_cell(cursor)};
 }
 
-/// What trace() would answer from `passage` on in the traversal's region if that had no records, without reading any. After
-/// Traced::left `passage` is where the ray goes on, else where it was.
+/// What trace() would return from `passage` on if the traversal's region had no records, without reading any. After Traced::left
+/// `passage` is where the ray goes on; otherwise it is unchanged.
 inline Traced pass(const Ray& ray, const CellTraversal& walk, Passage& passage, Operations& operations) {
   Cursor cursor = arrive(passage);
   walk.leave_region(ray, passage.cell, cursor, operations);
@@ -60,25 +60,25 @@ inline Traced pass(const Ray& ray, const CellTraversal& walk, Passage& passage, 
   return traced;
 }
 
-/// Passes through a region by itself.
+/// Passes through one region.
 inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
   return pass(ray, CellTraversal(ray, frame, region), passage, operations);
 }
 
-/// Children that wait and do not lie behind the hit.
+/// Number of waiting children that do not lie behind the hit.
 inline std::uint64_t count_before(const MetChildren& waiting, const Hit& hit) {
   const auto begin = waiting.t_enter.begin();
   return static_cast<std::uint64_t>(std::count_if(begin, begin + waiting.count, [&](float t) { return t <= hit.t; }));
 }
 
-/// One ray's way among one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
+/// One ray's traversal over one kind of records. The constructor's arguments outlive it. Not thread-safe; costs nothing to make.
 template <Records R>
 class RayTraversal {
  public:
   RayTraversal(const Ray& ray, Cursor& cursor, R& records, Operations& operations)
       : ray_(ray), cursor_(cursor), records_(records), operations_(operations) {}
 
-  /// trace() with kernels of one's own: `meet` finds the children of a BVH node that the ray meets, test(record, address, best)
+  /// trace() with the caller's kernels: `meet` finds the children of a BVH node that the ray meets, test(record, address, best)
   /// is called for leaves.
   template <class Test>
   Traced trace(const DatabaseHeader& header, const Skips& skips, BvhNodeKernel meet, const Test& test) {
@@ -87,8 +87,8 @@ class RayTraversal {
     });
   }
 
-  /// trace() with a visit of what a macro cell has of one's own: visit(box, any) looks through it from cursor.next on, and is
-  /// false if a record is absent.
+  /// trace() with the caller's visit of a macro cell: visit(box, any) goes on from cursor.next, and is false if a record is
+  /// absent.
   template <class Visit>
   Traced walk_cells(const DatabaseHeader& header, const Skips& skips, const Visit& visit) {
     if (cursor_.stage == Cursor::Stage::finished) {
@@ -120,8 +120,8 @@ class RayTraversal {
     }
   }
 
-  /// Visits the children of the cursor's cell that the ray meets, from cursor.next on. False if a record is absent. `any` hit
-  /// will do: it ends the visit.
+  /// Visits the children of the cursor's cell that the ray meets, from cursor.next on. False if a record is absent. `any`: any
+  /// hit ends the visit.
   template <class Test>
   bool visit_children(const BoxRay& box, bool any, BvhNodeKernel meet, const Test& test) {
     const auto t_low = static_cast<float>(cursor_.t_enter), t_high = std::min(static_cast<float>(cursor_.exit.t), ray_.t_max);
@@ -152,8 +152,8 @@ class RayTraversal {
     return true;
   }
 
-  /// Tests what the list of the cursor's voxel names, from cursor.next on: a leaf, or, as if it were a BVH node's address, the
-  /// number of a reference. What comes behind a leaf is kept where a child would wait. False if a record is absent.
+  /// Tests the leaves in the list of the cursor's voxel, from cursor.next on: a leaf, or, stored like a BVH node's address, the
+  /// number of a reference. What follows a leaf is kept in a waiting child's slot. False if a record is absent.
   template <class Test>
   bool visit_list(const DatabaseHeader& header, bool any, const Test& test) {
     BvhChild& behind = cursor_.waiting.record[0];
@@ -181,9 +181,9 @@ class RayTraversal {
     return true;
   }
 
-  /// Where the ray, from where the cursor arrives on, enters the first box of a leaf of the database, a float no greater than
-  /// trace() could tell, or the first voxel with a list; infinite if trace() would test no primitive any more. No record is
-  /// absent, and no list is looked into.
+  /// The t at which the ray, from the cursor's arrival on, enters the first box of a leaf of the database, or the first voxel
+  /// with a list: a float no greater than trace() could find; infinite if trace() would test no more primitives. No record may be
+  /// absent, and no list is read.
   float first_leaf(const CellTraversal& walk, const DatabaseHeader& header) {
     const BoxRay box(ray_, walk.reciprocal());
     for (bool goes_on = true; goes_on;) {
@@ -205,7 +205,7 @@ class RayTraversal {
  private:
   static constexpr float never = std::numeric_limits<float>::infinity();
 
-  /// From cursor.next on. Reads BVH nodes alone.
+  /// From cursor.next on. Reads only BVH nodes.
   float first_block_in_cell(const BoxRay& box) {
     const auto t_low = static_cast<float>(cursor_.t_enter);
     const float t_high = std::min({static_cast<float>(cursor_.exit.t), ray_.t_max, cursor_.best.t});
@@ -232,12 +232,12 @@ class RayTraversal {
   Operations& operations_;
 };
 
-/// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit, unless
-/// that skip is off), no hit can exist, or a record is absent. After Traced::absent, call again with the same cursor once the
-/// record of cursor.absent is there: the answer has the same bits as without the interruption. Where `header` is a region's, a
-/// ray that leaves the region answers Traced::left, and whoever owns the cell of passage_of(cursor) goes on from arrive(), with
-/// the same bits. A ray with a NaN or an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal
-/// Algorithm for Ray Tracing", 1987.
+/// Traverses the grid with `ray` until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit, unless that skip is
+/// off), no hit can exist, or a record is absent. After Traced::absent, call again with the same cursor once the record of
+/// cursor.absent is present: the answer has the same bits as without the interruption. Where `header` is a region's, a ray that
+/// leaves the region returns Traced::left, and the owner of the cell of passage_of(cursor) goes on from arrive(), with the same
+/// bits. A ray with a NaN or an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal Algorithm for
+/// Ray Tracing", 1987.
 template <Records R>
 Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
              Operations& operations) {

@@ -43,7 +43,7 @@ class BundleTask {
   /// No ray, and no hit that has children to be made.
   bool is_idle() const { return !has_rays() && !has_ended() && fresh_hits_ == 0 && depth_ == 0; }
 
-  // See RayTask. As many rays and hits as rays_max since trace() or next_children(), but for rays that go on in this region:
+  // See RayTask. As many rays and hits as rays_max since trace() or next_children(), except for rays that go on in this region:
   void shoot(const core::Ray& ray);
   template <class Make>
   const core::Ray* shoot_made(const Make& make);

@@ -67,7 +67,7 @@ class Gather {
     std::uint64_t packets_queued = 0;    ///< of them, after a time in the queue
     std::uint64_t queue_high_water = 0;  ///< the most packets in the queue at once
 
-    /// Sums, but for the high water, of which the higher one stays.
+    /// Sums, except for the high water, of which the higher one stays.
     Counters& operator+=(const Counters& more);
     /// Mean rays in a packet over `ray_batch`, those in a full one, in (0, 1]; 1 without packets.
     double mean_fill(std::uint32_t ray_batch) const {

@@ -33,7 +33,7 @@ struct Surroundings {
 };
 
 /// The way of a ray that enters the grid, or leaves a region, by `passage`; in a region of node `here`'s it stops in any case,
-/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, BVH nodes and
+/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure except for the steps, BVH nodes and
 /// skipped regions that it adds to `operations`.
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                    std::optional<nodes::NodeId> here, core::Operations& operations);
@@ -41,7 +41,7 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
 /// next_stop() for each ray of `bundle` that has left, with the same bits; `here` is the node that they are on. Those whose way
 /// goes on keep their bits in bundle.left: bundle.passage() is how they enter the region of number region[ray]. The others'
 /// bits are taken out: what they have found, if anything, is their nearest hit. Counts as a bundle does: what is looked up for
-/// several is counted for each. Thread safety: pure but for the bundle and `operations`.
+/// several is counted for each. Thread safety: pure except for the bundle and `operations`.
 void find_next_stops(core::RayBundle& bundle, const Surroundings& surroundings, nodes::NodeId here, core::Operations& operations,
                      core::Row<std::uint32_t>& region);
 

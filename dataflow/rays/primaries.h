@@ -17,7 +17,7 @@
 
 namespace dmpc::dataflow {
 
-/// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in a region of its own, or reach
+/// For each node, the rays of a pass, except for those of pixels that are done, that enter the grid in a region of its own, or reach
 /// one before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background,
 /// only leaves that on the film: these are spread by their places in `order`, an equal share of the picture a node, so that no
 /// node has all of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with

@@ -42,7 +42,7 @@ struct BspOptions {
 /// Invariants: regions are numbered 0 .. region_count() - 1 from the low side of every cut to the high side. A box of n regions
 /// is cut into floor(n / 2) and ceil(n / 2), so the tree's form follows from the count alone, and the cut between regions i and i
 /// + 1, at whatever depth, is kept at index i. Of units a box of n nodes' is cut so, and a node's own into halves in turn.
-/// Immutable but for assign(), give_to() and mark_empty(); as plain bytes copyable to every node.
+/// Immutable except for assign(), give_to() and mark_empty(); as plain bytes copyable to every node.
 class Bsp {
  public:
   /// One region: the grid of `grid_size` finest cells, owned by node 0.

@@ -12,7 +12,7 @@
 
 namespace dmpc::dataflow {
 
-/// A lattice on which a ray's way through the regions of all partitions can be found at one go (LatticeTraversal). Immutable.
+/// A lattice on which a ray's way through the regions of all partitions can be found at once (LatticeTraversal). Immutable.
 class JointLattice {
  public:
   static constexpr std::size_t partitions_max = 64;

@@ -152,7 +152,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
         end.time_ns = clock.corrected(end.time_ns);
       }
     }
-    if (times) {  // but for its parts: near their edges an event may be missing
+    if (times) {  // except for its parts: near their edges an event may be missing
       times->whole_until_ns = clock.corrected(times->whole_until_ns);
       times->whole_from_ns = clock.corrected(times->whole_from_ns);
     }

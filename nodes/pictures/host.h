@@ -15,7 +15,7 @@
 
 namespace dmpc::pictures {
 
-/// The host's program, but for the packets: it takes light, and tells who looks on or keeps the picture.
+/// The host's program, except for the packets: it takes light, and tells who looks on or keeps the picture.
 class Host : public nodes::Program {
  public:
   /// The run of the picture before has ended: another one follows, on the same film, which is as new. `detail` is its own. Call

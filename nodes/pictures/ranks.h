@@ -21,7 +21,7 @@
 
 namespace dmpc::pictures {
 
-/// A computer request as bytes, but for the ranks. Requires that no machine is modelled.
+/// A computer request as bytes, except for the ranks. Requires that no machine is modelled.
 inline void put_computer(nodes::FlatWriter& flat, const nodes::ComputerRequest& computer) {
   core::expect(!computer.machine, "a model has no ranks");
   flat.put(computer.node_count, computer.node_memory_bytes, computer.stack_reserve_bytes, computer.chaos, computer.pool_threads);

@@ -65,7 +65,7 @@ class GatheringTalk {
     return reported;
   }
 
-  /// `own`: of this rank. On rank 0 those of all ranks, but for clocks; else nothing.
+  /// `own`: of this rank. On rank 0 those of all ranks, except for clocks; else nothing.
   std::vector<RankReport> gather_ranks(RankReport own, const Wait& wait) {
     if (links_->rank() == 0) {
       wait([this] { return reports_ended_ + 1 == links_->rank_count(); });

@@ -18,8 +18,8 @@ namespace dmpc::nodes {
 /// The times of one node in one run, in nanoseconds of virtual time.
 struct VirtualTimes {
   std::uint64_t computing_ns = 0;     ///< the operations that the program charged
-  std::uint64_t sending_ns = 0;       ///< of packets, but for those sent by an interrupt's service
-  std::uint64_t receiving_ns = 0;     ///< of packets, but for those that interrupted
+  std::uint64_t sending_ns = 0;       ///< of packets, except for those sent by an interrupt's service
+  std::uint64_t receiving_ns = 0;     ///< of packets, except for those that interrupted
   std::uint64_t service_busy_ns = 0;  ///< service of interrupts while the program had something to do
   std::uint64_t service_idle_ns = 0;  ///< the same while it had nothing to do
   /// Nothing to do, by the kind of the packet that ended it.

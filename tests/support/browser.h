@@ -36,7 +36,7 @@ inline std::string window_around(const std::string& file, int width, const std::
 }
 
 /// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`; empty if it
-/// has not by that time of its own clock. `script` is an element that puts it into the window's title; `state` follows upon the
+/// has not by that time of its own clock. `script` is an element that puts it into the window's title; `state` follows on the
 /// page's address.
 inline std::string reported_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot,
                                        const std::string& script = telling_script, const std::string& state = "",

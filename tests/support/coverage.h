@@ -22,7 +22,7 @@ class Coverage {
   /// One more case that is of this kind, or is not: a kind that is asked for and never comes is one at 0.
   void count(const std::string& kind, bool is_of_kind = true) { counts_[kind] += is_of_kind ? 1 : 0; }
 
-  /// The kinds that never came, but for what is called so: threads may come to it now and not then.
+  /// The kinds that never came, except for what is called so: threads may come to it now and not then.
   std::vector<std::string> blind_spots(const std::string& but_for = "\n") const {
     std::vector<std::string> kinds;
     for (const auto& [kind, number] : counts_) {

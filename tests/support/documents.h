@@ -33,7 +33,7 @@ inline Lines lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-/// All below `root`, but for what was built.
+/// All below `root`, except for what was built.
 inline std::vector<Document> all_documents(const std::filesystem::path& root) {
   std::vector<Document> documents;
   using Entries = std::filesystem::recursive_directory_iterator;

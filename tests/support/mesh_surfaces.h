@@ -39,7 +39,7 @@ inline void add_colored_square(core::SceneBuilder& builder, const core::Vec3d& l
                    corners);
 }
 
-/// Metals with a tint, highlights that do not mirror, colours of corners, what shines by itself, what is cut out or blended by
+/// Metals with a tint, highlights that do not mirror, colours of corners, emitters, what is cut out or blended by
 /// alpha, smooth and flat, one behind the other, under two lights.
 inline core::Scene mesh_surfaces() {
   core::Scene scene;

@@ -31,7 +31,7 @@ inline core::SkyTexels sunny_texels(std::uint32_t width, float sun = 200) {
   return core::sky_texels(width, width / 2, sunny_sky(width, sun));
 }
 
-/// So many texels of one light, but for one.
+/// So many texels of one light, except for one.
 inline core::SkyTexels one_bright_texel(std::uint32_t width, std::uint32_t column, std::uint32_t row, float light, float others) {
   std::vector<float> rgb(std::size_t{width} * (width / 2) * 3, others);
   for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -349,7 +349,7 @@ TEST_CASE(
   for (const std::uint32_t nodes : {2U, 5U}) {
     const svm::Report many = run({.computer = {.node_count = nodes}, .pages = {.cache_pages = 3, .in_flight = 32}}, true);
     CHECK(many.film.hash() == one.film.hash());
-    // Submaps cut items, so that bundles are others, but for one node.
+    // Submaps cut items, so that bundles are others, except for one node.
     CHECK(many.operations().rays == expected.rays);
   }
   const svm::Report again = run({.computer = {.node_count = 1}, .pages = {.in_flight = 16}}, true);

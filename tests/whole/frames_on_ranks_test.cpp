@@ -107,7 +107,7 @@ std::vector<Seen> rays_on_ranks(std::uint32_t rank_count, const Walk& walk) {
       [](nodes::RankLinks& links) { dataflow::follow(links, {}); });
 }
 
-/// But for packets between ranks, of which one process has none.
+/// Except for packets between ranks, of which one process has none.
 std::vector<Seen> without_packets(std::vector<Seen> seen) {
   for (Seen& one : seen) {
     one.packets = 0;

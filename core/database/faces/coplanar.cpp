@@ -87,7 +87,7 @@ std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::ui
   return faces;
 }
 
-/// Those of a macro cell, but for copies of a mesh, which has been judged by itself.
+/// Those of a macro cell, except for copies of a mesh, which has been judged by itself.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
   const Conversion& conversion = exactly.conversion;
   Ids apart;

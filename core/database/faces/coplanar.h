@@ -9,13 +9,13 @@
 namespace dmpc::core {
 
 /// Rounding would let now the one and now the other of them be nearer. So triangles that cover each other and lie in one plane,
-/// but for what rounding their corners to float moves them by, share a FacePlane, by which a ray meets all of them at the same t,
+/// except for what rounding their corners to float moves them by, share a FacePlane, by which a ray meets all of them at the same t,
 /// and the least id wins. Ids follow the file's order: the earlier shows. But what shines gets an earlier id than what it lies
 /// on, and what lets light through a later one (Material::rank_in_plane()), whose place in the file it takes. Of triangles with
 /// the same three corners only the first by that is kept. What shines and shows whole is noted (Conversion::whole_lamps).
 ///
 /// What the file's doubles tell apart stays apart, a poster before a wall, the two sides of a pane: where faces that cover each
-/// other are not in one plane for doubles, but for floats, or nearer than rays start off a triangle, they and all triangles of
+/// other are not in one plane for doubles, except for floats, or nearer than rays start off a triangle, they and all triangles of
 /// their polygons get the planes that doubles say (core/database/faces/face_stack.h); those in each are settled by themselves, as
 /// above. So do faces so far off these as their layers move a t, and those off these.
 ///

@@ -194,7 +194,7 @@ std::span<const CoverFinder::Entry> CoverFinder::without_twins(std::size_t axis,
   return distinct_;
 }
 
-/// Those of one object come one behind the other, but for what stands for several.
+/// Those of one object come one behind the other, except for what stands for several.
 bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square) {
   const auto is_one_object = [](const Entry& a, const Entry& b) { return a.object == b.object && a.object != several_objects; };
   for (std::size_t i = 0, others = 0; i < square.size(); ++i) {

@@ -66,7 +66,7 @@ inline constexpr double low_altitude = 0x1p-12;
 /// Triangles that lie side by side may cover each other by so much.
 inline constexpr double sliver = 0x1p-22;
 
-/// Whether two triangles that are near touch each other alone, but for rounding: one lies on one side of the other one's plane,
+/// Whether two triangles that are near touch each other alone, except for rounding: one lies on one side of the other one's plane,
 /// and they have no corner in common, as neighbours in a mesh have; and whether they lean by so little that rounding swaps a
 /// 128th of the smaller one, or more.
 bool are_leaning(const Face& a, const Face& b);
@@ -75,7 +75,7 @@ bool are_leaning(const Face& a, const Face& b);
 /// them there.
 double roundings_apart(const Face& a, const Face& b);
 
-/// Whether two triangles lie in one plane but for rounding.
+/// Whether two triangles lie in one plane except for rounding.
 bool are_coplanar(const Face& a, const Face& b);
 
 /// Planes that are apart, but no farther than so many times what rounding moves them by, are near: a ray that starts on one

@@ -43,7 +43,7 @@ struct PlacedFace {
     const double leaning = near < size.leaning ? near : size.leaning;
     return (by_rounding < leaning ? leaning : by_rounding) * tilted;
   }
-  /// Whether it is looked for along an axis: the one that its plane faces most, or as much but for the error of its slopes, since
+  /// Whether it is looked for along an axis: the one that its plane faces most, or as much except for the error of its slopes, since
   /// a triangle that it shares the plane with may face that one most. None if slopes are too far off.
   bool is_seen_along(std::size_t axis, double error, const BucketSize& size) const {
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);

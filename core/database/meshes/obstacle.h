@@ -38,7 +38,7 @@ double unit_of(const Scene& mesh);
 /// Of a mesh by itself. `materials`: what its objects' indices are of.
 Obstacle obstacle_of(const Scene& mesh, const std::vector<Material>& materials, const MeshFaces& faces);
 
-/// Of each place of Scene::kept, but for smallness, which the pad decides. Those that have copies are asked, too.
+/// Of each place of Scene::kept, except for smallness, which the pad decides. Those that have copies are asked, too.
 std::vector<Obstacle> obstacles_of(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
 /// Whether something is in the way in one of these places.

@@ -34,7 +34,7 @@ struct StoredInstances {
   ObstacleCounts copied;                ///< all other places
 
   bool empty() const { return places.empty(); }
-  /// A place's record, but for the mesh's address. `pad`: the grid's.
+  /// A place's record, except for the mesh's address. `pad`: the grid's.
   InstanceRecord record_of(const StoredInstance& place, const GridFrame& frame, double pad) const;
 };
 

@@ -27,7 +27,7 @@ std::vector<EmitterChoice> alias_table(std::span<const double> weights) {
       small.push_back(donor);
     }
   }
-  // What is left over has a place of its own, but for rounding.
+  // What is left over has a place of its own, except for rounding.
   for (const std::vector<std::uint32_t>& rest : {small, large}) {
     for (const std::uint32_t i : rest) {
       table[i] = {1.0F, i};

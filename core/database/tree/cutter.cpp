@@ -16,7 +16,7 @@ constexpr std::size_t bin_count = 32;
 
 float leaves_for(std::uint32_t count) { return static_cast<float>(ceil_divide<std::uint32_t>(count, leaf_lanes)); }
 
-/// Where to cut, and what a ray that meets the whole pays for the two parts, but for a factor.
+/// Where to cut, and what a ray that meets the whole pays for the two parts, except for a factor.
 struct Cut {
   float cost = std::numeric_limits<float>::infinity();
   std::size_t axis = 0;
@@ -117,7 +117,7 @@ struct Bins {
       ++bin.count;
     }
   }
-  /// Those of both halves by turns: neighbours often go into one bin, and each would wait for the one before it.
+  /// Those of both halves alternately: neighbours often go into one bin, and each would wait for the one before it.
   [[gnu::always_inline]] void add_all(std::span<const Bounds> items) {
     const std::size_t half = items.size() / 2;
     for (std::size_t i = 0; i < half; ++i) {

@@ -1,4 +1,4 @@
-// Which parts of a picture show nothing but the background: found on the host, known to every node.
+// The parts of a picture that show only the background: found on the host, known to every node.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace dmpc::core {
 
-/// A picture cut into 64x64 tiles with a bit each: set if primary rays through the tile's pixels, wherever in a pixel their
-/// samples lie, are certain to meet nothing. None is set by default. Copyable as bytes.
+/// A picture cut into 64x64 tiles with a bit each: set if primary rays through the tile's pixels are certain to hit nothing,
+/// wherever their samples lie in a pixel. None is set by default. Copyable as bytes.
 class BackgroundTiles {
  public:
   /// By row of tiles; bit i is column i.
@@ -21,7 +21,7 @@ class BackgroundTiles {
   /// The tiles of the camera's picture.
   BackgroundTiles(const Camera& camera, const Bits& bits);
 
-  /// Whether a pixel of the picture lies in one of them.
+  /// Whether the pixel lies in a tile whose bit is set.
   bool has(std::uint32_t pixel) const {
     return count_ > 0 && (bits_[down_.tile_of(pixel / width_)] >> across_.tile_of(pixel % width_) & 1U) != 0;
   }
@@ -36,7 +36,7 @@ class BackgroundTiles {
     }
     return (columns & ~common) == 0;
   }
-  /// Tiles whose bit is set.
+  /// Number of tiles whose bit is set.
   std::uint32_t count() const { return count_; }
 
  private:
@@ -46,10 +46,9 @@ class BackgroundTiles {
   Bits bits_{};
 };
 
-/// Projects the boxes of the database's BVH nodes, and those of primitives in leaves, onto the camera's film, from the top down,
-/// as long as they may fall on a tile on which none has fallen. Below a sky's picture there are none, since each ray that meets
-/// nothing asks for a record of its own. Reads database.bytes(). Takes less than a millisecond for a million primitives. Thread
-/// safety: pure.
+/// Projects the boxes of the database's BVH nodes, and of primitives in leaves, onto the camera's film, from the top down, while
+/// they may fall on a tile that is still empty. With a sky's picture no tile is background, since each ray that hits nothing
+/// reads its own record. Reads database.bytes(). Takes less than a millisecond for a million primitives. Thread safety: pure.
 BackgroundTiles find_background(const Database& database, const Camera& camera);
 
 }  // namespace dmpc::core

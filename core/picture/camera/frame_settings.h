@@ -1,4 +1,4 @@
-// From one picture of a scene to the next: what changes when the camera moves.
+// Settings for the next frame: what changes when the camera moves.
 #pragma once
 
 #include "core/database/database.h"
@@ -7,8 +7,8 @@
 
 namespace dmpc::core {
 
-/// `settings` with this camera, which has as many pixels and samples, and with what follows from where it is: the tiles that show
-/// nothing, and the depth from which on a crowded picture sends fewer rays. All else, such as the sky's up, stays. Reads
+/// `settings` with this camera, which has as many pixels and samples, and with what depends on its position: the background
+/// tiles, and the depth from which a crowded picture sends fewer rays. Everything else, such as the sky's up, stays. Reads
 /// database.bytes(). Thread safety: pure.
 RenderSettings seen_by(const Camera& camera, const RenderSettings& settings, const Database& database);
 

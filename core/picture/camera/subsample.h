@@ -1,4 +1,4 @@
-// A small picture in place of a large one: which pixels stand for all.
+// A small picture in place of a large one: which pixels represent all.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which tiles of a picture a box may be seen in.
+// The tiles of a picture in which a box may be visible.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ struct TiledSide {
   std::uint64_t tiles_a_pixel = 0;  ///< in units of 2^-32
 
   static TiledSide of(int pixels) { return {(std::uint64_t{tiles_per_side} << 32U) / static_cast<std::uint64_t>(pixels)}; }
-  /// Rises with the pixel's place; below 64.
+  /// Rises with the pixel's column or row; below 64.
   std::uint32_t tile_of(std::uint32_t pixel) const { return static_cast<std::uint32_t>(pixel * tiles_a_pixel >> 32U); }
 };
 
-/// The tiles in which columns and rows of tiles cross, a bit each.
+/// The tiles at the crossings of some columns and rows of tiles, a bit each.
 struct TileFootprint {
   std::uint64_t columns = 0, rows = 0;
 };
@@ -30,30 +30,30 @@ class BoxProjector {
  public:
   explicit BoxProjector(const Camera& camera);
 
-  /// False if nothing can be said of this camera: its angle is next to 0 or 180 degrees, or a number of its is not finite. Then
-  /// nothing else may be asked.
+  /// False if nothing can be said of this camera: its angle is close to 0 or 180 degrees, or one of its numbers is not finite.
+  /// Then no other function may be called.
   bool is_certain() const { return is_certain_; }
-  /// Every tile that has a pixel.
+  /// All tiles that have a pixel.
   TileFootprint all() const { return {across_.tiles(), down_.tiles()}; }
-  /// Has every tile through whose pixels a primary ray may come to the box (grid-local), wherever in a pixel its sample lies. The
-  /// box is widened on every side by half a pixel, by what rounding may turn a ray (tile_footprint.cpp), and by one pixel more.
+  /// All tiles through whose pixels a primary ray may hit the box (grid-local), wherever its sample lies in a pixel. The box is
+  /// widened on every side by half a pixel, by the rounding error of rays (tile_footprint.cpp), and by one more pixel.
   TileFootprint footprint_of(const Box& box) const;
 
  private:
-  /// What of a box lies ahead of the eye, by its corners on the film (Camera::on_film).
+  /// The part of a box that lies ahead of the eye, by its corners on the film (Camera::on_film).
   struct Proxy {
-    std::array<Vec3d, 20> corners;  ///< of the box, and where its edges come to the depth 0
+    std::array<Vec3d, 20> corners;  ///< corners of the box, and where its edges reach depth 0
     std::size_t count = 0;
     bool is_cut = false;
 
     void add(const Vec3d& corner) { corners[count++] = corner; }
   };
 
-  /// The picture's columns, or its rows.
+  /// The picture's columns or rows.
   class Side {
    public:
     Side(int pixels, double margin_pixels);
-    /// Those that have a pixel.
+    /// Tiles that have a pixel.
     std::uint64_t tiles() const { return tiles_; }
     /// `axis`: 0 for columns, 1 for rows. The proxy has a corner.
     std::uint64_t footprint_of(const Proxy& proxy, std::size_t axis) const {
@@ -74,7 +74,7 @@ class BoxProjector {
   Proxy proxy_of(const Box& box) const;
 
   Vec3d eye_;
-  std::array<Vec3d, 3> axes_;  ///< a step along each of the grid's axes, on the film
+  std::array<Vec3d, 3> axes_;  ///< one step along each of the grid's axes, on the film
   Side across_, down_;
   bool is_certain_;
 };

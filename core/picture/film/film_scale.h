@@ -1,4 +1,4 @@
-// Which scale a scene's film has: known before anything is rendered, so that all who render it have the same.
+// The scale of a scene's film: known before rendering, so that all nodes have the same.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace dmpc::core {
 
-/// Bounds of a sample's radiance between which a film has the scale 1.
+/// A film has scale 1 if the bound of a sample's radiance lies between these.
 inline constexpr double unscaled_bound_min = 0x1p-8, unscaled_bound_max = 0x1p31;
 
-/// From what radiance a sample can have at most (radiance_bound()), so much of it after one hit. Within the bounds above, or
-/// where nothing is bounded, the scale is 1. Below, it brings the bound to between 1/2 and 1; above, what so many samples of a
-/// pixel can have to what a sum can hold. What mirrors and glass multiply has no share in that beyond 2^20 times what one hit
-/// brings, or the film would be coarse for the sake of light that hardly any scene has.
+/// `radiance_bound`: the largest radiance of a sample (radiance_bound()); `bound_of_one_hit`: the part of it after one hit.
+/// Within the bounds above, or if nothing is bounded, the scale is 1. Below them the scale brings the bound to between 1/2 and 1;
+/// above, it brings the sum of samples_max samples to what a sum can hold. What mirrors and glass multiply counts only up to 2^20
+/// times what one hit brings, or the film would be coarse for the sake of light that hardly any scene has.
 FilmScale film_scale_for(double radiance_bound, double bound_of_one_hit, std::uint32_t samples_max);
-/// Of the scene, if rays have hits up to this depth, and pixels at most so many samples.
+/// For the scene, with hits up to this depth and at most samples_max samples per pixel.
 FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max, const Transport& transport = {});
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// The hits of a bundle's rays, being shaded side by side: their children of one kind are the next bundle.
+// The hits of a bundle's rays, shaded side by side: their children of one kind form the next bundle.
 #pragma once
 
 #include <algorithm>
@@ -12,43 +12,42 @@
 
 namespace dmpc::core {
 
-/// Finds what the rays of a bundle hit, and the records that shading reads. trace() has the contract of
-/// core/trace/bundle_traversal.h's.
+/// Finds hits of a bundle's rays, and the records that shading reads. trace() has the contract of core/trace/bundle_traversal.h.
 template <class T>
 concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operations, Address address) {
   { tracer.trace(bundle, operations) } -> std::same_as<bool>;
   { tracer.find(address) } -> std::same_as<const std::byte*>;
 };
 
-/// The hits of a bundle's rays, all of one depth, being shaded side by side: all read what they are, then each light sends its
-/// bundle of shadow rays, then the mirrored rays are a bundle, then the refracted ones; by paths those at what hits aim at are
-/// one, those at the sky another, and then the rays that go on.
+/// The hits of a bundle's rays, all of one depth, shaded side by side: all read what they need, then each light sends its bundle
+/// of shadow rays, then the mirrored rays form a bundle, then the refracted ones; with paths the shadow rays to sampled emitters
+/// form one, those to the sky another, and then the rays that continue.
 struct BundleHit {
   enum class Phase : std::uint8_t { surface, light, emitter, sky, reflected, refracted, continued, finished };
 
   std::array<HitState, bundle_rays_max> hit;
-  std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
+  std::array<std::uint8_t, bundle_rays_max> place;  ///< the pixel's slot of each hit
   std::uint32_t count = 0;
-  std::uint32_t next = 0;   ///< the hit that goes on next, while surfaces or emitters are read
-  std::uint32_t light = 0;  ///< whose shadow rays are next
+  std::uint32_t next = 0;  ///< the next hit to continue, while surfaces or emitters are read
+  std::uint32_t light = 0;  ///< the light whose shadow rays are next
   Phase phase = Phase::surface;
 
   bool has_unread_surface() const {
     return std::any_of(hit.begin(), hit.begin() + count, [](const HitState& state) { return !state.has_surface(); });
   }
-  /// No hit sends anything more.
+  /// Whether no hit sends more rays.
   bool is_finished() const { return phase == Phase::finished; }
-  /// No hit is there.
+  /// Removes all hits.
   void clear() {
     count = next = light = 0;
     phase = Phase::surface;
   }
-  /// Requires room, and that no phase is over.
+  /// Requires a free slot, and that no phase has ended.
   void add(const Ray& ray, const Hit& met, std::size_t its_place) {
     place[count] = static_cast<std::uint8_t>(its_place);
     begin_shading(hit[count++], ray, met);
   }
-  /// The same of a ray that has met nothing below a sky's picture.
+  /// For a ray that hits nothing, with a sky's picture.
   void add_sky(const Ray& ray, std::size_t its_place) {
     place[count] = static_cast<std::uint8_t>(its_place);
     hit[count++] = begin_sky(ray);
@@ -56,11 +55,11 @@ struct BundleHit {
   bool has_any_at(HitState::Stage stage) const {
     return std::any_of(hit.begin(), hit.begin() + count, [stage](const HitState& state) { return state.stage == stage; });
   }
-  /// Some hit is to draw an emitter, or has drawn one.
+  /// Whether some hit is about to sample an emitter, or has done so.
   bool aims() const { return has_any_at(HitState::Stage::emitter_choice) || has_any_at(HitState::Stage::emitter); }
-  /// Some hit is to draw a tile of the sky, or has drawn one.
+  /// Whether some hit is about to sample a tile of the sky, or has done so.
   bool aims_at_sky() const { return has_any_at(HitState::Stage::sky_choice) || has_any_at(HitState::Stage::sky_aim); }
-  /// To the next phase: while hits wait for a light that is theirs, for an emitter, or for the sky, and then to the first that
+  /// Goes to the next phase: while hits wait for one of their lights, for an emitter, or for the sky, and then to the first that
   /// sends rays on.
   void end_phase(Phase first_sending) {
     if (phase == Phase::surface || phase == Phase::light) {
@@ -77,7 +76,7 @@ struct BundleHit {
   }
 };
 
-/// Shades the hits of a bundle, phase by phase. What it is made from outlives it; costs nothing to make.
+/// Shades the hits of a bundle, phase by phase. The constructor's arguments outlive it; costs nothing to make.
 template <BundleTracer T>
 class BundleShader {
  public:
@@ -88,10 +87,10 @@ class BundleShader {
         operations_(operations),
         shader_(settings.header, settings.shade, settings.skips, operations, &settings.camera) {}
 
-  /// Ends the phase that the hits are in: shoot(i, make) is called for each hit i that may have a child, which make(ray) makes of
-  /// any ray, in the place where it is to be, or says that there is none (false); and, where hits glow, shine(light, i) once for
-  /// each when all surfaces are known. False if a record is absent, whose address is then `absent`: call it again once that is
-  /// there. Requires a phase other than finished.
+  /// Ends the phase that the hits are in: calls shoot(i, make) for each hit i that may have a child, which make(ray) builds in
+  /// any given ray or reports absent (false); and, where hits glow, shine(light, i) once for each when all surfaces are known.
+  /// False if a record is absent, whose address is then `absent`: call it again once that is present. Requires a phase other than
+  /// finished.
   template <class Shoot, class Shine>
   bool step(Address& absent, const Shoot& shoot, const Shine& shine) {
     if ((hits_.phase == Phase::surface && !read_surfaces(absent)) ||
@@ -138,7 +137,7 @@ class BundleShader {
   Shader shader_;
 };
 
-/// Round by round a step of each hit, so that neighbours, which often need one record, find it together.
+/// Does one step of each hit per round, so that neighbours, which often need the same record, find it together.
 template <BundleTracer T>
 bool BundleShader<T>::read_surfaces(Address& absent) {
   Address found = no_address;
@@ -167,7 +166,7 @@ bool BundleShader<T>::read_surfaces(Address& absent) {
   return true;
 }
 
-/// The light's record is read once for all hits, on which it falls side by side; the sky, where rays have met that, is none.
+/// Reads the light's record once for all hits, which it lights side by side. Hits on the sky are not lit.
 template <BundleTracer T>
 template <class Shoot>
 bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
@@ -200,7 +199,7 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
   return true;
 }
 
-/// One step of every hit that is at `stage` and reads a record of its own. What was shot before a record was absent stays shot.
+/// One step of every hit that is at `stage` and reads its own record. What was shot before a record was absent stays shot.
 template <BundleTracer T>
 template <class Shoot>
 bool BundleShader<T>::read_stage(HitState::Stage stage, Address& absent, const Shoot& shoot) {
@@ -220,7 +219,7 @@ bool BundleShader<T>::read_stage(HitState::Stage stage, Address& absent, const S
   return true;
 }
 
-/// One step of every hit that is at `stage`, in what order does not matter to the picture.
+/// One step of every hit at `stage`; the order does not affect the picture.
 template <BundleTracer T>
 template <class Shoot>
 void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) {
@@ -249,7 +248,7 @@ void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) 
   }
 }
 
-/// The rays of paths, which go anywhere.
+/// The rays by which paths continue, in any direction.
 template <BundleTracer T>
 template <class Shoot>
 void BundleShader<T>::send_on(const Shoot& shoot) {

@@ -1,4 +1,4 @@
-// Hits of a bundle side by side: the geometry of triangles, and the mirrored and refracted rays that hits send.
+// Hits of a bundle side by side: the geometry of triangles, and the mirrored and refracted rays of hits.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace dmpc::core {
 
-/// Up to bundle_rays_max hits side by side, a row for each of their numbers.
+/// Up to bundle_rays_max hits side by side, one row per value.
 class TriangleLanes {
  public:
-  /// Takes a hit whose geometry comes next, if it is one of a triangle that shares its plane with none. `record`: its leaf,
-  /// which stays until read_all(). Requires room.
+  /// Takes a hit whose geometry comes next, if it is on a triangle that shares its plane with none. `record`: its leaf, which
+  /// stays until read_all(). Requires a free lane.
   bool take(HitState& state, const std::byte* record);
-  /// Does to all that were taken what read_geometry() does, to the bit, and forgets them.
+  /// Does what read_geometry() does, with the same bits, for all that were taken, and removes them.
   void read_all(VectorWidth width = vector_width());
 
  private:
@@ -32,17 +32,17 @@ class TriangleLanes {
   Row<double> u_, v_, clearance_;
 };
 
-/// Up to bundle_rays_max hits side by side, a row for each of their numbers.
+/// Up to bundle_rays_max hits side by side, one row per value.
 class ChildLanes {
  public:
-  /// Adds a hit that sends such a ray; its relative_index() is read for bent ones only. Requires room.
+  /// Adds a hit that sends such a ray; its relative_index() is read only for refraction. Requires a free lane.
   void add(const HitState& state, double index) {
     put(direction_, count_, state.ray.full_direction());
     put(normal_, count_, state.normal);
     starts_.put_hit(count_, state);
     index_[count_++] = index;
   }
-  /// How each mirrors, or lets through, its ray: set_way() tells, with the bits of leave() for normalize() of
+  /// Computes the mirrored or refracted rays, which set_way() returns, with the bits of leave() for normalize() of
   /// mirrored_direction() or bent_direction(), and start_towards().
   void mirror(VectorWidth width = vector_width());
   void bend(VectorWidth width = vector_width());

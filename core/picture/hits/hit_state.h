@@ -1,4 +1,4 @@
-// A hit being shaded: what of it is known, and what comes next.
+// A hit that is being shaded: what is known of it, and what comes next.
 #pragma once
 
 #include <array>
@@ -19,65 +19,65 @@
 
 namespace dmpc::core {
 
-/// How far from a hit's point rays start, grid-local.
+/// The distance from a hit's point at which rays start, grid-local.
 struct Clearance {
-  double along = 0;   ///< the way of a ray that leaves the surface at a right angle; others more
-  double across = 0;  ///< of the surface, for rays that graze it
-  double radius = 0;  ///< of what is curved, which a ray within must not pass: no limit for what is flat
+  double along = 0;  ///< distance along a ray that leaves the surface at a right angle; others start farther
+  double across = 0;  ///< distance across the surface, for grazing rays
+  double radius = 0;  ///< radius of a curved surface, which a ray within must not pass; unlimited if flat
 
   static constexpr Clearance of_flat(double way) { return {way, way, std::numeric_limits<double>::max()}; }
 };
 
-/// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
+/// A hit that is being shaded: an entry of the ray stack, resumable between any two of its records. Each step reads one record.
 struct HitState {
   enum class Stage : std::uint8_t {
-    instance,  ///< of a triangle of a base mesh: where that stands
+    instance,  ///< for a triangle of a base mesh: its instance
     geometry,
     normals,
-    placed_normals,  ///< of a base mesh: where it stands, once more
+    placed_normals,  ///< for a base mesh: its instance, once more
     texture,
-    color_texture,  ///< of a surface whose texture of metal and roughness has been looked up: its normals' record once more
+    color_texture,  ///< once the texture of metal and roughness has been looked up: the normals' record once more
     material,
-    textured_material,  ///< whose colour is multiplied by what the look-up, or its corners, gave
-    finish,             ///< what the material has beyond NFF
-    sky,                ///< of a ray that has met nothing: what is there of the sky's picture
+    textured_material,  ///< with a colour that is multiplied by that of the look-up or the corners
+    finish,  ///< the material's extension of NFF
+    sky,  ///< for a ray that has hit nothing: the sky's picture there
     light,
-    emitter_choice,  ///< by paths: which emitter is drawn
+    emitter_choice,  ///< paths: which emitter is sampled
     emitter,
-    sky_choice,  ///< by paths: which tile of the sky's picture is drawn
-    sky_aim,     ///< and where in it
+    sky_choice,  ///< paths: which tile of the sky's picture is sampled
+    sky_aim,  ///< and the place in it
     reflected,
     refracted,
-    continued,  ///< by paths: one ray more, or none
+    continued,  ///< paths: one more ray, or none
     finished
   };
 
-  /// What lights fall on.
+  /// The surface that lights illuminate.
   struct Surface {
     MaterialRecord material;
-    std::uint32_t next_light = 0;  ///< behind the lights: the choice of an emitter or of a tile of the sky, or that
-    float place = 0;               ///< on that, the first of two numbers: DrawnEmitter::place
+    std::uint32_t next_light = 0;  ///< after the lights: the choice of an emitter or of a tile of the sky, or the chosen one
+    float place = 0;  ///< the first of two numbers for a point on it: DrawnEmitter::place
   };
 
-  /// What makes highlight and mirror of the material's `specular`, which is their brightest channel.
+  /// Factors of highlight and mirror, relative to the material's `specular`, which is their brightest channel.
   struct Gloss {
     Color tint{1, 1, 1};  ///< 1 in the brightest channel
-    float mirror = 1;     ///< the share of them that mirrors
+    float mirror = 1;  ///< the share that mirrors
   };
 
-  /// What a surface of microfacets has in place of highlight and mirror.
+  /// What a microfacet surface has in place of highlight and mirror.
   struct Microfacets {
     float metallic = 0, alpha = 1, reflectance = 0;
-    float there = 1;  ///< the share of the surface that is
+    float there = 1;  ///< coverage of the surface
   };
 
-  /// What a texture of metal and roughness multiplies those of the material by.
+  /// Factors for the material's metal and roughness, from their texture.
   struct FacetShares {
     float metallic = 1, roughness = 1;
   };
 
-  /// What a base mesh's normals say, until it is known what its place does to them: in the room of the shading normal, which
-  /// they lead to, and behind the ellipse.
+  /// Normals of a base mesh, until they are transformed by its instance: stored in place of the shading normal, which follows
+  /// from them, and after the ellipse.
   struct MeshNormals {
     CutEllipse ellipse;
     Vec3f third;
@@ -85,7 +85,7 @@ struct HitState {
 
   HitState() : surface() {}
 
-  /// Where the mesh stands whose triangle was hit, until point, normals and clearance are known: in their room.
+  /// The instance of the mesh whose triangle was hit, until point, normals and clearance are known: stored in their place.
   void set_place(const InstanceRecord& instance) {
     const auto& world = instance.world;
     point = {world[0], world[1], world[2]};
@@ -94,7 +94,7 @@ struct HitState {
     clearance = {world[9], world[10], world[11]};
     u = double{instance.unit};
   }
-  /// That, but for what shading does not ask.
+  /// The instance, without what shading does not need.
   InstanceRecord place() const {
     InstanceRecord instance;
     instance.world = {point.x,  point.y,  point.z,  geometric_normal.x, geometric_normal.y, geometric_normal.z,
@@ -103,7 +103,7 @@ struct HitState {
     return instance;
   }
 
-  /// Once the material has been read: in the room of the weights, which nobody asks for any more.
+  /// After the material has been read: stored in place of the weights, which are no longer needed.
   Gloss gloss() const { return std::bit_cast<Gloss>(std::array{u, v}); }
   void set_gloss(const Gloss& gloss) {
     const auto bits = std::bit_cast<std::array<double, 2>>(gloss);
@@ -111,15 +111,15 @@ struct HitState {
     v = bits[1];
   }
   bool has_microfacets() const { return surface.material.has_microfacets(); }
-  /// If so, in the room of the gloss.
+  /// For microfacets: stored in place of the gloss.
   Microfacets microfacets() const { return std::bit_cast<Microfacets>(std::array{u, v}); }
   void set_microfacets(const Microfacets& facets) {
     const auto bits = std::bit_cast<std::array<double, 2>>(facets);
     u = bits[0];
     v = bits[1];
   }
-  /// How wide a probe of the colour's texture will be, in its texels, while that of metal and roughness is looked up: in the room
-  /// of the ray's end.
+  /// The width of a probe in texels of the colour's texture, while that of metal and roughness is looked up: stored in place of
+  /// the ray's end.
   float color_width() const { return ray.t_max; }
   void set_color_width(double width) { ray.t_max = static_cast<float>(width); }
   /// Once that has been looked up, until the surface is known: there, and in the room of what says where the hit was found.
@@ -128,16 +128,16 @@ struct HitState {
     hit.leaf = Address{std::bit_cast<std::uint32_t>(shares.metallic)};
     ray.t_max = shares.roughness;
   }
-  /// The surface's own light as far as it is there, once all is known of the surface of a scene where hits glow: in the room of
-  /// the ray's end and of what says where the hit was found.
+  /// The surface's own light, times its coverage, once everything is known of a surface of a scene where hits glow: stored in
+  /// place of the ray's end and of the hit's address.
   Color emission() const { return {ray.t_max, std::bit_cast<float>(hit.leaf), coverage()}; }
   void set_emission(const Color& light) {
     ray.t_max = light.x;
     hit.leaf = Address{std::bit_cast<std::uint32_t>(light.y)};
     set_coverage(light.z);
   }
-  /// What of the surface is there by the alpha of a texture or of its corners, 0 to 1, once they have been read: in the room of
-  /// the lane, since the leaf has been.
+  /// Coverage of the surface by the alpha of a texture or of its corners, 0 to 1, once they have been read: stored in place of
+  /// the lane, since the leaf has been read.
   float coverage() const { return std::bit_cast<float>(hit.lane); }
   void set_coverage(float coverage) { hit.lane = std::bit_cast<std::uint32_t>(coverage); }
 
@@ -147,36 +147,36 @@ struct HitState {
   Vec3d geometric_normal;  ///< true normal, unit length
   Vec3d normal;            ///< shading normal on the ray's side, unit length
   Clearance clearance;
-  double u = 0, v = 0;  ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
+  double u = 0, v = 0;  ///< barycentric weights of vertices 1 and 2 (triangles); later the place on the texture
   union {
     Surface surface;       ///< once its material has been read
     TextureLookup lookup;  ///< before that, if there is a texture
     CutEllipse ellipse;    ///< before that, where there may be one
-    MeshNormals of_mesh;   ///< begins with the same
+    MeshNormals of_mesh;  ///< begins with the ellipse
   };
   ShadingReference shading;
-  bool curved = false;              ///< a ray from here may meet the same primitive again
-  bool leaving = false;             ///< the ray goes along the true normal: out of the body
-  bool has_refraction : 1 = false;  ///< Snell's law has an answer: known if this hit may have children
-  bool is_in_mirror : 1 = false;    ///< of a base mesh: its corners come the other way round
-  bool has_normals : 1 = false;     ///< of a base mesh, placed
+  bool curved = false;  ///< a ray from here may hit the same primitive again
+  bool leaving = false;  ///< the ray goes along the true normal: out of the body
+  bool has_refraction : 1 = false;  ///< Snell's law has a solution: set if this hit may have children
+  bool is_in_mirror : 1 = false;  ///< for a base mesh: its instance mirrors it, so corners are in reverse order
+  bool has_normals : 1 = false;  ///< for a placed base mesh
   Stage stage = Stage::geometry;
 
-  /// Its material has been read.
+  /// Whether its material has been read.
   bool has_surface() const { return stage >= Stage::light; }
-  /// It sends nothing more.
+  /// Whether it sends no more rays.
   bool is_finished() const { return stage == Stage::finished; }
 };
 static_assert(sizeof(HitState) == 256 && std::is_trivially_copyable_v<HitState>);
 
-/// The index of refraction of what the ray comes from over that of what lies behind; needs the material.
+/// The index of refraction on the ray's side over that behind the surface; needs the material.
 inline double relative_index(const HitState& state) {
   const float index = state.surface.material.refraction_index;
   const double inside = index > 0.0F ? double{index} : 1.0;
   return state.leaving ? inside : 1.0 / inside;
 }
 
-/// Makes `state` that of a fresh hit. What nothing asks for before it is set stays as it was.
+/// Makes `state` that of a fresh hit. What is not needed before it is set keeps its value.
 inline void begin_shading(HitState& state, const Ray& ray, const Hit& hit) {
   state.ray = ray;
   state.hit = hit;
@@ -191,13 +191,13 @@ inline HitState begin_shading(const Ray& ray, const Hit& hit) {
   return state;
 }
 
-/// Of a ray that has met nothing below a sky's picture, which it shows as a surface would that shines.
+/// The state of a ray that hits nothing, with a sky's picture, which it shows like an emitter's surface.
 HitState begin_sky(const Ray& ray);
-/// The record that this reads.
+/// The record that such a state reads.
 Address sky_record(const Ray& ray, const DatabaseHeader& header);
 
-/// How many of the first `count` hits of a stack, each a HitState or a bundle of them, stay: the newest leave it as far as they
-/// wait for nothing more, so that what they sent last may have their place.
+/// How many of the first `count` hits of a stack, each a HitState or a bundle of them, stay: the newest are removed as far as
+/// they wait for nothing more, so that the rays that they sent last may have their slots.
 template <class Hits>
 constexpr std::uint32_t waiting_count(std::span<Hits> stack, std::uint32_t count) {
   while (count > 0 && stack[count - 1].is_finished()) {
@@ -206,7 +206,7 @@ constexpr std::uint32_t waiting_count(std::span<Hits> stack, std::uint32_t count
   return count;
 }
 
-/// What the next step reads, if that is neither material nor light nor a table of tiles.
+/// What the next step reads, if that is not a material, a light or a table of tiles.
 RecordKind record_kind_of(const HitState& state);
 
 /// The record that the next step reads, or no_address if it reads none.

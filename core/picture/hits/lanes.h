@@ -1,5 +1,5 @@
-// Numbers of the hits of a bundle side by side, for loops that compilers vectorise. Their bodies are one straight line, each is
-// compiled for each width of vectors, and CMakeLists.txt lets compilers compute what a choice then leaves out.
+// Values of a bundle's hits side by side, for loops that compilers vectorise. Their bodies have no branches, each is compiled for
+// each width of vectors, and CMakeLists.txt allows compilers to compute what a selection then discards.
 #pragma once
 
 #include <cstddef>
@@ -31,11 +31,11 @@ Vec3<T> get(const RowsOf<T>& rows, std::size_t lane) {
   return {rows.x[lane], rows.y[lane], rows.z[lane]};
 }
 
-/// Doubles in the widest vector. Loops over lanes go by groups of so many: those of the last group that are not taken hold what
-/// the first one does, by fill_up(), and are computed for nothing.
+/// Doubles in the widest vector. Loops over lanes go by groups of this many: unused lanes of the last group hold a copy of the
+/// first lane, by fill_up(), and are computed in vain.
 inline constexpr std::size_t group_lanes = 8;
 
-/// Puts the first of `count` lanes into those behind them, up to a whole group: nothing is computed with what nobody has set.
+/// Copies the first of `count` lanes to those behind them, up to a whole group, so that no uninitialised value is used.
 inline void fill_up(Row<double>& row, std::size_t count) {
   for (; count % group_lanes != 0; ++count) {
     row[count] = row[0];
@@ -47,7 +47,7 @@ inline void fill_up(VectorRows& rows, std::size_t count) {
   fill_up(rows.z, count);
 }
 
-/// A row for each number that start_towards() and leave() ask of a hit, by lane.
+/// The inputs of start_towards() and leave(), one row per value, by lane.
 class StartRows {
  public:
   void put_hit(std::size_t lane, const HitState& state) {
@@ -74,10 +74,10 @@ class StartRows {
   Row<double> along_, across_, radius_;
 };
 
-/// Where rays start, where they go and where they end: a row for each number, by lane.
+/// Rays' starts, directions and ends, one row per value, by lane.
 class RayRows {
  public:
-  /// For loops that compilers vectorise.
+  /// In a form that compilers vectorise.
   void put(std::size_t lane, const Ray& ray) {
     core::put(origin_, lane, ray.origin);
     core::put(origin_rest_, lane, ray.origin_rest);
@@ -85,7 +85,7 @@ class RayRows {
     core::put(direction_rest_, lane, ray.direction_rest);
     t_max_[lane] = ray.t_max;
   }
-  /// Sets of a ray what put() has taken of one.
+  /// Sets the members of a ray that put() takes.
   void set(std::size_t lane, Ray& ray) const {
     ray.origin = get(origin_, lane);
     ray.origin_rest = get(origin_rest_, lane);

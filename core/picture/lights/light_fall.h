@@ -1,4 +1,4 @@
-// How a point light falls on hits, of one or of many side by side.
+// Illumination of hits by a point light, of one hit or of many side by side.
 #pragma once
 
 #include <algorithm>
@@ -14,25 +14,25 @@ namespace dmpc::core {
 /// A shadow ray ends this share of its length before the light.
 inline constexpr double light_gap = 1e-6;
 
-/// How a light falls on a hit, whether or not the surface faces the light.
+/// How a light illuminates a hit, whether or not the surface faces the light.
 struct LightFall {
-  Vec3d towards;  ///< the light, unit length; 0 in the light itself
-  double cosine;  ///< of `towards` with the shading normal
+  Vec3d towards;  ///< unit direction to the light; 0 in the light itself
+  double cosine;  ///< between `towards` and the shading normal
 };
 
-/// `way` scaled to length 1; 0 if it has none.
+/// `way` normalised; 0 if its length is 0.
 inline Vec3d direction_of(const Vec3d& way, double length) {
   const double reciprocal = 1.0 / length;
   return way * (length > 0.0 ? reciprocal : 0.0);
 }
 
-/// The cosine between the mirrored ray and the way `towards` the light, of which Phong's highlight is a power.
+/// The cosine between the mirrored ray and the direction `towards` the light; Phong's highlight is a power of it.
 inline double lobe_cosine(const Vec3d& direction, const Vec3d& normal, const Vec3d& towards) {
   return dot(mirrored_direction(direction, normal), towards);
 }
 
-/// Sets where a shadow ray starts that leaves a point `towards` a light so far away, where it goes and where it ends. One that
-/// starts off the way to the light is aimed anew.
+/// Sets start, direction and end of a shadow ray that leaves a point `towards` a light. If its start lies off the line to the
+/// light, the direction is recomputed.
 inline void aim_shadow(Ray& ray, const Vec3d& light, const Vec3d& point, const Vec3d& true_normal, const Vec3d& towards,
                        double distance, const RayStart& start) {
   leave(ray, point, true_normal, towards, start);
@@ -44,17 +44,17 @@ inline void aim_shadow(Ray& ray, const Vec3d& light, const Vec3d& point, const V
   ray.t_max = static_cast<float>(length_left * (1.0 - light_gap));
 }
 
-/// Up to bundle_rays_max hits side by side, a row for each of their numbers.
+/// Up to bundle_rays_max hits side by side, one row per value.
 class LitLanes {
  public:
-  /// Adds a hit that has come to its lights. Requires room.
+  /// Adds a hit that has come to its lights. Requires a free lane.
   void add(const HitState& state) {
     put(normal_, count_, state.normal);
     put(direction_, count_, state.ray.full_direction());
     starts_.put_hit(count_, state);
     shine_[count_++] = double{std::max(state.surface.material.shine, 0.0F)};  // not what marks microfacets
   }
-  /// How a light falls on all: fall(), highlight() and set_way() tell, with the bits that each has alone.
+  /// Computes the illumination of all hits by a light, for fall(), highlight() and set_way(), with the bits that each has alone.
   void light(const Vec3d& position, VectorWidth width = vector_width());
 
   LightFall fall(std::size_t lane) const { return {get(towards_, lane), cosine_[lane]}; }

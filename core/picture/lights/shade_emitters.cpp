@@ -1,4 +1,4 @@
-// Paths and what shines by itself: a hit draws one emitter and aims a shadow ray at it, and what a path meets that hits before it
+// Paths and emitters: a hit draws one emitter and aims a shadow ray at it, and what a path meets that hits before it
 // might have aimed at counts the less for that. Both by the density that the other way has there, so that all is counted once.
 #include <algorithm>
 #include <cmath>

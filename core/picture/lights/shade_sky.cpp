@@ -1,5 +1,5 @@
 // Paths below a sky's picture: a hit draws a place on it and aims a shadow ray there, and a ray that meets nothing shows what
-// hits that might have aimed there leave. Both by the density that the other way has there, as with what shines by itself.
+// hits that might have aimed there leave. Both by the density that the other way has there, as with emitters.
 #include "core/picture/hits/ray_start.h"
 #include "core/picture/lights/emitter_light.h"
 #include "core/picture/shade.h"

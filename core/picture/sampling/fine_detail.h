@@ -1,4 +1,4 @@
-// Which pixels of a picture show what is finer than a pixel: found on the host, from the scene, before anything is rendered.
+// The pixels of a picture with details finer than a pixel: found on the host, from the scene, before rendering.
 #pragma once
 
 #include <cstdint>
@@ -9,41 +9,41 @@
 
 namespace dmpc::core {
 
-/// What is seen directly and is thinner than a pixel, by pixel: how much of the pixel it would cover if nothing lay before it.
-/// Few samples of such a pixel meet it, so that they may all agree by chance. Shadows and mirrored things are not in it, nor what
-/// crowds: a pixel that small things fill looks uneven to any few samples. Immutable once found.
+/// For each pixel, the directly visible primitives that are thinner than a pixel: how much of the pixel each would cover if
+/// nothing hid it. Few samples of such a pixel hit it, so that they may all agree by chance. Shadows and reflections are not
+/// included, nor crowds: a pixel that small primitives fill looks uneven to any few samples. Immutable.
 class FineDetail {
  public:
   /// Knows of no detail.
   FineDetail() = default;
 
   bool is_empty() const { return pixels_.empty(); }
-  /// Something isolated and fine is in the pixel.
+  /// Whether an isolated and fine primitive is in the pixel.
   bool has(std::uint32_t pixel) const;
-  /// Requires has(pixel): of the pixel, what one of its primitives covers, by the mean over all that they cover.
+  /// Requires has(pixel): the share of the pixel that one of its primitives covers, as the area-weighted mean.
   double coverage(std::uint32_t pixel) const { return double{1} * pixels_[pixel].squares / pixels_[pixel].areas; }
   /// Requires has(pixel): the mean of the square of coverage times the pixel's number of primitives.
   double squares(std::uint32_t pixel) const { return pixels_[pixel].squares * unit; }
-  /// Requires has(pixel): the variance of a sample that meets a primitive, which has light 1 before light 0, or does not.
+  /// Requires has(pixel): the variance of a sample that hits a primitive of light 1 before light 0, or does not.
   double variance(std::uint32_t pixel) const { return pixels_[pixel].areas * unit - squares(pixel); }
-  /// The square of the difference in light that is expected of them as long as none was met.
+  /// The squared difference in light that is expected as long as none was hit.
   double contrast() const { return contrast_; }
 
  private:
   friend class FineDetailFinder;
 
-  /// Sums over primitives, in units: whole numbers, whose order does not matter.
+  /// Sums over primitives, in units: integers, so that the order does not matter.
   struct Cover {
     std::uint32_t areas = 0, squares = 0;
   };
   static constexpr double unit = 0x1p-28;
 
-  std::vector<Cover> pixels_;  ///< empty: none has any
+  std::vector<Cover> pixels_;  ///< empty: no pixel has any
   double contrast_ = 0;
 };
 
-/// Projects the primitives of the database, whose bytes it reads. Takes the time of some primitives for each pixel that a thin
-/// one crosses. Thread safety: pure.
+/// Projects the primitives of the database, whose bytes it reads. Takes as long as testing some primitives for each pixel that a
+/// thin one crosses. Thread safety: pure.
 FineDetail find_fine_detail(const Database& database, const Camera& camera);
 
 }  // namespace dmpc::core

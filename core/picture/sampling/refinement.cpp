@@ -169,7 +169,7 @@ bool Refinement::choose(Film& film) {
   return samples > 0;
 }
 
-/// What is won for a sample by going on from a level, but for a constant factor.
+/// What is won for a sample by going on from a level, except for a constant factor.
 double Refinement::worth(std::uint32_t pixel, double square_error, std::uint32_t level) const {
   return square_error * (1 + worth_spread * hash(pixel)) / samples_at(level);
 }

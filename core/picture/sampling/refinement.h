@@ -16,68 +16,68 @@ namespace dmpc::core {
 
 struct PartialPicture;
 
-/// How far a picture is refined beyond the camera's samples, which every pixel gets.
+/// How far a picture is refined beyond the camera's samples per pixel.
 struct RefinementOptions {
-  /// Root mean square error of the picture's linear channels at which it is good enough; 0: no refinement.
+  /// Root mean square error of the picture's linear channels at which refinement stops; 0: no refinement.
   double error = 0;
-  /// A pixel has at most so many. Pixels stop below it: their samples double.
+  /// Maximum for a pixel. Pixels stop below it if doubling would exceed it.
   std::uint32_t samples_max = 4096;
   ErrorKind kind = ErrorKind::edges;
 
   constexpr bool is_wanted() const { return error > 0; }
 };
 
-/// Of every pixel in the first pass of a picture that is refined. Of edges two: one would tell nothing of a pixel's error, the
-/// second tells it by what it changes, and two are what most pixels of most pictures need. Of noise eight, and as many again for
-/// all pixels in a second pass, before anything is told from them: of so rare things as one sample in a hundred finds, fewer
-/// tell nothing in most neighbourhoods.
+/// Samples of every pixel in the first pass of a refined picture. Two for edges: one says nothing of a pixel's error, the second
+/// one's change does, and two are what most pixels of most pictures need. Eight for noise, and as many again for all pixels in a
+/// second pass, before anything is estimated: for rare events, such as one in a hundred samples, fewer say nothing in most
+/// neighbourhoods.
 constexpr std::uint32_t first_refined_samples(ErrorKind kind) { return kind == ErrorKind::noise ? 8 : 2; }
-/// A pixel of a picture that is refined has no fewer when it is done.
+/// The least number of samples of a pixel of a finished refined picture.
 constexpr std::uint32_t least_refined_samples(ErrorKind kind) {
   return first_refined_samples(kind) * (kind == ErrorKind::noise ? 2 : 1);
 }
 
-/// The last pass ends a picture, whatever its error: with samples enough for any it comes sooner.
+/// The maximum number of passes, whatever the error then is: with samples enough for any error there are fewer.
 inline constexpr std::uint32_t passes_max = 12;
-/// In one pass a pixel's samples are doubled so often at most: what few samples say is then looked at again, and of so many
-/// groups of samples the film's planes tell each from the others.
+/// The maximum number of doublings of a pixel's samples in one pass: what few samples say is then checked again, and the film's
+/// planes can keep apart no more blocks of samples.
 inline constexpr std::uint32_t doublings_max = 2;
-/// The level that a pixel of `samples` in the first pass may come to; at most SampleStep::level_max.
+/// The highest level for a pixel of `samples` in the first pass; at most SampleStep::level_max.
 std::uint32_t level_max(const RefinementOptions& options, std::uint32_t samples);
 
-/// What came of it.
+/// The outcome of refinement.
 struct RefinementResult {
   std::uint32_t passes = 1;
-  double error = 0;  ///< estimated, of the picture as it is; 0 unless refinement was wanted
+  double error = 0;  ///< estimated, for the current picture; 0 without refinement
 };
 
-/// The host's: the pass under way, and the choice of the next. Not thread-safe.
+/// The host's state: the current pass, and the choice of the next. Not thread-safe.
 ///
-/// Every pixel has the camera's samples or those doubled a number of times. Each doubling of a pixel's samples promises so much
-/// less error (ErrorEstimate) for so many samples: the best promises are taken, as many as are needed for the picture's estimate
-/// to come down to the error asked for, at once and for all levels; those that are worth far less than the others wait. Besides,
-/// some of the pixels that look even, chosen by a hash, get four times their samples, for what they show of the others.
+/// Every pixel has the camera's samples, doubled a number of times. Each doubling of a pixel's samples is expected to reduce the
+/// error (ErrorEstimate) at the cost of these samples: the best are chosen, as many as are needed to bring the picture's estimate
+/// down to the requested error, at once and for all levels; those that are worth far less than the others wait. Besides, some of
+/// the pixels that look even, chosen by a hash, get four times their samples, as evidence about the others.
 class Refinement {
  public:
-  /// `samples`: of every pixel in the first pass, which is under way from the start. Requires two, and a film of this size and
-  /// scale, if there is an error to come down to, or of noise eight; else any number. `detail`, if there is any, outlives it.
+  /// `samples`: of every pixel in the first pass, which is the current one at the start. If an error is requested it must be two,
+  /// or eight for noise, and the film must have this size and scale. `detail`, if given, outlives it.
   Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr,
              FilmScale scale = {});
 
-  /// Goes on where another has left off. Before the first next_pass().
+  /// Resumes another run. To be called before the first next_pass().
   void resume(const PartialPicture& start);
 
-  /// Under way.
+  /// The current pass.
   const Pass& pass() const { return pass_; }
   std::uint32_t pixel_count() const { return pixel_count_; }
-  /// All light of the pass under way has arrived: counts its samples on the film, and chooses the next one, for whose pixels it
-  /// gathers the film's planes. Returns false if the picture is good enough, or no pixel may have more samples.
+  /// To be called when all light of the current pass has arrived: counts its samples on the film, and chooses the next pass, for
+  /// whose pixels it gathers the film's planes. Returns false if the picture is good enough, or no pixel may have more samples.
   bool next_pass(Film& film);
-  /// Up to the pass under way, its error not yet known.
+  /// Up to the current pass, whose error is not yet known.
   RefinementResult result() const { return {result_.passes, result_.error / scale_}; }
   /// How often gathering has saturated a pixel's sum.
   std::uint64_t gatherings_saturated() const { return gatherings_saturated_; }
-  /// What it remembers of the pixels, for who goes on; of none, if no refinement is wanted.
+  /// What it remembers of the pixels, for a run that resumes; empty without refinement.
   std::span<const PixelPast> past() const;
 
  private:
@@ -97,8 +97,8 @@ class Refinement {
   double worth(std::uint32_t pixel, double square_error, std::uint32_t level) const;
   double hash(std::uint32_t pixel) const;
 
-  double scale_;  ///< the film's: errors of light are multiplied by it
-  double error_;  ///< the one asked for, scaled
+  double scale_;  ///< the film's, a factor of errors
+  double error_;  ///< the requested one, scaled
   ErrorKind kind_;
   std::uint32_t level_max_ = 1;
   Pass pass_;

@@ -1,4 +1,4 @@
-// Two numbers of a pixel's sample: evenly spread for any number of samples, the same on every node and in every order.
+// Two numbers for a pixel's sample: evenly spread for any number of samples, the same on every node and in every order.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,34 @@ struct SamplePair {
   constexpr bool operator==(const SamplePair&) const = default;
 };
 
-/// The pairs of one number of a pixel's samples are Sobol's (0, 2)-sequence (I. M. Sobol, "On the Distribution of Points in a
-/// Cube", 1967): of the first 2^k, and of each 2^k that follow upon a multiple of 2^k, each lies in a box of its own, for every
-/// way of cutting the unit square into 2^k equal boxes of 2^i by 2^(k - i). The digits are scrambled by a hash of pixel and pair
+/// The pairs with one number over a pixel's samples form Sobol's (0, 2)-sequence (I. M. Sobol, "On the Distribution of Points in
+/// a Cube", 1967): of the first 2^k, and of each 2^k that follow on a multiple of 2^k, each lies in a box of its own, for every
+/// division of the unit square into 2^k equal boxes of 2^i by 2^(k - i). The digits are scrambled by a hash of pixel and pair
 /// after A. B. Owen, so that every place is equally likely, by the method of B. Burley, "Practical Hash-based Owen Scrambling",
 /// Journal of Computer Graphics Techniques 9 (4), 2020.
 ///
-/// From pair 1 on the sample's number is scrambled in the same manner by another hash, so that the pairs of a sample have nothing
-/// to do with each other (the same, section 5, "Padding"), while 2^k samples as above keep a box each. Pair 0 keeps its order.
-/// Thread safety: pure.
+/// From pair 1 on the sample's number is scrambled in the same way by another hash, so that the pairs of a sample are independent
+/// (Burley, section 5, "Padding"), while 2^k samples as above keep a box each. Pair 0 keeps its order. Thread safety: pure.
 SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t pair);
 
 /// In a pixel whose sides are 1 long.
 using SamplePosition = SamplePair;
 
-/// Pair 0 of the sample's numbers: of those that follow each other a pixel's plane is filled evenly.
+/// Pair 0 of the sample's numbers: consecutive ones fill a pixel evenly.
 inline SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample) { return sample_pair(pixel, sample, 0); }
 
 /// A place on the unit disc.
 struct DiscPlace {
   double x, y;
-  double square;  ///< of its distance from the middle
+  double square;  ///< squared distance from the middle
 };
 
-/// For a pair that is as likely anywhere, one that is, too: P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square",
-/// Journal of Graphics Tools 2 (3), 1997.
+/// A uniform point on the disc for a uniform pair: P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square", Journal
+/// of Graphics Tools 2 (3), 1997.
 DiscPlace on_disc(const SamplePair& pair);
 
-/// `across.x`, `across.y` and `along` on axes at right angles, of which the last is the unit vector `axis`: T. Duff and others,
-/// "Building an Orthonormal Basis, Revisited", Journal of Computer Graphics Techniques 6 (1), 2017.
+/// `x`, `y` and `along` on orthogonal axes, of which the last is the unit vector `axis`: T. Duff and others, "Building an
+/// Orthonormal Basis, Revisited", Journal of Computer Graphics Techniques 6 (1), 2017.
 Vec3d about_axis(const Vec3d& axis, double x, double y, double along);
 
 }  // namespace dmpc::core

@@ -21,7 +21,7 @@ class PixelMask {
   bool has(std::uint32_t pixel) const { return (words_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
   void add(std::uint32_t pixel) { words_[pixel / 64] |= std::uint64_t{1} << (pixel % 64); }
   std::uint32_t count() const;
-  /// 64 pixels each, the first the lowest bit. Whoever writes them sets no bit beyond the picture.
+  /// 64 pixels each, the first in the lowest bit. Bits beyond the picture must stay 0.
   std::span<const std::uint64_t> words() const { return words_; }
   std::span<std::uint64_t> words() { return words_; }
   bool operator==(const PixelMask&) const = default;
@@ -30,8 +30,8 @@ class PixelMask {
   std::vector<std::uint64_t> words_;
 };
 
-/// From one level of samples to a higher one: at level 0 a pixel has none, at level 1 those of the first pass, and at each level
-/// above twice as many as at the one below. A byte, so that a node can have one for each of its pixels.
+/// From one level of samples to a higher one: level 0 has no samples, level 1 those of the first pass, and each level above twice
+/// as many as the one below. One byte, since a node stores one for each of its pixels.
 class SampleStep {
  public:
   static constexpr std::uint32_t level_max = 15;
@@ -45,9 +45,9 @@ class SampleStep {
   constexpr std::uint32_t from() const { return bits_ & level_max; }
   constexpr std::uint32_t to() const { return bits_ >> 4U; }
   constexpr std::uint8_t bits() const { return bits_; }
-  /// It brings no sample.
+  /// Whether it adds no samples.
   constexpr bool is_none() const { return to() <= from(); }
-  /// What it brings, where the first pass has `first_samples`.
+  /// The samples that it adds, if the first pass has `first_samples`.
   constexpr SampleRange samples(std::uint32_t first_samples) const {
     const std::uint32_t first = samples_at(from(), first_samples);
     return is_none() ? SampleRange{first, 0} : SampleRange{first, samples_at(to(), first_samples) - first};
@@ -62,7 +62,7 @@ class SampleStep {
 };
 static_assert(sizeof(SampleStep) == 1);
 
-/// The steps of all pixels of a picture; the pixels of the pass are those whose step brings samples.
+/// The steps of all pixels of a picture; the pixels of the pass are those whose step adds samples.
 class Pass {
  public:
   /// The first: every pixel gets `first_samples`.
@@ -70,14 +70,14 @@ class Pass {
       : steps_(pixel_count, SampleStep::first()), first_samples_(first_samples) {}
 
   bool has(std::uint32_t pixel) const { return !steps_[pixel].is_none(); }
-  /// Every pixel gets first_samples(), and had none.
+  /// Whether every pixel gets first_samples(), and had none.
   bool is_first() const;
   SampleRange samples(std::uint32_t pixel) const { return steps_[pixel].samples(first_samples_); }
-  /// How many each pixel has in the first pass.
+  /// Samples per pixel in the first pass.
   std::uint32_t first_samples() const { return first_samples_; }
-  /// Pixels that it has.
+  /// Number of pixels of the pass.
   std::uint32_t pixel_count() const;
-  /// Behind the last sample that any pixel gets; 0 if none gets any.
+  /// One past the last sample of any pixel; 0 if there is none.
   std::uint32_t samples_end() const;
   PixelMask pixels() const;
   /// One for each pixel of the picture.

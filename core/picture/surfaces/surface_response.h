@@ -9,13 +9,13 @@
 
 namespace dmpc::core {
 
-/// Of light found by a mirrored ray, in the brightest channel: what cannot be transmitted is reflected, too.
+/// The share of a mirrored ray's light, in the brightest channel: what cannot be transmitted is reflected, too.
 inline float mirrored_share(const HitState& state) {
   const MaterialRecord& material = state.surface.material;
   return material.specular * state.gloss().mirror + (state.has_refraction ? 0.0F : material.transmittance);
 }
 
-/// The same in each channel, over that.
+/// The share in each channel, relative to mirrored_share().
 inline Color mirrored_tint(const HitState& state) {
   const MaterialRecord& material = state.surface.material;
   const HitState::Gloss gloss = state.gloss();
@@ -32,7 +32,7 @@ T brightest(const Vec3<T>& color) {
   return std::max({color.x, color.y, color.z, T(0)});
 }
 
-/// The ways in which a surface sends light on, each in its brightest channel: a path takes one of them, in proportion to these.
+/// The components by which a surface sends light on, each in its brightest channel: a path takes one of them, in proportion.
 struct WayShares {
   double scattered, mirrored, refracted;
 
@@ -40,23 +40,23 @@ struct WayShares {
 };
 WayShares shares_of(const HitState& state);
 
-/// Of what comes to the diffuse part, by channels.
+/// The colour of the diffuse part, by channels.
 Color scattered_color(const HitState& state);
 
 struct SurfaceResponse {
-  /// What goes back along the ray where a radiance of 1 comes from there, per steradian, by channels: the scattering function
-  /// times the cosine with the shading normal. What mirrors or lets through in one direction alone is none of it.
+  /// Radiance that is scattered back along the ray for a radiance of 1 from there, per steradian, by channels: the scattering
+  /// function times the cosine with the shading normal. Mirrors and transmission in one direction are not included.
   Vec3d value;
-  /// With which path_step() goes on there, per steradian, roulette apart: the sum over all ways that scatter of how likely each
-  /// is taken times its density.
+  /// The density with which path_step() continues there, per steradian, without roulette: the sum over all scattering components
+  /// of probability times density.
   double density = 0;
 };
 
-/// For light from the unit direction `towards`. All 0 where that leads into the surface, be it by the shading normal or by the
-/// true one. Requires a hit of which all is known.
+/// For light from the unit direction `towards`. All 0 where that leads into the surface, by the shading normal or the true one.
+/// Requires a hit whose surface is known.
 SurfaceResponse response_towards(const HitState& state, const Vec3d& towards);
 
-/// Whether the value is above 0 from anywhere.
+/// Whether the value is above 0 for some direction.
 bool scatters(const HitState& state);
 
 /// Whether a unit direction leads away from the surface, on the ray's side, by its true normal.

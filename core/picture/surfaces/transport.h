@@ -1,4 +1,4 @@
-// How light gets about in a picture: by Whitted's mirrors alone, or along paths that surfaces scatter.
+// Light transport of a picture: Whitted's mirrors, or paths.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,20 @@
 namespace dmpc::core {
 
 /// whitted: a hit sends a mirrored and a refracted ray, and shows lights (T. Whitted, "An Improved Illumination Model for Shaded
-/// Display", 1980). paths: it sends one ray of those, or one that it scatters (J. T. Kajiya, "The Rendering Equation", 1986).
+/// Display", 1980). paths: it sends one of those rays, or one that it scatters (J. T. Kajiya, "The Rendering Equation", 1986).
 enum class TransportKind : std::uint8_t { whitted, paths };
 
-/// A part of the picture's settings, which every node has by value; with whitted the other members mean nothing.
+/// A part of the picture's settings, copied to every node; with whitted the other members are unused.
 struct Transport {
   TransportKind kind = TransportKind::whitted;
-  /// What rays that meet nothing find is a sky, which surfaces show; else a backdrop, which the eye alone sees, and mirrors and
-  /// glass before it: NFF's background.
+  /// The background is a sky, which illuminates surfaces; otherwise it is seen only by the eye, directly or by mirrors and glass:
+  /// NFF's background.
   bool has_sky = false;
-  /// For tests alone: emitters that hits aim at count in full there, and not where paths meet them.
+  /// For tests alone: light sampling has full weight, and emitters that paths hit have none.
   bool only_aims = false;
-  bool never_aims = false;    ///< for tests alone: the sky's picture counts in full where paths meet it, and nobody aims at it
+  bool never_aims = false;  ///< for tests alone: the sky's picture has full weight where paths hit it, and is not sampled
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
-  /// From the hit of this number on, the eye's being the first, paths may end by roulette.
+  /// From this hit on, the eye's being the first, paths may end by roulette.
   std::uint8_t roulette_from = 3;
   Color zenith;  ///< with a gradient
   Vec3f up;      ///< the zenith's direction, grid-local, of unit length
@@ -32,8 +32,8 @@ struct Transport {
 };
 static_assert(std::is_trivially_copyable_v<Transport>);
 
-/// What comes from a sky that is no picture along the unit direction, where its horizon has the colour `horizon`: in proportion
-/// to the sine of how high that points.
+/// The radiance of a sky that is no picture along the unit direction, where its horizon has the colour `horizon`: linear in the
+/// sine of the elevation.
 inline Color sky_light(const Transport& transport, const Color& horizon, const Vec3f& direction) {
   const float height = transport.has_gradient ? std::clamp(dot(direction, transport.up), 0.0F, 1.0F) : 0.0F;
   return height > 0.0F ? horizon * (1.0F - height) + transport.zenith * height : horizon;
