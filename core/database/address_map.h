@@ -14,7 +14,7 @@ namespace dmpc::core {
 /// smooth triangle of every region, for which a tree of nodes on the heap is slow. Not thread-safe.
 class AddressMap {
  public:
-  /// The place for what `from` becomes, and whether it is new: then it holds no_address. Valid until the next call.
+  /// The value for `from`, and whether it is new: then it is no_address. Valid until the next call.
   std::pair<Address&, bool> find_or_add(Address from) {
     if (2 * (count_ + 1) > entries_.size()) {
       grow();
@@ -32,7 +32,7 @@ class AddressMap {
     Address from = no_address, to = no_address;
   };
 
-  /// That of `from`, or a free one for it. At least half of all are free.
+  /// The entry of `from`, or a free one for it. At least half of all are free.
   Entry& entry_of(Address from) {
     // Fibonacci hashing: addresses of neighbours differ in their low bits.
     std::size_t place =
@@ -53,7 +53,7 @@ class AddressMap {
     }
   }
 
-  std::vector<Entry> entries_;  ///< a power of two of them
+  std::vector<Entry> entries_;  ///< the number is a power of two
   std::size_t count_ = 0;
 };
 

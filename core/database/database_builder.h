@@ -1,4 +1,4 @@
-// From a scene to its database: what all structures have in common. What tells one from another is what they override.
+// From a scene to its database: the part that all structures have in common. Structures override the rest.
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,11 @@
 
 namespace dmpc::core {
 
-/// Builds in order: frame, primitives, then the records. What it is made from outlives it.
+/// Builds in order: frame, primitives, then the records. The constructor's arguments outlive it.
 class DatabaseBuilder {
  public:
-  /// `meshes`: what faces_of_meshes() says of the scene. `places`: where the records go that it writes; by default in order.
-  /// `expendable`: the scene, if its objects may be freed once they have been converted.
+  /// `meshes`: faces_of_meshes() of the scene. `places`: where the records are to be written; by default in order. `expendable`:
+  /// the scene, if its objects may be freed once they have been converted.
   struct Input {
     const Scene& scene;
     const BuildOptions& options;
@@ -35,7 +35,7 @@ class DatabaseBuilder {
     std::vector<Address> places = {};
     Scene* expendable = nullptr;
   };
-  /// That of the options' structure.
+  /// The builder for the options' structure.
   static std::unique_ptr<DatabaseBuilder> of(Input input);
 
   explicit DatabaseBuilder(Input input);
@@ -43,27 +43,27 @@ class DatabaseBuilder {
   DatabaseBuilder(const DatabaseBuilder&) = delete;
   DatabaseBuilder& operator=(const DatabaseBuilder&) = delete;
 
-  /// Nothing if the scene leaves copies out, and there are obstacles() of some of them. To be called once.
+  /// Nothing if the scene leaves copies out and some of them have obstacles(). To be called once.
   std::optional<Database> build();
-  /// By place of Scene::kept, once build() has made nothing.
+  /// By instance of Scene::kept, once build() has returned nothing.
   virtual std::span<const Obstacle> obstacles() const { return {}; }
-  /// Says of which places copies were put into the scene before.
+  /// Sets for which instances copies were added to the scene before.
   void set_copied(const ObstacleCounts& copied) { counts().copied = copied; }
-  /// For the records that build() has written, which the next builder writes in the same sequence.
+  /// Places for the records that build() has written; the next builder writes them in the same sequence.
   std::vector<Address> scattered() const;
 
  protected:
   /// Lists the primitives of every macro cell; none if the lists would be long.
   virtual std::optional<MacroCells> list_macro_cells() const { return list_with(0); }
-  /// Takes what is kept once out of what is converted. Whether that goes.
+  /// Takes base meshes out of the conversion. Returns whether that is possible.
   virtual bool keep() { return true; }
-  /// Makes other cells of the macro cells. Whatever depends on cells but the boxes of BVH nodes has been settled, and rays start
-  /// where they would without, so that the picture keeps its bits.
+  /// Replaces the macro cells by other cells. Everything that depends on cells except the boxes of BVH nodes has been settled,
+  /// and rays start where they would without, so that the picture has the same bits.
   virtual MacroCells cells_of(MacroCells cells) { return cells; }
   virtual std::uint64_t primitive_count() const { return conversion_.primitives.size(); }
   /// The id of the primitive at an index of the conversion's lists.
   virtual std::uint32_t id_of(std::uint32_t primitive) const { return primitive; }
-  /// Returns how many copies of primitives are in leaves.
+  /// Returns the number of copies of primitives in leaves.
   virtual std::uint64_t write_records(const MacroCells& cells) = 0;
 
   const BuildOptions& options() const { return options_; }
@@ -74,21 +74,21 @@ class DatabaseBuilder {
   double pad() const { return result_.pad_; }
   void set_forest_pages(std::size_t count) { result_.forest_page_count_ = count; }
   void set_open_pages(std::size_t count) { result_.open_page_count_ = count; }
-  /// Of the scene, before its objects were freed.
+  /// Number of the scene's objects, before they were freed.
   std::size_t object_count() const { return object_count_; }
-  /// What the scene takes of the grid, grid-local: as much behind it as before it; 0 if it is empty.
+  /// The extent of the scene in the grid, grid-local: margins on both sides are equal; 0 if it is empty.
   const Vec3d& used() const { return used_; }
 
   std::optional<MacroCells> list_with(std::int64_t excess) const;
   MacroCells sort_into_macro_cells();
-  /// One macro cell in place of all.
+  /// Replaces all macro cells by one.
   void join_cells();
   void coarsen();
   void set_pad();
 
-  /// What is taken next begins a page; returns how many are before it.
+  /// Starts a new page for the next record; returns the number of pages before it.
   std::size_t begin_page();
-  /// `references`: of voxels, if there are any.
+  /// `references`: number of voxels' references, if there are voxels.
   void write_tables(std::optional<std::uint64_t> references = std::nullopt);
   void write_textures();
   void write_normals(Conversion& conversion);
@@ -114,16 +114,16 @@ class DatabaseBuilder {
   BuildOptions options_;
   Parallel parallel_;
   Database result_;
-  double view_distance_ = 0;  ///< from the scene's middle, in extents
+  double view_distance_ = 0;  ///< from the scene's middle, in multiples of its extent
   Vec3d used_;
   std::size_t object_count_ = 0;
   bool has_looked_for_twins_ = false;
   Emitters emitters_;
   SkyRecords sky_;
-  std::vector<TextureReference> textures_;  ///< of the scene's, in order
+  std::vector<TextureReference> textures_;  ///< for the scene's, in order
 };
 
-/// Frees what of a scene a database has.
+/// Frees the parts of a scene that its database contains.
 void forget_objects(Scene& scene);
 void forget_texels(Texture& texture);
 

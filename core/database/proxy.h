@@ -7,14 +7,14 @@
 
 namespace dmpc::core {
 
-/// How large a proxy may be: room for twice the topmost BVH nodes of a large scene, and for some levels of a small one.
+/// The maximum size of a proxy: enough for twice the topmost BVH nodes of a large scene, and for some levels of a small one.
 std::size_t proxy_bytes_max(const Database& database);
 
-/// Copies the directory and as many BVH nodes as `bytes_max` hold, level by level; of base meshes it makes BVH nodes with
-/// boxes where each place has them. Children that are not copied stand as leaves, of which nothing can be read: whoever meets one
-/// knows that something may be there, whoever meets none that nothing is. Without a directory (no_address), and nothing else, if
-/// the topmost BVH nodes do not fit. Of voxels it has the directory, without lists: if that does not fit, one of cubes of 2^n
-/// voxels along each axis (DatabaseHeader::directory_doublings), from where the grid begins.
+/// Copies the directory and as many BVH nodes as `bytes_max` allow, level by level; for base meshes it creates BVH nodes with
+/// boxes for each instance. Children that are not copied become leaves, which cannot be read: a ray that meets one may hit
+/// something there, a ray that meets none hits nothing. Without a directory (no_address), and empty, if the topmost BVH nodes do
+/// not fit. For voxels it has the directory, without lists: if that does not fit, one of cubes of 2^n voxels along each axis
+/// (DatabaseHeader::directory_doublings), from the grid's lower corner.
 DatabasePart proxy_of(const Database& database, std::size_t bytes_max);
 
 }  // namespace dmpc::core

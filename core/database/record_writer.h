@@ -1,4 +1,4 @@
-// Lays records out in pages, none across a page's border.
+// Allocates records in pages, none across a page's border.
 #pragma once
 
 #include <algorithm>
@@ -22,20 +22,20 @@ constexpr std::size_t place_in_page(std::size_t end, std::size_t bytes, std::siz
   return offset % page_size + bytes > page_size ? round_up(offset, page_size) : offset;
 }
 
-/// Whether a RecordWriter keeps what is written, or reckons the room alone that it would take.
+/// Whether a RecordWriter stores what is written, or only computes the memory that it would take.
 enum class Keeps : std::uint8_t { records, nothing };
 
-/// Addresses come out in ascending order, so what is allocated one after the other shares pages; unless places are given.
+/// Addresses are ascending, so consecutive allocations share pages; unless places are given.
 class RecordWriter {
  public:
   static constexpr std::uint64_t bytes_max = std::uint64_t{16} << 30U;  ///< what 31 bits of address span
 
-  /// `places`: where the records go, in the order of their allocation (structure.h), arrays before them apart.
+  /// `places`: where the records go, in the order of their allocation (structure.h); arrays before them are separate.
   explicit RecordWriter(std::size_t page_size, std::vector<Address> places = {})
       : page_size_(page_size), instances_(std::move(places)) {}
   RecordWriter(std::size_t page_size, Keeps keeps) : page_size_(page_size), keeps_(keeps) {}
 
-  /// Room for a record of `bytes` in one page.
+  /// Allocates a record of `bytes` in one page.
   Address allocate(std::size_t bytes) {
     expect(bytes > 0 && bytes <= record_bytes_max, "a record is at most 448 bytes long");
     if (sizes_.empty()) {
@@ -45,8 +45,8 @@ class RecordWriter {
     return take(instances_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(instances_.at(sizes_.size() - 1)),
                 bytes);
   }
-  /// The same, for one run of records that take `share` bytes each on the average, or what they need if that is more: none
-  /// crosses a page's border, so some lie a little closer together than others. 0: what they need.
+  /// Allocates one of a run of records that take `share` bytes each on average, or what they need if that is more: none crosses a
+  /// page's border, so some lie a little closer together than others. 0: what they need.
   Address allocate(std::size_t bytes, std::size_t share) {
     const std::size_t taken = std::max(bytes, share);
     const bool is_in_run = share > 0 || shared_end_ > 0;
@@ -60,23 +60,23 @@ class RecordWriter {
     end_ = std::max(end_, shared_end_);
     return address;
   }
-  /// Room for `count` records of T one behind the other; T's size is a power of two, so that none crosses a page's border.
+  /// Allocates `count` consecutive records of T; T's size is a power of two, so that none crosses a page's border.
   template <class T>
   Address allocate_array(std::size_t count) {
     static_assert((sizeof(T) & (sizeof(T) - 1)) == 0);
     return take(round_up(end_, std::max(sizeof(T), record_alignment)), count * sizeof(T));
   }
-  /// What is taken next begins a page.
+  /// The next allocation begins a page.
   void begin_page() { end_ = round_up(end_, page_size_); }
-  /// What is taken next, up to `bytes` of records, lies in one page.
+  /// The next allocations, up to `bytes` of records, lie in one page.
   void keep_together(std::size_t bytes) { end_ = place_in_page(end_, bytes, page_size_); }
-  /// Makes all room that has been taken writable, so that several threads may write to different records. Call it once, when no
-  /// more will be taken: then finish() has nothing to move.
+  /// Makes everything that has been allocated writable, so that several threads may write to different records. To be called
+  /// once, after the last allocation: then finish() has nothing to move.
   void make_room() {
     bytes_.reserve(finished_bytes());
     cover();
   }
-  /// Makes room, but writable none, for so many bytes behind what has been taken, which then is never moved.
+  /// Reserves this many bytes after what has been allocated, which then is never moved, without making them writable.
   void reserve(std::size_t bytes) {
     if (keeps_ == Keeps::records) {
       bytes_.reserve(end_ + bytes + page_size_ + overread_bytes);
@@ -94,24 +94,24 @@ class RecordWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     write(address, offset, std::as_bytes(std::span(&value, 1)));
   }
-  /// Makes room for a record and writes it there.
+  /// Allocates a record and writes it.
   template <class T>
   Address add(const T& record) {
     const Address address = allocate(sizeof(T));
     write(address, 0, record);
     return address;
   }
-  /// Bytes of every record so far, as they were allocated.
+  /// Bytes of every record so far, in the order of allocation.
   std::span<const std::uint16_t> sizes() const { return sizes_; }
   /// Bytes before the first record.
   std::size_t front_bytes() const { return front_bytes_; }
-  /// Bytes of the pages so far, the last one filled up: one at least.
+  /// Bytes of the pages so far, including the unused part of the last one: at least one page.
   std::size_t page_bytes() const { return std::max(page_size_, round_up(end_, page_size_)); }
-  /// The bytes of these pages with one more record of `bytes`.
+  /// page_bytes() with one more record of `bytes`.
   std::size_t page_bytes_with(std::size_t bytes) const {
     return round_up(place_in_page(end_, bytes, page_size_) + bytes, page_size_);
   }
-  /// The pages, with overread_bytes behind; nothing if nothing is kept.
+  /// The pages, followed by overread_bytes; empty if nothing is stored.
   std::vector<std::byte> finish() && {
     if (keeps_ == Keeps::records) {
       bytes_.resize(finished_bytes());
@@ -122,7 +122,7 @@ class RecordWriter {
  private:
   std::size_t finished_bytes() const { return page_bytes() + overread_bytes; }
 
-  /// Makes what has been taken so far writable; capacity grows by factors.
+  /// Makes what has been allocated writable; capacity grows by factors.
   void cover() {
     if (bytes_.size() < end_) {
       bytes_.resize(end_);
@@ -141,7 +141,7 @@ class RecordWriter {
   std::vector<Address> instances_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;
-  std::size_t end_ = 0;         ///< of the room that has been taken
+  std::size_t end_ = 0;  ///< of the allocated memory
   std::size_t shared_end_ = 0;  ///< of the shares of records, since there were some
   std::vector<std::byte> bytes_;
 };

@@ -1,4 +1,4 @@
-// Which records a region of space needs, found by walking down from the directory as a ray might.
+// The records that a region of space needs, found from the directory downwards, as by a ray.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace dmpc::core {
 
-/// Whether a box, grid-local, borders included, touches a region: a ray in a region that it does not touch never needs what is in
-/// it.
+/// Whether a box, grid-local, borders included, touches a region: a ray in a region never needs the contents of a box that does
+/// not touch it.
 inline bool touches_region(const GridFrame& frame, const Box& box, const Region& region) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > plane_at(frame, axis, region.high[axis]) || box.high[axis] < plane_at(frame, axis, region.low[axis])) {
@@ -27,7 +27,7 @@ inline bool touches_region(const GridFrame& frame, const Box& box, const Region&
   }
   return true;
 }
-/// Whether it lies in the region, borders included.
+/// Whether the box lies in the region, borders included.
 inline bool lies_in_region(const GridFrame& frame, const Box& box, const Region& region) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.low[axis] < plane_at(frame, axis, region.low[axis]) || box.high[axis] > plane_at(frame, axis, region.high[axis])) {
@@ -37,9 +37,9 @@ inline bool lies_in_region(const GridFrame& frame, const Box& box, const Region&
   return true;
 }
 
-/// Calls visit(address) for the records of a whole database that rays in `region`, and shading the hits there, may ask for, but
-/// for materials and lights; some more than once, though of few base meshes all anew for each place. Takes no
-/// memory but a stack as deep as the trees. Requires that all of them are there: `records` never answers nullptr.
+/// Calls visit(address) for the records of a whole database that rays in `region`, and shading the hits there, may need, except
+/// for materials and lights; for some more than once, though only few base meshes are repeated for each instance. Takes no memory
+/// except a stack as deep as the trees. Requires that all records are present: `records` never returns nullptr.
 template <Records R, class Visit>
 class RegionRecords {
  public:
@@ -57,7 +57,7 @@ class RegionRecords {
   }
 
  private:
-  /// The record at an address, for the caller to copy from at once.
+  /// The record at an address, to be copied from at once.
   const std::byte* at(Address address) {
     (*visit_)(address);
     return records_->find(address);
@@ -70,7 +70,7 @@ class RegionRecords {
     }
   }
 
-  /// Of all that a voxel lists, since a record does not tell how far beside it a hit may lie.
+  /// Everything in the voxel's list, since a record does not say how far beside it a hit may lie.
   void visit_list(const DirectoryEntry& entry) {
     for (std::uint64_t index = entry.bits;; ++index) {
       const auto reference = read<VoxelReference>(at(reference_address(*header_, index)) + reference_offset(index));
@@ -125,7 +125,7 @@ class RegionRecords {
     }
   }
 
-  /// Of a base mesh what touches the region in a place; without boxes all of it.
+  /// What an instance of a base mesh needs in the region; without boxes all of the mesh.
   void visit_mesh(Address address, const PlacedBoxes* boxes) {
     const auto bvh_node = read<BvhNode>(at(address));
     for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
@@ -136,7 +136,7 @@ class RegionRecords {
     }
   }
 
-  /// Which mesh was visited last, of some: each has one entry, which it may share with others.
+  /// The mesh that was visited last, by entry; several meshes may share one.
   Address& seen_of(Address mesh) { return seen_[static_cast<std::uint32_t>(mesh) * 0x9e3779b1U >> 26U]; }
 
   void visit_normals(Address address) {
@@ -164,7 +164,7 @@ class RegionRecords {
   const DatabaseHeader* header_;
   const Region* region_;
   const Visit* visit_;
-  std::array<Address, 64> seen_;  ///< the first BVH nodes of meshes of which all has been visited
+  std::array<Address, 64> seen_;  ///< the first BVH nodes of meshes that have been visited completely
 };
 
 template <Records R, class Visit>

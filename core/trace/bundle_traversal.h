@@ -52,8 +52,8 @@ class BundleTraversal {
     return true;
   }
 
-  /// RayTraversal::first_leaf() of rays that run() has made out the rows of, each from its cell and t_enter on, in a proxy that
-  /// is all here. Of those that it returns best.t is where, the others meet none. Where rays were is not kept.
+  /// RayTraversal::first_leaf() for rays whose rows run() has filled, each from its cell and t_enter on, in a proxy that is fully
+  /// present. Returns the rays that meet a leaf, with t in best.t. The rays' positions are not kept.
   RayMask find_first_leaves(RayMask rays) {
     expect(header_.region == Region{.high = bundle_.grid_size}, "a proxy is of the whole grid");
     bundle_.any = false;

@@ -12,7 +12,7 @@
 
 namespace dmpc::core {
 
-/// Sets of numbers that grow together. Their least stands for each.
+/// Disjoint sets of numbers (union-find), each represented by its least member.
 class MergedSets {
  public:
   explicit MergedSets(std::size_t count);
@@ -21,26 +21,26 @@ class MergedSets {
   void merge(std::uint32_t a, std::uint32_t b);
 
  private:
-  std::vector<std::uint32_t> parents_;  ///< none above its child
+  std::vector<std::uint32_t> parents_;  ///< none greater than its child
 };
 
-/// Finds faces of different objects that lie in one plane, or in two that are near, and cover each other. Looks at those alone
-/// that share a square of a raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in
-/// the plane of the largest, or near to it, for covering it.
+/// Finds faces of different objects that lie in one plane, or in two that are near, and cover each other. Tests only faces that
+/// share a square of a raster, at most a number in proportion to the faces; beyond that all faces in the plane of the largest, or
+/// near to it, are assumed to cover it.
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
   explicit CoverFinder(std::span<const Face> faces) : faces_(faces) {}
 
-  /// Looks at some of the faces, ascending, which can be looked at along `axis`.
+  /// Tests some of the faces, ascending, which are visible along `axis`.
   void look_at(std::span<const std::uint32_t> some, std::size_t axis);
-  /// Looks at all low faces and at what those touch (core/database/faces/meeting_faces.h).
+  /// Tests all low faces and those that they touch (core/database/faces/meeting_faces.h).
   void look_at_meeting();
-  /// Pairs of ids: what they lead from one to the other is all that covers each other in one plane, by what records say.
+  /// Pairs of ids: their connected components are the sets that cover each other in one plane, by the records' values.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coplanar() const { return coplanar_.pairs; }
-  /// The same of all that covers each other in one plane or near to it.
+  /// Pairs of ids that cover each other in one plane or near to it.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& close() const { return close_.pairs; }
-  /// What these and close() lead from one to the other is all that covers each other where layers may reach, too.
+  /// Pairs of ids; together with close() they connect what covers each other within the reach of layers.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& reached() const { return reached_.pairs; }
   /// Ids of faces for which there was no time: others may cover them in their plane, or near to it.
   const std::vector<std::uint32_t>& unseen() const { return unseen_; }
@@ -51,12 +51,12 @@ class CoverFinder {
     std::array<double, 2> low, high;
     std::uint32_t face, object;
   };
-  /// A place in `seen_` that a square holds, and whose face that is.
+  /// An index into `seen_` that a square holds, and the object of that face.
   struct Entry {
     std::uint32_t square, place, object;
   };
   class Raster;
-  /// What is found.
+  /// Pairs found.
   struct Found {
     bool leads(std::uint32_t a, std::uint32_t b) { return !pairs.empty() && sets.least_with(a) == sets.least_with(b); }
     void merge(std::uint32_t a, std::uint32_t b, std::size_t face_count) {
@@ -66,7 +66,7 @@ class CoverFinder {
       sets.merge(a, b);
     }
 
-    MergedSets sets{0};  ///< of all faces, once there are pairs
+    MergedSets sets{0};  ///< for all faces, once there are pairs
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   };
 
@@ -78,7 +78,7 @@ class CoverFinder {
   bool look_at_square(std::size_t axis, std::span<const Entry> square);
   std::span<const Entry> without_twins(std::size_t axis, std::span<const Entry> square);
   void look_at_planes(std::span<const std::uint32_t> some);
-  /// Whether they lead to each other by all that faces of one plane do.
+  /// Whether the pairs between faces of one plane already connect them.
   bool judge(std::uint32_t a, std::uint32_t b, std::size_t axis);
   void merge(std::uint32_t a, std::uint32_t b, bool are_coplanar);
   void merge_in(Found& found, std::uint32_t a, std::uint32_t b);

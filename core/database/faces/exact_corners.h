@@ -12,16 +12,16 @@
 
 namespace dmpc::core {
 
-/// What doubles lose of a coordinate that a program has turned and moved, and of our own reckoning with it, as a share; and of
-/// one next to zero, as a share of the scene, since it comes from larger ones.
+/// The relative error in doubles of a coordinate that a program has rotated and translated, and of our own arithmetic with it;
+/// for one near zero relative to the scene, since it comes from larger ones.
 inline constexpr double exact_rounding = 0x1p-49;
 
 /// The triangles of a conversion whose floats say little of their planes, as the doubles of its scene have them, and `moved` as
 /// floats do; each takes the place of its own in `faces`. Returns whether there are any.
 bool put_exact_corners(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::span<Face> faces);
 
-/// Triangles of a conversion as the doubles of the scene have them, grid-local, in the order of `ids`. Takes time in proportion
-/// to them, and to the corners of their polygons if those of one come together. The scene still has its objects.
+/// Triangles of a conversion with the doubles of the scene, grid-local, in the order of `ids`. Takes time in proportion to them,
+/// and to the corners of their polygons if those of one are consecutive. The scene still has its objects.
 std::vector<Face> exact_faces(const Scene& scene, const GridFrame& frame, const Conversion& conversion,
                               std::span<const std::uint32_t> ids);
 

@@ -1,4 +1,4 @@
-// Which triangles meet in space, or all but meet, however they lean on each other.
+// Triangles that meet in space, or almost meet, at any angle.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace dmpc::core {
 
-/// Hands all pairs to `judge` whose boxes, grown by what near faces are apart, meet, which are of different objects, one of them
-/// lower than `low_altitude`, and lean towards each other by no more than a quarter: buckets of planes do not tell of all of
-/// those. Sorts and sweeps along one axis. False if there are too many, of which some were handed over.
+/// Calls `judge` for all pairs of different objects whose boxes, grown by the distance of near faces, overlap, one of them lower
+/// than `low_altitude`, that lean towards each other by at most a quarter: buckets of planes do not find all of these. Sorts and
+/// sweeps along one axis. False if there are too many; then `judge` was called for some.
 bool find_meeting_faces(std::span<const Face> faces, const std::function<void(std::uint32_t, std::uint32_t)>& judge);
 
 }  // namespace dmpc::core

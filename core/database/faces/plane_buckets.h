@@ -10,14 +10,14 @@
 
 namespace dmpc::core {
 
-/// Faces of different objects whose planes are alike: those between two places of PlaneBuckets::faces.
+/// Faces of different objects with similar planes: a range of PlaneBuckets::faces.
 struct PlaneBucket {
-  std::size_t axis = 0;  ///< that all of them can be looked at along
+  std::size_t axis = 0;  ///< along which all of them can be tested
   std::size_t first = 0, last = 0;
 };
 
-/// Planes as points of a space: two slopes and a height, in buckets. A face is in all buckets where its plane may be, for all
-/// that rounding did to its corners, so two that lie in one plane meet in a bucket.
+/// Planes as points of a space, two slopes and a height, in buckets. A face is in all buckets where its plane may be with any
+/// rounding of its corners, so two faces in one plane share a bucket.
 struct PlaneBuckets {
   std::vector<std::uint32_t> faces;  ///< ascending within a bucket
   std::vector<PlaneBucket> buckets;
@@ -27,7 +27,7 @@ struct PlaneBuckets {
   }
 };
 
-/// Buckets of faces of more than one object; of several with the same faces the first.
+/// Buckets with faces of more than one object; of several with the same faces the first.
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size = fine_buckets);
 
 }  // namespace dmpc::core

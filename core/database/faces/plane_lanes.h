@@ -14,37 +14,37 @@
 
 namespace dmpc::core {
 
-/// A bucket's edge in slopes, and in heights as a share of the space that the faces take; two planes that are near meet in one if
-/// they lean towards each other by no more than twice `leaning`.
+/// A bucket's size in slopes, and in heights as a share of the space of the faces; two near planes share a bucket if they lean
+/// towards each other by at most twice `leaning`.
 struct BucketSize {
   double edge, leaning;
 };
 inline constexpr BucketSize fine_buckets{0x1p-9, 0x1p-13};
-/// Where triangles are so small that rounding moves one plane far from another one: for those whose doubles are known.
+/// For triangles so small that rounding moves planes far apart: for those whose doubles are known.
 inline constexpr BucketSize coarse_buckets{0x1p-5, 0x1p-7};
 
-/// The space that faces take: heights are measured from its middle, in parts of its size.
+/// The space of the faces: heights are measured from its middle, relative to its size.
 struct Surroundings {
   Vec3d middle;
   double size = 0;
 };
 
-/// What of a face tells the place of its plane: as in Face.
+/// The properties of a face that determine the position of its plane: as in Face.
 struct PlacedFace {
   Vec3d normal, corner;
   double moved = 0, altitude = 0;
   double tilted = 1;   ///< 0 if it is level, else 1
   double rounded = 1;  ///< 0 if it is by doubles, else 1
 
-  /// How far off its slopes may be.
+  /// The possible error of its slopes.
   double slope_error(const BucketSize& size) const {
     // Corners that move across the plane turn the normal; slopes change by up to three times as much.
     const double turned = 8 * moved / altitude, near = near_roundings * turned, by_rounding = turned * rounded;
     const double leaning = near < size.leaning ? near : size.leaning;
     return (by_rounding < leaning ? leaning : by_rounding) * tilted;
   }
-  /// Whether it is looked for along an axis: the one that its plane faces most, or as much except for the error of its slopes, since
-  /// a triangle that it shares the plane with may face that one most. None if slopes are too far off.
+  /// Whether it is tested along an axis: the one that its plane faces most, or as much up to the error of its slopes, since a
+  /// triangle in the same plane may face that one most. None if slopes are too uncertain.
   bool is_seen_along(std::size_t axis, double error, const BucketSize& size) const {
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
     const double xy = x < y ? y : x, most = (xy < z ? z : xy) * (1 - 4 * error) - 1e-12;
@@ -52,7 +52,7 @@ struct PlacedFace {
   }
 };
 
-/// Buckets along one of the dimensions, so many a unit, which is a power of two: to multiply by it rounds nothing.
+/// Buckets along one dimension; their number per unit is a power of two, so that multiplication by it is exact.
 struct BucketRange {
   std::int32_t first = 0, last = -1;
 
@@ -61,7 +61,7 @@ struct BucketRange {
   }
 
  private:
-  /// Planes along an axis, which many are, lie in the middle of one. Rounds down, quicker than std::floor() does.
+  /// Planes perpendicular to an axis, which are frequent, lie in the middle of a bucket. Rounds down, faster than std::floor().
   static std::int32_t bucket_of(double value, double per_unit) {
     const double place = value * per_unit + 0.5;
     const auto towards_zero = static_cast<std::int32_t>(place);
@@ -74,7 +74,7 @@ struct PlanePlace {
   BucketRange slopes, other_slopes, heights;
 };
 
-/// Of a face that is seen along an axis.
+/// For a face that is tested along an axis.
 inline PlanePlace place_along(std::size_t axis, const PlacedFace& face, double error, const BucketSize& size,
                               const Surroundings& around) {
   const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
@@ -90,7 +90,7 @@ inline PlanePlace place_along(std::size_t axis, const PlacedFace& face, double e
           BucketRange::around(height, height_error, per_unit)};
 }
 
-/// Places of a few faces' planes, for each axis that they are seen along.
+/// Buckets of a few faces' planes, for each axis along which they are tested.
 class PlaneLanes {
  public:
   static constexpr std::size_t count_max = 16;
@@ -98,10 +98,10 @@ class PlaneLanes {
   PlaneLanes(const BucketSize& size, const Surroundings& around, VectorWidth width = vector_width())
       : size_(size), around_(around), width_(width) {}
 
-  /// Of 1 to count_max faces, none of them degenerate.
+  /// For 1 to count_max faces, none of them degenerate.
   void find(std::span<const Face> faces);
   bool is_seen(std::size_t lane, std::size_t axis) const { return seen_[axis][lane] != 0; }
-  /// Where it is seen.
+  /// Requires that the face is tested along the axis.
   PlanePlace place(std::size_t lane, std::size_t axis) const {
     const auto range = [&](std::size_t dimension) {
       return BucketRange{first_[axis][dimension][lane], last_[axis][dimension][lane]};

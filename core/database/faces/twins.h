@@ -1,4 +1,4 @@
-// Triangles that are there many times over.
+// Duplicate triangles.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace dmpc::core {
 
-/// The corners of a triangle in an order of their own, by which equal triangles are equal whichever corner they begin with.
+/// The corners of a triangle in a canonical order: equal triangles are equal with any first corner.
 using SortedCorners = std::array<std::array<float, 3>, 3>;
 SortedCorners sorted_corners(const PrimitiveValues& triangle);
 
-/// Leaves out each triangle with the corners of an earlier one, if both let light through or neither does and doubles do not tell
-/// their planes apart, and counts it as a duplicate: what settle_coplanar() would make of them in the end, and also those of one
-/// object, which it leaves. Takes time and memory in proportion to the triangles, except for sorting: for where lists of all of them
-/// would be long. Copies of base meshes stay. `scene` still has its objects. Returns whether there were any: then ids are others.
+/// Removes each triangle with the corners of an earlier one, if both are transparent or neither is and doubles do not tell their
+/// planes apart, and counts it as a duplicate: what settle_coplanar() would do in the end, and also for triangles of one object,
+/// which it leaves. Takes time and memory in proportion to the triangles, plus sorting: for scenes where lists of all of them
+/// would be long. Copies of base meshes stay. `scene` still has its objects. Returns whether there were any: then ids change.
 bool drop_twins(Conversion& conversion, const Scene& scene, const GridFrame& frame);
 
 }  // namespace dmpc::core

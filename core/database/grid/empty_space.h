@@ -1,4 +1,4 @@
-// How far it is from an empty macro cell to the nearest that is not.
+// The distance from an empty macro cell to the nearest occupied one.
 #pragma once
 
 #include <array>

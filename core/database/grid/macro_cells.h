@@ -1,4 +1,4 @@
-// Which primitives touch which macro cells of the grid.
+// The primitives that touch each macro cell of the grid.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace dmpc::core {
 
-/// Makes cells twice as large, for where the lists of a frame's would be long.
+/// Makes cells twice as large, if the frame's lists would be long.
 void coarsen(GridFrame& frame);
 
-/// A list for every occupied macro cell, the cells in Morton order; of voxels, if so asked for, in that of their directory.
+/// A list for every occupied macro cell, the cells in Morton order; for voxels, if requested, in the order of their directory.
 class MacroCells {
  public:
-  /// None where the lists would be long: where a primitive lies in more than four cells on average; always some for a single
-  /// cell. A primitive is listed wherever it comes within `pad` of a cell, grid-local, and perhaps a little farther off; boxes
-  /// of instances nowhere. `excess`: excess_of() of all that is judged together with these, and listed nowhere.
+  /// Nothing if the lists would be long: if a primitive lies in more than four cells on average; never for a single cell. A
+  /// primitive is listed in all cells within `pad`, grid-local, and perhaps a little farther off; boxes of instances in none.
+  /// `excess`: excess_of() everything that is judged together with these but not listed.
   static std::optional<MacroCells> list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                         const Parallel& parallel, std::int64_t excess = 0);
-  /// How many cells primitives touch, added up; `most` + 1 of more than that, which ends the look at them.
+  /// The total number of cells that primitives touch; if that is more than `most`, stops and returns `most` + 1.
   static std::uint64_t touches_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                   std::uint64_t most);
-  /// The `excess` of primitives that touch so many cells: how many more than their share of a list has; negative if they leave
-  /// room to others.
+  /// The `excess` of primitives that touch so many cells: by how much they exceed their share of a list; negative if they leave
+  /// some of it to others.
   static std::int64_t excess_of(std::uint64_t touches, std::uint64_t count);
-  /// With more touches of so many primitives that are judged together with `listed` ones there are none.
+  /// With more touches of `count` primitives that are judged together with `listed` ones there are no lists.
   static std::uint64_t touches_max(std::uint64_t count, std::uint64_t listed);
-  /// Whether whatever lies in a box, grid-local, touches one cell alone.
+  /// Whether everything in a box, grid-local, touches only one cell.
   static bool is_within_one(const Box& box, const GridFrame& frame, double pad);
 
-  /// The same for a frame of voxels (core/database/structure_builders.cpp), by its rule; none if there are more references than
+  /// list() for a frame of voxels (core/database/structure_builders.cpp), by its rule; nothing if there are more references than
   /// that allows.
   static std::optional<MacroCells> list_voxels(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                                const VoxelRule& rule, const Parallel& parallel);
@@ -51,20 +51,20 @@ class MacroCells {
   std::uint64_t references() const { return ids_.size(); }
 
  private:
-  /// That a primitive touches a cell, by the index of its entry in the directory.
+  /// A primitive touches a cell, given by the index of its entry in the directory.
   struct Touch {
     std::uint32_t cell, id;
   };
-  /// What is known of a chunk of primitives.
+  /// The state of a chunk of primitives.
   struct Listed {
     std::vector<Touch> touches;
-    std::size_t next = 0;     ///< the primitive that comes next
-    bool is_cut_off = false;  ///< there are more touches than it was to list
+    std::size_t next = 0;  ///< the next primitive
+    bool is_cut_off = false;  ///< there are more touches than were to be listed
   };
   struct Cell {
     std::uint64_t code;
     Corner corner;
-    std::size_t first, count;  ///< of ids_
+    std::size_t first, count;  ///< in ids_
   };
   class Lister;
   enum class Order : std::uint8_t { morton, z_fastest };

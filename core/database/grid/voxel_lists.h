@@ -1,4 +1,4 @@
-// The records that voxels list, and their lists.
+// The leaves that voxels list, and their lists.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace dmpc::core {
 
-/// Each polygon, sphere and cone has a leaf of its own, of a polygon the triangles: up to 8, and another leaf for each 8 more,
-/// or for others of its planes. A voxel lists a leaf once. What it is made from outlives it.
+/// Each polygon, sphere and cone has its own leaf; a polygon's has its triangles: up to 8, with another leaf for each 8 more, or
+/// for other planes. A voxel lists a leaf once. The constructor's arguments outlive it.
 class VoxelLists {
  public:
   VoxelLists(const MacroCells& voxels, const Conversion& conversion, const VoxelRule& rule);
@@ -23,9 +23,9 @@ class VoxelLists {
   /// The lengths of all lists.
   std::uint64_t references() const { return listed_.size(); }
 
-  /// Takes room for the leaves, where the room for normals has been taken.
+  /// Allocates the leaves; normals have been allocated.
   void take_room(const Conversion& conversion, RecordWriter& writer);
-  /// Writes them, and the references from `references` on, for which room has been taken and made; enters each list in a
+  /// Writes them, and the references from `references` on, which have been allocated and made writable; enters each list in a
   /// directory of `size` voxels.
   void write(const Conversion& conversion, Address references, RecordWriter& writer);
   void enter(const std::array<std::int32_t, 3>& size, std::span<DirectoryEntry> directory) const;
@@ -46,9 +46,9 @@ class VoxelLists {
   VoxelRule rule_;
   std::vector<Leaf> leaves_;              ///< in the order of ids
   std::vector<std::uint32_t> leaf_of_;    ///< by id
-  std::vector<std::uint32_t> order_;      ///< of leaves, in pages
+  std::vector<std::uint32_t> order_;  ///< leaves in the order of pages
   std::vector<std::uint32_t> listed_;     ///< leaves, list by list
-  std::vector<std::uint64_t> list_ends_;  ///< of the voxels'
+  std::vector<std::uint64_t> list_ends_;  ///< by voxel
 };
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// How far the copies of base meshes reach that a scene leaves out.
+// The extent of the copies of base meshes that a scene leaves out.
 #pragma once
 
 #include "core/base/box.h"
@@ -7,9 +7,9 @@
 
 namespace dmpc::core {
 
-/// Makes a box around what else the scene has larger by the corners of these copies, to the bit as
-/// if they were there. Corners with a coordinate of `coordinate_max` or more do not count. Where many places lie apart but few
-/// have their corners placed: those whose boxes reach out of what is known.
+/// Extends the box of the rest of the scene by the corners of these copies, with the same bits as if they existed. Corners with a
+/// coordinate of `coordinate_max` or more do not count. If many instances lie apart, few have their corners placed: those whose
+/// boxes reach out of the known box.
 void include_copies(Box& box, const Scene& scene, double coordinate_max, const Parallel& parallel);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// The triangles of a mesh that stands in several places, as all of these have them.
+// The triangles of a base mesh that all of its instances share.
 #pragma once
 
 #include <array>
@@ -14,27 +14,27 @@
 namespace dmpc::core {
 
 struct MeshTriangle {
-  std::uint32_t object = 0;               ///< of the mesh's
-  std::array<std::uint32_t, 3> corner{};  ///< which of that object's
+  std::uint32_t object = 0;  ///< of the mesh
+  std::array<std::uint32_t, 3> corner{};  ///< of that object
   std::uint32_t plane = 0;                ///< which of MeshFaces::planes it shares, from 1 on; 0: none
 };
 
-/// Of a mesh by itself: what settle_coplanar() makes of it.
+/// A mesh by itself: the result of settle_coplanar().
 struct MeshFaces {
   std::vector<MeshTriangle> triangles;  ///< in the order of their ids
   std::vector<MeshPlane> planes;
-  // What its places count for and report, in the mesh's coordinates:
+  // What its instances count and report, in the mesh's coordinates:
   std::vector<CollapsedPrimitive> collapsed;
   std::vector<CloseFaces> close_faces;
   std::uint32_t dropped = 0, duplicates = 0, shared_planes = 0;
 };
 
-/// Judges a mesh in a grid of its own, as if it were a scene, so that nothing depends on where it stands. `materials`: what its
-/// objects' indices are of.
+/// Judges a mesh in a grid of its own, as if it were a scene, so that nothing depends on where its instances are. `materials`:
+/// those of its objects' indices.
 MeshFaces faces_of_mesh(const Scene& mesh, std::span<const Material> materials, double cells_per_primitive,
                         const Parallel& parallel);
 
-/// Of all that are kept, in their order.
+/// For all base meshes, in their order.
 std::vector<MeshFaces> faces_of_meshes(const Scene& scene, double cells_per_primitive, const Parallel& parallel);
 
 }  // namespace dmpc::core

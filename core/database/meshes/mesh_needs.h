@@ -1,4 +1,4 @@
-// What of the base meshes some regions need: of each what any of its places brings there.
+// The parts of base meshes that some regions need: for each mesh what any of its instances needs there.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,15 @@
 
 namespace dmpc::core {
 
-/// A mark for each mesh's BVH node that is needed, whatever the number of its places. The database outlives it. Thread safety:
-/// none.
+/// A mark for each mesh's BVH node that is needed, for any number of instances. The database outlives it. Not thread-safe.
 class MeshNeeds {
  public:
   explicit MeshNeeds(const Database& database) : header_(database.header()), bytes_(database.bytes().data()) {}
 
-  /// Adds what rays in a region may ask for of meshes, by their places' boxes. Says whether that is anything.
+  /// Adds what rays in a region may need of meshes, by their instances' boxes. Returns whether that is anything.
   bool add(const Region& region);
 
-  /// Of the InstanceRecord at an address, whether its mesh has something in one of the regions.
+  /// Whether the mesh of the InstanceRecord at an address has something in one of the regions.
   bool has_place(Address instance) const { return instances_.contains(static_cast<std::uint32_t>(instance)); }
   std::size_t place_count() const { return instances_.size(); }
   /// A bit for each child of a mesh's BVH node that some region needs.
@@ -34,7 +33,7 @@ class MeshNeeds {
  private:
   struct Mark {
     std::uint32_t children = 0;
-    bool is_whole = false;  ///< all that is below is needed
+    bool is_whole = false;  ///< everything below is needed
   };
 
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }

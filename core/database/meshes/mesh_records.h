@@ -1,4 +1,4 @@
-// A base mesh as its records hold it.
+// The records of a base mesh.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@
 
 namespace dmpc::core {
 
-/// In units of the mesh's coordinates, which floats hold exactly, with normals as the file has them.
+/// In units of the mesh's coordinates, which are exact in floats, with normals as in the file.
 struct MeshRecords {
   Conversion conversion;  ///< ids as in MeshFaces::triangles
   double unit = 1;        ///< a power of two
   BvhTree tree;
 };
 
-/// Requires that nothing is in the way (obstacle_of()). `materials`: what its objects' indices are of.
+/// Requires that there is no obstacle (obstacle_of()). `materials`: those of its objects' indices.
 MeshRecords records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces, const Parallel& parallel);
 
-/// Of some of a scene's base meshes.
+/// Records of some of a scene's base meshes.
 struct MeshesRecords {
   static constexpr std::uint32_t nowhere = 0xffffffffU;
 
   std::vector<MeshRecords> records;
-  std::vector<std::uint32_t> index;  ///< by the number of the mesh: of its records, or nowhere
+  std::vector<std::uint32_t> index;  ///< by mesh number: index of its records, or nowhere
 };
 
-/// Of those that are kept in some of these places, one entry for each of Scene::kept.
+/// For the meshes that are kept in some of these instances, one entry for each of Scene::kept.
 MeshesRecords records_of(const Scene& scene, std::span<const MeshFaces> faces, const std::vector<bool>& places,
                          const Parallel& parallel);
 

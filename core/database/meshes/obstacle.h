@@ -1,4 +1,4 @@
-// What keeps a mesh, or one of its places, from being there once: such a place has a copy.
+// Obstacles to storing a mesh once, or to one of its instances: such an instance has a copy.
 #pragma once
 
 #include <cstdint>
@@ -18,33 +18,33 @@ enum class Obstacle : std::uint8_t {
   none,
   no_triangle,         ///< the mesh has none with an area
   too_many_triangles,  ///< more than base_mesh_triangles_max
-  shining,             ///< paths aim at what shines, one by one
+  shining,  ///< an emitter: light sampling selects its triangles one by one
   numbers,             ///< a float does not hold a coordinate or a normal
-  far_away,            ///< of the place: a corner where no grid has any
-  smallness            ///< of the place: beside the pad boxes of it tell no rays apart
+  far_away,  ///< for an instance: a corner beyond any grid
+  smallness  ///< for an instance: its boxes are too small beside the pad to tell rays apart
 };
 
-/// Places, by what is in their way; those that nothing is are not counted.
+/// Number of instances by obstacle; those without are not counted.
 using ObstacleCounts = std::map<Obstacle, std::uint64_t>;
-/// Counts these, too.
+/// Adds to the counts.
 void add(std::span<const Obstacle> obstacles, ObstacleCounts& counts);
 
-/// What it says of a mesh, behind "which": "shines".
+/// The obstacle as a predicate, to follow "which": "shines".
 const char* text_of(Obstacle obstacle);
 
-/// The power of two above all of the mesh's coordinates; 0 if floats in units of it do not hold them.
+/// The power of two above all of the mesh's coordinates; 0 if they are not exact in floats in units of it.
 double unit_of(const Scene& mesh);
 
-/// Of a mesh by itself. `materials`: what its objects' indices are of.
+/// For a mesh by itself. `materials`: those of its objects' indices.
 Obstacle obstacle_of(const Scene& mesh, const std::vector<Material>& materials, const MeshFaces& faces);
 
-/// Of each place of Scene::kept, except for smallness, which the pad decides. Those that have copies are asked, too.
+/// For each instance of Scene::kept, without smallness, which depends on the pad. Includes those that have copies.
 std::vector<Obstacle> obstacles_of(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
-/// Whether something is in the way in one of these places.
+/// Whether one of these instances has an obstacle.
 bool any_of(std::span<const Obstacle> obstacles);
 
-/// The meshes of places in which something is in the way, at most three by name: "mesh 2 of 5, which shines, in 30 places".
+/// The meshes of instances with obstacles, at most three by name: "mesh 2 of 5, which shines, in 30 places".
 std::string text_of(const Scene& scene, std::span<const Obstacle> obstacles);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Where the boxes of BVH nodes lie, and those of a base mesh in one of its places.
+// The boxes of BVH nodes, and those of a base mesh in one of its instances.
 #pragma once
 
 #include <cmath>
@@ -12,19 +12,19 @@
 
 namespace dmpc::core {
 
-/// Of a BVH node's child: in the grid's coordinates, or its mesh's.
+/// The box of a BVH node's child, in the coordinates of the grid or of its mesh.
 inline Box box_of(const BvhNode& bvh_node, std::size_t child) {
   return {{place_of(bvh_node, 0, child), place_of(bvh_node, 1, child), place_of(bvh_node, 2, child)},
           {place_of(bvh_node, 3, child), place_of(bvh_node, 4, child), place_of(bvh_node, 5, child)}};
 }
 
-/// Of the mesh's BVH nodes, as the grid has them: boxes around the turned ones.
+/// Boxes of the mesh's BVH nodes in the grid: around the transformed ones.
 class PlacedBoxes {
  public:
   PlacedBoxes(const InstanceRecord& instance, const GridFrame& frame) : way_(instance, frame), pad_(double{instance.pad}) {}
 
-  /// Within which a ray may hit what a BVH node's child holds, grid-local: the grid's pad around it, and what rounds off its
-  /// corners.
+  /// The box, grid-local, within which a ray may hit the contents of a BVH node's child: includes the grid's pad, and the
+  /// rounding of its corners.
   Box box_of(const BvhNode& bvh_node, std::size_t child) const {
     const Box own = core::box_of(bvh_node, child);
     const Vec3d middle = own.center(), half = own.half() + Vec3d{pad_, pad_, pad_};

@@ -1,4 +1,4 @@
-// The places of a scene that leaves copies out, as instances: no copy is made on the way.
+// The instances of a scene that leaves copies out: no copies are made on the way.
 #pragma once
 
 #include <cstddef>
@@ -22,32 +22,32 @@ namespace dmpc::core {
 /// The scene and its faces outlive it.
 class UncopiedInstances {
  public:
-  /// Requires that nothing is in the way (core/database/meshes/obstacle.h) of those places whose copies the scene leaves out.
-  /// Throws CapacityError if it has more triangles than 32 bits count.
+  /// Requires that instances whose copies the scene leaves out have no obstacle (core/database/meshes/obstacle.h). Throws
+  /// CapacityError if it has more triangles than 32 bits count.
   UncopiedInstances(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
-  /// More than any list has room for.
+  /// More than any list can hold.
   static constexpr std::int64_t excess_without_list = std::int64_t{1} << 48U;
   /// MacroCells::excess_of() all copies, if there were any. Unless it `is_exact` it may be more than that, for which few
-  /// triangles are looked at. Once it is known that there is no list of these and `listed` primitives beside them, however exact,
-  /// it is excess_without_list. 0 if there are so many that nobody could have copies of them.
+  /// triangles are tested. Once it is certain that there is no list of these and `listed` other primitives, it is
+  /// excess_without_list in either case. 0 if there are too many for copies.
   std::int64_t excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact, const Parallel& parallel) const;
 
-  /// Those that this pad makes too small, one entry for each of Scene::kept.
+  /// Instances that this pad makes too small, one entry for each of Scene::kept.
   std::vector<Obstacle> obstacles(const GridFrame& frame, double pad) const;
 
-  /// Takes what stands for places out of `conversion`. The ids of all that stays are as if there were copies, none of which
-  /// rounding left nothing of. Boxes of places hold these copies, and may be a little larger than they are. Requires that there
-  /// are no obstacles(). To be called once.
+  /// Takes the stand-ins for instances out of `conversion`. The ids of all that stays are as if there were copies, none of which
+  /// is degenerate after rounding. Boxes of instances hold these copies, and may be a little larger. Requires that there are no
+  /// obstacles(). To be called once.
   StoredInstances keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel);
 
  private:
-  /// Triangles of a mesh that lie together, to look at its places without a look at each corner.
+  /// Nearby triangles of a mesh, to test its instances without testing each corner.
   struct Chunk {
-    Box box;  ///< of their corners, in the mesh's coordinates
+    Box box;  ///< around their corners, in the mesh's coordinates
     std::vector<std::uint32_t> triangles;
   };
-  /// That a copy's triangles touch cells; more than `touches_max` if those that are looked at touch more.
+  /// Touches of cells by a copy's triangles; more than `touches_max` if those that were tested touch more.
   struct Touches {
     std::uint64_t triangles = 0, touches = 0;
   };
@@ -60,10 +60,10 @@ class UncopiedInstances {
 
   const Scene& scene_;
   std::span<const MeshFaces> faces_;
-  std::vector<BaseMeshInstance> instances_;  ///< whose copies are left out
+  std::vector<BaseMeshInstance> instances_;  ///< those whose copies are left out
   MeshesRecords meshes_;
   std::vector<std::vector<Chunk>> chunks_;  ///< by MeshesRecords::index
-  std::uint64_t triangles_ = 0;             ///< of all these places
+  std::uint64_t triangles_ = 0;  ///< of all these instances
 };
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Draws one of many in proportion to a weight by one look-up.
+// Selects one of many in proportion to weights by one look-up.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace dmpc::core {
 /// Random Numbers with a Given Distribution", IEEE TSE 17 (9), 1991.
 std::vector<EmitterChoice> alias_table(std::span<const double> weights);
 
-/// How likely each is drawn by this very table, whose thresholds are rounded.
+/// The probability of each in this table, whose thresholds are rounded.
 std::vector<double> chances_of(std::span<const EmitterChoice> table);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Which of a scene's primitives that shine by themselves hits aim at, and their records.
+// Selects the primitives for light sampling, and makes their records.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,17 @@ namespace dmpc::core {
 
 struct Emitters {
   std::vector<EmitterRecord> records;  ///< by primitive
-  std::vector<EmitterChoice> choices;  ///< as many
-  std::vector<Material> materials;     ///< theirs, which stand behind the scene's
+  std::vector<EmitterChoice> choices;  ///< as many as `records`
+  std::vector<Material> materials;  ///< for these primitives, after the scene's
   float density = 0;                   ///< DatabaseHeader::emitter_density
-  std::uint64_t others = 0;            ///< primitives that shine and are met by chance alone
-  std::uint64_t covered = 0;           ///< and what others in their plane leave of these
+  std::uint64_t others = 0;  ///< emitting primitives that are found by BSDF sampling alone
+  std::uint64_t covered = 0;  ///< those of them that others in their plane may cover
 };
 
-/// Chooses up to `count_max` triangles and spheres of the greatest power, each to be drawn in proportion to that, and gives them
-/// materials of their own, which only say that. Met by chance alone are all others: cones, spheres seen from inside, what alpha
-/// leaves a part of, triangles that others may cover in their plane, and what has less than a millionth of the mean power.
+/// Selects up to `count_max` triangles and spheres of the greatest power for light sampling in proportion to power, and gives
+/// them materials of their own, which mark them. All others are found by BSDF sampling alone: cones, spheres seen from inside,
+/// partly transparent surfaces (alpha), triangles that others may cover in their plane, and those with less than a millionth of
+/// the mean power.
 Emitters choose_emitters(Conversion& conversion, const Scene& scene, std::uint32_t count_max);
 
 }  // namespace dmpc::core

@@ -9,14 +9,14 @@
 
 namespace dmpc::core {
 
-/// One behind the other they are what DatabaseHeader::materials is the address of.
+/// One after the other they form the array at DatabaseHeader::materials.
 struct MaterialRecords {
-  std::vector<MaterialRecord> materials;          ///< of the scene's, in order
-  std::vector<MaterialExtensionRecord> finishes;  ///< of those of them that have one, in order
+  std::vector<MaterialRecord> materials;  ///< for the scene's, in order
+  std::vector<MaterialExtensionRecord> finishes;  ///< for those that have an extension, in order
 };
 
-/// `for_paths`: materials that have microfacets are of those, in place of what approximates them.
-/// Throws CapacityError if more have a finish than a material's record can name.
+/// `for_paths`: microfacet materials have these records, in place of their approximation. Throws CapacityError if more have an
+/// extension than a material's record can name.
 MaterialRecords material_records(const std::vector<Material>& materials, bool for_paths = false);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// A sky's picture as records: its tiles, and the table by which hits draw one of them.
+// A sky's picture as records: its tiles, and the table for sampling one of them.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@ namespace dmpc::core {
 
 struct SkyRecords {
   SkyReference reference;              ///< without addresses
-  std::vector<TextureTile> tiles;      ///< row by row
+  std::vector<TextureTile> tiles;  ///< as many as `tiles`
   std::vector<EmitterChoice> choices;  ///< as many
 };
 
-/// Of a picture that is there, in a grid where `middle` and `up` are as SkyReference has them.
+/// For a sky that has a picture, in a grid with `middle` and `up` as in SkyReference.
 SkyRecords sky_records(const SkyTexels& sky, const Vec3d& middle, const Vec3d& up);
 
 }  // namespace dmpc::core

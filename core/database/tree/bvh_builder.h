@@ -1,4 +1,4 @@
-// Builds the BVH nodes below one macro cell: which primitives share a leaf, and which leaves a BVH node.
+// Builds the BVH nodes below one macro cell.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline BvhNode bvh_node_over(const Bounds& bounds, double pad) {
   return bvh_node;
 }
 
-/// The next child, whose box, padded, such a BVH node can hold.
+/// Adds a child, whose box, padded, the BVH node can hold.
 inline void add_child(BvhNode& bvh_node, const Bounds& bounds, double pad) {
   const std::size_t child = bvh_node.child_count++;
   const double unit = double{bvh_node.unit};
@@ -46,12 +46,12 @@ inline void add_child(BvhNode& bvh_node, const Bounds& bounds, double pad) {
   }
 }
 
-/// Trees of BVH nodes of at most so many levels, by the surface area heuristic: a ray meets a box in proportion to its surface
-/// (J. D. MacDonald, K. S. Booth, "Heuristics for Ray Tracing Using Space Subdivision", 1990). Thread safety: several macro cells
-/// may be built at the same time.
+/// Trees of BVH nodes with a maximum number of levels, by the surface area heuristic: the probability that a ray meets a box is
+/// proportional to its surface (J. D. MacDonald, K. S. Booth, "Heuristics for Ray Tracing Using Space Subdivision", 1990). Thread
+/// safety: several macro cells may be built at the same time.
 class BvhBuilder {
  public:
-  /// The primitives and `parallel`, which builds large cells, outlive the builder. `levels_max`: 2 to bvh_levels_max.
+  /// The primitives and `parallel`, which is used for large cells, outlive the builder. `levels_max`: 2 to bvh_levels_max.
   BvhBuilder(std::span<const PrimitiveValues> primitives, double pad, const GridFrame& frame, const Parallel& parallel,
              int levels_max = bvh_levels_max);
 

@@ -1,4 +1,4 @@
-// A group of primitives cut in two again and again, and which of the parts become children of one BVH node.
+// A group of primitives cut in two recursively, and the choice of the children of one BVH node.
 #pragma once
 
 #include <array>
@@ -12,25 +12,25 @@
 
 namespace dmpc::core {
 
-/// A group that fits a leaf, or one with the two parts it is cut into.
+/// A group that fits a leaf, or one with the two parts into which it is cut.
 class CutTree {
  public:
-  /// Cuts a group until each part fits a leaf. Below the 64th cut, which no sensible scene comes to, into equal numbers.
+  /// Cuts a group until each part fits a leaf. Below the 64th cut, which no reasonable scene reaches, into equal numbers.
   CutTree(Cutter& cutter, const Group& group, const Parallel& parallel, int cuts_above = 0);
-  /// Two groups of different kinds as if they were the parts of one.
+  /// Joins two groups of different kinds.
   CutTree(std::unique_ptr<CutTree> first, std::unique_ptr<CutTree> second);
 
   /// The group of all primitives; for a part that is_leaf(), the group itself.
   const Group& group() const { return group_; }
   bool is_leaf() const { return first_ == nullptr; }
 
-  /// The children of a BVH node for this group, of all choices of at most 8 that with which the surfaces of all BVH nodes below
-  /// are smallest together, so that a ray meets the fewest (dynamic programming as by H. Ylitie, T. Karras, S. Laine, "Efficient
-  /// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, over leaves that are given). Of a leaf: itself.
+  /// The children of a BVH node for this group: of all choices of at most 8, the one with the least total surface of all BVH
+  /// nodes below, so that a ray meets the fewest (dynamic programming as by H. Ylitie, T. Karras, S. Laine, "Efficient Incoherent
+  /// Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, over given leaves). For a leaf: itself.
   std::vector<const CutTree*> children() const;
-  /// How many levels of BVH nodes children() leads to, that of this group included.
+  /// The number of levels of BVH nodes from this group on.
   int levels() const { return is_leaf() ? 1 : levels_[1]; }
-  /// The groups of one kind that this was put together from.
+  /// The groups of one kind from which this was joined.
   std::vector<Group> kinds() const;
 
  private:
@@ -42,11 +42,11 @@ class CutTree {
   Group group_;
   std::unique_ptr<CutTree> first_, second_;
   bool has_kinds_ = false;  ///< its parts are of different kinds
-  // What becomes of this if it takes n of a BVH node's children, or fewer, at least one, which is a BVH node of its own:
-  std::array<float, choices> surface_{};        ///< that of all BVH nodes needed
-  std::array<std::uint8_t, choices> levels_{};  ///< of those BVH nodes
-  std::array<std::uint8_t, choices> share_{};   ///< how many of the n are the first part's; 0: fewer than n will do
-  std::uint8_t bvh_node_share_ = 0;             ///< the first part's children in a BVH node for this group
+  // Results if this takes at most n of a BVH node's children, at least one, which is a BVH node of its own:
+  std::array<float, choices> surface_{};  ///< total of all BVH nodes needed
+  std::array<std::uint8_t, choices> levels_{};  ///< levels of those
+  std::array<std::uint8_t, choices> share_{};  ///< how many of the n are the first part's; 0: fewer than n suffice
+  std::uint8_t bvh_node_share_ = 0;  ///< number of the first part's children in a BVH node for this group
 };
 
 }  // namespace dmpc::core

@@ -15,44 +15,43 @@
 
 namespace dmpc::core {
 
-/// Primitives of one kind, all of which need a plane in their records or none of which does: those between two places of a
-/// Cutter's lists.
+/// Primitives of one kind, either all or none of which need a plane in their records: a range of a Cutter's lists.
 struct Group {
   std::uint32_t first = 0, last = 0;
-  /// Where the group that was sorted, and which this small group is a part of, began.
+  /// Beginning of the sorted group of which this small group is a part.
   std::uint32_t base = 0;
   bool is_sorted = false;
   bool needs_plane = false;
   PrimitiveKind kind{};
-  Bounds bounds;  ///< of all
+  Bounds bounds;  ///< around all primitives
 
   std::uint32_t count() const { return last - first; }
 };
 
 /// Holds primitives and cuts groups of them in two: large groups between bins, small ones, which are sorted once along each axis,
-/// at the best of all places. Thread safety: groups that share no primitive may be cut at the same time.
+/// at the best of all positions. Thread safety: groups without common primitives may be cut at the same time.
 class Cutter {
  public:
-  /// Room for `count` primitives. `primitives`, by id, tell the planes of those that need one.
+  /// Holds up to `count` primitives. `primitives`: all, by id, for the planes of those that need one.
   explicit Cutter(std::size_t count, std::span<const PrimitiveValues> primitives = {}, VectorWidth width = vector_width());
 
-  /// Appends a primitive; those of one kind come one behind the other.
+  /// Appends a primitive; those of one kind are consecutive.
   void add(std::uint32_t id, const Bounds& bounds);
-  /// All between two places.
+  /// The group of a range.
   Group group(PrimitiveKind kind, std::size_t first, std::size_t last, bool needs_plane = false) const;
   /// Whether a group is as small as a leaf, and of one plane if it needs that.
   bool fits_leaf(const Group& group) const { return group.count() <= leaf_lanes && (!group.needs_plane || lies_in_one(group)); }
   /// PrimitiveValues::plane() of the first of a group that needs planes.
   std::uint32_t plane_of(const Group& group) const { return group.needs_plane ? plane_at(group, group.first) : 0; }
 
-  /// Two groups, none of them empty, of a group of at least two. One as small as a leaf is cut between planes. `balanced`: of
-  /// equal numbers, whatever a ray pays for it.
+  /// Cuts a group of at least two in two, neither of them empty. A group as small as a leaf is cut between planes. `balanced`:
+  /// into equal numbers, at any cost.
   std::pair<Group, Group> cut(Group whole, bool balanced);
 
-  /// Undoes what cuts did to the order of a sorted group, so that it can be cut anew; nothing of another one.
+  /// Restores the order of a sorted group after cuts, so that it can be cut again; does nothing for another one.
   void sort_again(const Group& group);
 
-  /// The primitives of a group, in no order that means anything.
+  /// Copies the primitives of a group, in arbitrary order.
   void copy_ids(const Group& group, std::span<std::uint32_t> ids) const;
 
  private:
@@ -74,7 +73,7 @@ class Cutter {
   VectorWidth width_;
   std::vector<std::uint32_t> ids_;
   std::vector<Bounds> bounds_;
-  std::array<std::vector<std::uint8_t>, 3> orders_;  ///< of sorted groups, by axis: places behind the group's base
+  std::array<std::vector<std::uint8_t>, 3> orders_;  ///< for sorted groups, by axis: offsets from the group's base
 };
 
 }  // namespace dmpc::core

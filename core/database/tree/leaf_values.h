@@ -1,4 +1,4 @@
-// A leaf's primitives as its record holds them.
+// The primitives of a leaf's record.
 #pragma once
 
 #include <cstddef>

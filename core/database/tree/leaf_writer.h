@@ -1,4 +1,4 @@
-// Writes the records of primitives.
+// Writes leaves.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dmpc::core {
 
-/// Which primitives make a leaf: of one kind, and of one plane if they need theirs.
+/// The primitives of a leaf: of one kind, and of one plane if they need it.
 struct LeafShape {
   std::uint8_t count = 0;
   PrimitiveKind kind{};
@@ -21,10 +21,11 @@ struct LeafShape {
   }
 };
 
-/// What it is made from outlives it. Thread safety: several may write at the same time, where room has been made.
+/// The constructor's arguments outlive it. Thread safety: several may write at the same time, where memory has been made
+/// writable.
 class LeafWriter {
  public:
-  /// `told`: the ids that records tell of primitives, by index, if it is not the index itself.
+  /// `told`: the ids that records store for primitives, by index, if it is not the index itself.
   LeafWriter(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
              std::span<const PrimitivePlane> planes, RecordWriter& writer, std::span<const std::uint32_t> reported = {})
       : primitives_(primitives), shading_(shading), planes_(planes), writer_(writer), reported_(reported) {}

@@ -1,4 +1,4 @@
-// Conservative tests whether a primitive's surface touches a box: never a false no.
+// Conservative tests whether a primitive's surface touches a box: no false negatives.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace dmpc::core {
 
-/// Of a triangle: nothing has to be rounded.
+/// For a triangle: exact.
 inline Bounds triangle_bounds_of(const PrimitiveValues& triangle) {
   Bounds bounds;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -19,7 +19,7 @@ inline Bounds triangle_bounds_of(const PrimitiveValues& triangle) {
   }
   return bounds;
 }
-/// Of another primitive.
+/// For other primitives.
 Box other_bounds_of(const PrimitiveValues& primitive);
 
 /// The primitive's bounding box, not padded.
@@ -29,10 +29,9 @@ inline Box bounds_of(const PrimitiveValues& primitive) {
 /// These bounds in single precision, rounded outwards.
 Bounds rounded_bounds_of(const PrimitiveValues& primitive);
 
-/// One primitive against many boxes. Boxes come enlarged by the pad; comparisons are inclusive.
-/// Triangles: separating axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii
-/// against the box's nearest and farthest point. Cones: distance of the box's centre to the lateral surface against its half
-/// diagonal.
+/// One primitive against many boxes, which are already enlarged by the pad; comparisons are inclusive. Triangles: separating
+/// axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii against the box's
+/// nearest and farthest point. Cones: distance of the box's centre to the lateral surface against half its diagonal.
 class Overlap {
  public:
   explicit Overlap(const PrimitiveValues& primitive);

@@ -122,7 +122,7 @@ struct HitState {
   /// the ray's end.
   float color_width() const { return ray.t_max; }
   void set_color_width(double width) { ray.t_max = static_cast<float>(width); }
-  /// Once that has been looked up, until the surface is known: there, and in the room of what says where the hit was found.
+  /// After that look-up, until the surface is known: stored there, and in place of the hit's address.
   FacetShares facet_shares() const { return {std::bit_cast<float>(hit.leaf), ray.t_max}; }
   void set_facet_shares(const FacetShares& shares) {
     hit.leaf = Address{std::bit_cast<std::uint32_t>(shares.metallic)};

@@ -1,5 +1,5 @@
-// What a hit's surface makes of light that comes from somewhere, and how likely its path goes on there: asked by those who aim at
-// a light, and answered by the same arithmetic by which path_step() chooses its directions.
+// A surface's reflection of light from a given direction, and the probability that a path continues there: used by light
+// sampling, and computed with the arithmetic by which path_step() chooses its directions.
 #pragma once
 
 #include <algorithm>
