@@ -1,4 +1,4 @@
-// How many nodes are awake: zero means that all sleep and nothing is under way, exactly and without a time-out.
+// The number of awake nodes: zero means that all sleep and nothing is in flight, exactly and without a timeout.
 //
 // Thread safety: any thread may call anything, as far as the requirements of each function allow.
 //

@@ -1,4 +1,4 @@
-// Where a node's program has what it keeps during the run from: bytes that are here, or that come from another rank.
+// Where a node's program gets the data that it keeps during the run: bytes in memory, or from another rank.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace dmpc::nodes {
 
-/// Bytes that come one behind the other, once.
+/// Bytes that are read once, in order.
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
-  /// Waits for as many as there is room for.
+  /// Waits for as many bytes as `into` holds.
   virtual void read(std::span<std::byte> into) = 0;
 };
 
-/// How many bytes come, then these.
+/// Reads a count of bytes, then these bytes.
 inline std::string read_counted(ByteStream& stream) {
   std::uint64_t bytes = 0;
   stream.read(std::as_writable_bytes(std::span(&bytes, 1)));
@@ -28,18 +28,18 @@ inline std::string read_counted(ByteStream& stream) {
   return text;
 }
 
-/// Stands before a piece of a whole in a stream.
+/// Precedes a piece of a whole in a stream.
 struct PieceHeader {
   std::uint64_t offset_bytes = 0, bytes = 0;
 
   bool operator==(const PieceHeader&) const = default;
 };
 
-/// A whole, of which pieces are asked for. Where it comes as a stream, nothing but the pieces does, each behind its header, in
-/// the order in which they are asked for; who sends them knows it. A value; what it refers to outlives it.
+/// A whole that is read in pieces. From a stream only the pieces come, each with its header, in the order in which they are read,
+/// which the sender knows. A value; what it refers to outlives it.
 class ByteSource {
  public:
-  /// All of it is here, and lasts.
+  /// The whole is in memory, and lasts.
   ByteSource(std::span<const std::byte> whole) : whole_(whole), size_bytes_(whole.size()) {}
   ByteSource(ByteStream& stream, std::size_t size_bytes) : stream_(&stream), size_bytes_(size_bytes) {}
 
@@ -49,7 +49,7 @@ class ByteSource {
   void copy(std::size_t offset_bytes, std::span<std::byte> into) const {
     if (stream_ == nullptr) {
       const std::span<const std::byte> piece = whole_.subspan(offset_bytes, into.size());
-      std::copy(piece.begin(), piece.end(), into.begin());  // of nothing, too, which memcpy() does not take
+      std::copy(piece.begin(), piece.end(), into.begin());  // also for 0 bytes, which memcpy() does not accept
       return;
     }
     PieceHeader header;
@@ -57,7 +57,7 @@ class ByteSource {
     core::expect(header == PieceHeader{offset_bytes, into.size()}, "pieces come in the order in which they are asked for");
     stream_->read(into);
   }
-  /// Where a piece lies for good. Not of a stream.
+  /// The address of a piece that never changes. Not for a stream.
   std::span<const std::byte> immutable(std::size_t offset_bytes, std::size_t bytes) const {
     core::expect(stream_ == nullptr, "nothing lasts of a stream");
     return whole_.subspan(offset_bytes, bytes);

@@ -1,4 +1,4 @@
-// Which calls of programs are under way, for who looks whether one of them does not return.
+// The calls of programs in progress, for a watchdog that looks for one that does not return.
 #pragma once
 
 #include <atomic>
@@ -12,16 +12,16 @@
 
 namespace dmpc::nodes {
 
-/// Thread safety: begin() and end() belong to the thread that calls the node's program, look() to one that looks.
+/// Thread safety: begin() and end() belong to the thread that calls the node's program, look() to the watchdog.
 class CallBoard {
  public:
-  /// A call that has been under way for so many looks.
+  /// A call that has been in progress for this number of looks.
   struct Long {
     std::uint32_t node = 0;
     const char* what = "";  ///< "work()"
   };
 
-  /// `looks`: so often in succession the same call has to be seen.
+  /// `looks`: how many times in succession the same call has to be seen.
   explicit CallBoard(std::uint32_t looks) : looks_(looks), slots_(std::make_unique<Slot[]>(node_count_max)) {}
 
   /// `what` is a literal. Requires that the node's last call has ended.
@@ -31,7 +31,7 @@ class CallBoard {
   }
   void end(std::uint32_t node) { bump(slots_[node]); }
 
-  /// Those that have now been seen so often, each once.
+  /// The calls that have now been seen that many times, each once.
   std::vector<Long> look() {
     std::vector<Long> found;
     for (std::uint32_t node = 0; node < node_count_max; ++node) {
@@ -50,7 +50,7 @@ class CallBoard {
   struct alignas(cache_line_bytes) Slot {
     std::atomic<std::uint32_t> calls{0};  ///< begun and ended: odd during a call
     std::atomic<const char*> what{""};
-    std::uint32_t seen = 0, looks = 0;  ///< the looker's
+    std::uint32_t seen = 0, looks = 0;  ///< the watchdog's
   };
 
   static void bump(Slot& slot) {

@@ -1,4 +1,4 @@
-// What a machine has a price for: operations by class, counted by node programs and priced by a machine's model.
+// Priced operations by class: counted by node programs and priced by a machine's model.
 #pragma once
 
 #include <array>
@@ -10,11 +10,10 @@
 
 namespace dmpc::nodes {
 
-/// How many classes of operations there are. To the computer they are numbers with a price; what they mean is the programs'
-/// business.
+/// The number of classes of operations. To the computer they are numbers with a price; their meaning is defined by the programs.
 inline constexpr std::size_t charge_count = 13;
 
-/// Operations of each class: what a program has done since the start.
+/// Operations of each class that a program has done since the start.
 struct Charges {
   std::array<std::uint64_t, charge_count> count{};
 
@@ -32,7 +31,7 @@ struct Charges {
 using ChargeBits = std::uint16_t;
 static_assert(charge_count <= 16);
 
-/// Those of which there are others in `after` than in `before`.
+/// The classes whose counts differ between `before` and `after`.
 inline ChargeBits charged_between(const Charges& before, const Charges& after) {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < charge_count; ++i) {

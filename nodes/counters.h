@@ -10,7 +10,7 @@
 
 namespace dmpc::nodes {
 
-/// How much of one kind has passed.
+/// The traffic of one kind.
 struct Traffic {
   std::uint64_t packets = 0;
   std::uint64_t bytes = 0;  ///< header and payload
@@ -26,18 +26,18 @@ struct Traffic {
 /// By kind of packet.
 using TrafficByKind = std::array<Traffic, packet_kind_count>;
 
-/// One node's account of a run. Belongs to the node's thread while the run is going.
+/// One node's counters of a run. Belongs to the node's thread during the run.
 struct NodeCounters {
   TrafficByKind sent{};
   TrafficByKind received{};
   std::uint64_t refused = 0;    ///< try_send without credit
   std::uint64_t quanta = 0;     ///< calls of work()
-  std::uint64_t held = 0;       ///< packets that chaos held back
-  std::uint64_t sat_out = 0;    ///< quanta that chaos made the node sit out
+  std::uint64_t held = 0;  ///< packets delayed by chaos
+  std::uint64_t sat_out = 0;  ///< quanta that chaos made the node skip
   std::uint64_t sleeps = 0;     ///< times the node went to sleep
-  std::uint64_t busy_ns = 0;    ///< processor time of its thread (threads), its turns' (pool); time without a core does not count
-  std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for want of packets
-  std::uint64_t wall_ns = 0;    ///< of this node's loop; wall - busy - asleep = waited for a core or a turn
+  std::uint64_t busy_ns = 0;  ///< processor time of its thread (threads) or its turns (pool); without time in which it had no core
+  std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for lack of packets
+  std::uint64_t wall_ns = 0;  ///< of this node's loop; wall - busy - asleep = time waiting for a core or a turn
 };
 
 /// The sum over all kinds.

@@ -1,5 +1,4 @@
-// Values put one behind the other as bytes, and taken out again in the same order, by the same program on the same kind of
-// computer.
+// Serialisation of values as bytes, to be read in the same order by the same program on the same kind of computer.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@ class FlatWriter {
     static_assert((std::is_trivially_copyable_v<T> && ...));
     (bytes_.append(reinterpret_cast<const char*>(&values), sizeof(T)), ...);
   }
-  /// How many there are, and then each.
+  /// The number of values, and then each.
   template <class Values>
   void put_all(const Values& values) {
     put(std::size_t{values.size()});
@@ -32,7 +31,7 @@ class FlatWriter {
       put(value);
     }
   }
-  /// How many there are, then these.
+  /// The number of bytes, then these.
   void put_bytes(std::string_view bytes) {
     put(std::size_t{bytes.size()});
     bytes_.append(bytes);
@@ -43,7 +42,7 @@ class FlatWriter {
   std::string bytes_;
 };
 
-/// Expects that there is as much as is taken. What is read outlives this.
+/// Expects that there is as much as is read. The bytes outlive this.
 class FlatReader {
  public:
   explicit FlatReader(std::string_view bytes) : bytes_(bytes) {}
@@ -57,7 +56,7 @@ class FlatReader {
     bytes_.remove_prefix(sizeof(T));
     return std::bit_cast<T>(bytes);
   }
-  /// Into each of these.
+  /// Reads each of these.
   template <class... T>
   void take_into(T&... values) {
     ((values = take<T>()), ...);
@@ -72,7 +71,7 @@ class FlatReader {
     }
     return values;
   }
-  /// Into values of which there are as many.
+  /// Reads values into a container of the same size.
   template <class T>
   void take_all(std::span<T> values) {
     core::expect(take<std::size_t>() == values.size(), "flat bytes hold as many as are taken out of them");
@@ -80,7 +79,7 @@ class FlatReader {
       value = take<T>();
     }
   }
-  /// Bytes that stay where they are, in what is read.
+  /// A view of bytes in the input.
   std::string_view take_bytes() {
     const auto count = take<std::size_t>();
     core::expect(count <= bytes_.size(), "flat bytes hold what is taken out of them");

@@ -1,4 +1,4 @@
-// What is gathered when a run is over: what its nodes tell, and its ranks.
+// Gathers the reports of nodes and ranks after a run.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ static_assert(std::is_trivially_copyable_v<NodeFigures>, "it travels as bytes to
 /// After the run.
 inline NodeFigures figures_of(Node& node) { return {node.counters(), node.memory().plan(), node.memory().used()}; }
 
-/// To be called on all ranks alike. tell(index, flat) writes what the program of a node that is here has to say; take(index,
-/// flat) reads it, in the same order: of all nodes, by number, where the host is; elsewhere of those that are there.
+/// To be called on all ranks. tell(index, flat) writes the report of the program of a node that is here; take(index, flat) reads
+/// it, in the same order: of all nodes, by number, on the host's rank; elsewhere of those that are there.
 template <class Report, class Take>
 void gather_nodes(Runner& runner, std::uint32_t node_count, const Report& report, const Take& take) {
   const std::vector<std::string> reported = runner.gather([&](std::size_t index) {
@@ -49,8 +49,9 @@ void gather_nodes(Runner& runner, std::uint32_t node_count, const Report& report
   }
 }
 
-/// Likewise, after gather_nodes(): what is known of each rank; nothing without ranks. `planned`: what peers_of() takes. seen(),
-/// if there is one, says what was seen here; where the host is, add(seen, clock) takes what was on each other rank.
+/// The same for ranks, after gather_nodes(): returns what is known of each rank; nothing without ranks. `planned`: argument of
+/// peers_of(). seen(), if given, returns what was observed here; on the host's rank, add(seen, clock) takes what was observed on
+/// each other rank.
 template <class Planned>
 std::vector<RankFigures> gather_rank_figures(Runner& runner, const Planned& planned, const RankLinks* links, const AddSeen& add,
                                              const std::function<std::string()>& seen = {}) {

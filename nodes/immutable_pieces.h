@@ -1,4 +1,4 @@
-// Room in a node's memory for pieces of bytes that never change and outlive the run.
+// Memory of a node for pieces of bytes that never change and outlive the run.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace dmpc::nodes {
 
-/// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches and memory, the room
-/// is counted, but in place of copies there is a table, outside of the node's memory, of where each piece is. Thread safety:
-/// none; belongs to one node.
+/// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches and memory, the
+/// memory is counted, but instead of copies there is a table, outside of the node's memory, of each piece's address. Not
+/// thread-safe; belongs to one node.
 class ImmutablePieces {
  public:
-  /// Takes `room_bytes`: those of all pieces, and what must be readable behind the last one. It is so behind each that is put
-  /// there, too.
+  /// Takes `room_bytes`: for all pieces, and what must be readable behind the last one. As much is readable behind each source
+  /// piece, too.
   ImmutablePieces(LocalMemory& memory, Category category, std::size_t room_bytes, std::size_t piece_bytes)
       : piece_bytes_(piece_bytes) {
     core::expect(piece_bytes > 0, "a piece has a byte");
@@ -31,16 +31,16 @@ class ImmutablePieces {
       room_ = memory.allocate<std::byte>(category, room_bytes);
     }
   }
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static MemoryPlan layout(Category category, std::size_t room_bytes) {
     MemoryPlan plan = Room<std::byte>{category, room_bytes};
     plan.immutable_bytes = plan[category];
     return plan;
   }
 
-  /// All pieces are about to be put there.
+  /// To be called before all pieces are put.
   void begin_filling() { core::begin_filling(room_); }
-  /// `piece` is now at `index`, in place of what was there.
+  /// Sets the piece at `index`.
   void put(std::size_t index, std::span<const std::byte> piece) {
     core::expect(piece.size() == piece_bytes_, "pieces are of one size");
     if (places_) {
@@ -49,7 +49,7 @@ class ImmutablePieces {
       std::copy(piece.begin(), piece.end(), room_.begin() + static_cast<std::ptrdiff_t>(index * piece_bytes_));
     }
   }
-  /// Puts the piece of `source` from `offset_bytes` on there.
+  /// Sets the piece at `index` to that of `source` from `offset_bytes` on.
   void put(std::size_t index, const ByteSource& source, std::size_t offset_bytes) {
     if (places_) {
       places_[index] = source.immutable(offset_bytes, piece_bytes_).data();
@@ -57,7 +57,7 @@ class ImmutablePieces {
       source.copy(offset_bytes, room_.subspan(index * piece_bytes_, piece_bytes_));
     }
   }
-  /// The first byte of the piece that was put there last.
+  /// The first byte of the piece that was put last at `index`.
   const std::byte* at(std::size_t index) const { return places_ ? places_[index] : room_.data() + index * piece_bytes_; }
 
  private:

@@ -1,6 +1,7 @@
-// What a part has in a node's local memory, said once: a plan adds it up, and the part's constructor allocates it.
+// A part's share of a node's local memory, defined once: a plan adds it up, and the part's constructor allocates it.
 //
-// A part says it in a function layout() of what it is made from. A part of parts adds up theirs, which each of them takes itself.
+// A part defines it in a function layout() of its constructor's arguments. A compound part adds up the layouts of its parts,
+// which allocate themselves.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +12,13 @@
 
 namespace dmpc::nodes {
 
-/// For so many objects.
+/// Memory for `count` objects.
 template <class T>
 struct Room {
   Category category;
   std::size_t count = 0;
 
-  /// Takes it.
+  /// Allocates it.
   std::span<T> in(LocalMemory& memory) const { return memory.allocate<T>(category, count); }
   // Implicit: room is added to a plan for what it takes.
   operator MemoryPlan() const {
@@ -27,17 +28,17 @@ struct Room {
   }
 };
 
-/// One room after the other.
+/// Several arrays, one after the other.
 template <class... T>
 class Layout {
  public:
   constexpr Layout(const Room<T>&... rooms) : rooms_(rooms...) {}
 
-  /// Takes them, in their order.
+  /// Allocates them in order.
   std::tuple<std::span<T>...> in(LocalMemory& memory) const {
     return std::apply([&memory](const auto&... room) { return std::tuple<std::span<T>...>{room.in(memory)...}; }, rooms_);
   }
-  // Implicit as Room's.
+  // Implicit like Room's.
   operator MemoryPlan() const {
     return std::apply([](const auto&... room) { return (MemoryPlan(room) + ...); }, rooms_);
   }

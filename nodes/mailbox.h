@@ -1,4 +1,4 @@
-// A node's bounded inbox: many senders, one receiver, two classes of slots, and a place for the receiver to sleep.
+// A node's bounded inbox: many senders, one receiver, two classes of slots, and the word on which the receiver sleeps.
 //
 // A packet is copied into a slot of its class (slot_pool.h) and the slot's index is put on the inbox, a stack of
 // slots whose head is one word. The receiver takes the whole stack at once and turns it round, so packets come out in
@@ -6,15 +6,13 @@
 //
 // Thread safety: push() and rouse() from any thread, the receiver's own included; everything else from the one
 // receiver.
-//
-// Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in
-// between) repeat only because another thread has succeeded. Who may stall whom: nobody for ever. A sender stopped
-// before its packet is on the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped
-// after that is done, but may owe a wake-up to a receiver that was asleep: that can be had by no order of the two, as
-// the system wakes only who sleeps on a word that has changed. So a sleeper looks for itself at times, and finds the
-// packet: a wake-up owed makes it sleep as long again as it has slept, 16 ms at least and a second at most. The
-// receiver stopped half-way holds what it took; senders go on while they have credits. drain() is wait-free except for
-// give(), which is lock-free.
+// Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in between) repeat
+// only because another thread has succeeded. Nobody can stall another thread for ever. A sender stopped before its packet is on
+// the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped after that is done, but may owe a
+// wake-up to a sleeping receiver: no order of the two steps avoids that, as the system wakes only a thread that sleeps on a word
+// that has changed. So a sleeper polls at times, and finds the packet: a missing wake-up makes it sleep as long again as it has
+// slept, at least 16 ms and at most a second. A receiver stopped half-way keeps what it took; senders go on while they have
+// credits. drain() is wait-free except for give(), which is lock-free.
 //
 // Invariants
 // (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and
@@ -24,13 +22,14 @@
 //     receiver's next acquire, whatever came between.
 // (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
 //     as soon as its packet has been received, before it receives the next: at most one slot is held beyond those
-//     that credits account for. That is the one spare slot a class has above its capacity.
-//     A batch's slots are with its sender, chained as the inbox will have them, newest to oldest; handing over is one
+// A batch's slots are with its sender, chained as the inbox will have them, newest to oldest; handing them over is one
+// publication of all, so everything that holds for one packet holds for a batch.
 //     publication of all, so whatever holds for one packet holds for a batch.
-// (4) What senders of small, senders of bulk and sleepers change lies on different cache lines: the inbox, the two heads,
-//     the links of the two classes, the slots. The links of 16 slots of one class share a line.
-// (5) A receiver with a wake-up is no thread: whoever replaces ASLEEP rings it, once, where else the system would wake and
-//     the count be raised. That is done by who hears the wake-up (threads/awake_nodes.h). wait() is not called.
+// (4) The data changed by senders of small, senders of bulk and sleepers lies on different cache lines: the inbox, the two heads,
+// the links of the two classes, the slots. The links of 16 slots of one class share a line.
+// (5) A receiver with a WakeUp has no thread of its own: the thread that replaces ASLEEP rings it, once, where otherwise the
+// system would wake the receiver and the count be raised. The one who is rung does that (threads/awake_nodes.h). wait() is not
+// called.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +49,7 @@
 
 namespace dmpc::nodes {
 
-/// Of a receiver that shares its thread with others, which is to be told that this one is no longer asleep.
+/// Notifies a receiver that shares its thread with others that it is no longer asleep.
 class WakeUp {
  public:
   /// Never blocks. Called by the thread that has replaced ASLEEP, which is counted itself.
@@ -60,21 +59,21 @@ class WakeUp {
   ~WakeUp() = default;
 };
 
-/// Room in a node's mailbox, derived by the strategy from who can have how many packets under way.
+/// The size of a node's mailbox, derived by the strategy from how many packets may be in flight.
 struct MailboxCapacity {
   std::uint32_t small_slots = 0;
   std::uint32_t bulk_slots = 0;
   std::size_t bulk_payload_bytes = 0;  ///< the largest payload; at least what the small class holds if bulk_slots > 0
-  std::size_t small_front_bytes = 0;   ///< that the small class holds above small_payload_bytes: for push() with a front
+  std::size_t small_front_bytes = 0;  ///< that the small class holds in addition to small_payload_bytes: for push() with a front
 
-  /// What such a mailbox takes of the local memory (Category::mailbox).
+  /// The local memory that such a mailbox takes (Category::mailbox).
   std::size_t bytes() const;
 };
 
 template <class Atomics>
 class BasicMailbox {
  public:
-  /// Empty, awake, all its memory taken from `memory` (Category::mailbox, exactly bytes(capacity)).
+  /// Empty and awake; takes all its memory from `memory` (Category::mailbox, exactly bytes(capacity)).
   BasicMailbox(const MailboxCapacity& capacity, LocalMemory& memory)
       : small_slots_(slot_count(capacity.small_slots)),
         small_payload_bytes_(small_payload_bytes + capacity.small_front_bytes),
@@ -84,11 +83,11 @@ class BasicMailbox {
         small_(make_pool(memory, 0, capacity.small_slots, small_stride_bytes(capacity))),
         bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
 
-  /// From now on `wake-up`, which outlives the mailbox's use, is rung in place of waking a thread. Before any other thread knows
-  /// it.
+  /// Makes the mailbox ring `wake_up`, which outlives its use, in place of waking a thread. To be called before another thread
+  /// knows it.
   void set_wake_up(WakeUp& wake_up) { wake_up_ = &wake_up; }
 
-  /// Packets of one sender that lie in slots, and that the receiver does not see yet. Belongs to its sender, who hands it over.
+  /// Packets of one sender that lie in slots and are not yet visible to the receiver. Belongs to its sender, who hands it over.
   class Batch {
    public:
     bool is_empty() const { return newest_ == empty; }
@@ -100,7 +99,7 @@ class BasicMailbox {
 
   /// Copies the packet in, wakes the receiver if it sleeps, and returns true; false if the class has no free slot (then nothing
   /// has happened). A payload of at most small_payload_bytes takes a small slot, a longer one a bulk slot; expects that it fits.
-  /// `awake` counts the receiver; the caller is counted itself. What is put in is `front` and then `payload`.
+  /// `awake` counts the receiver; the caller is counted itself. The packet is `front` followed by `payload`.
   [[nodiscard]] bool push(const PacketHeader& header, std::span<const std::byte> payload, BasicAwakeCount<Atomics>& awake,
                           std::span<const std::byte> front = {}) {
     Batch batch;
@@ -111,7 +110,7 @@ class BasicMailbox {
     return true;
   }
 
-  /// Copies the packet in, behind those of the batch; returns and expects as push().
+  /// Copies the packet in, after those of the batch; returns and expects as push().
   [[nodiscard]] bool add(Batch& batch, const PacketHeader& header, std::span<const std::byte> payload,
                          std::span<const std::byte> front = {}) {
     core::expect(header.bytes == front.size() + payload.size(), "a header says how long its payload is");
@@ -140,8 +139,8 @@ class BasicMailbox {
     batch = {};
   }
 
-  /// Takes all packets at once and calls receive(packet) for each, oldest first; returns how many. Packets that come meanwhile
-  /// stay for the next call. The payload is valid during its call only.
+  /// Takes all packets at once and calls receive(packet) for each, oldest first; returns their number. Packets that arrive
+  /// meanwhile stay for the next call. The payload is valid only during its call.
   template <class Receive>
   std::size_t drain(Receive&& receive) {
     if (is_empty()) {
@@ -160,8 +159,8 @@ class BasicMailbox {
     return count;
   }
 
-  /// Calls accept(packet) for each, oldest first, until it returns false: that packet and those behind it are offered again by
-  /// the next call. Returns whether there is none left. A receiver that calls it calls no drain().
+  /// Calls accept(packet) for each, oldest first, until it returns false: that packet and the following ones are offered again by
+  /// the next call. Returns whether there is none left. A receiver that calls it does not call drain().
   template <class Accept>
   bool drain_while(Accept&& accept) {
     if (offered_ == empty && !is_empty()) {
@@ -179,19 +178,19 @@ class BasicMailbox {
     return true;
   }
 
-  /// A look without taking anything, of a receiver that is awake: may miss a packet that is just arriving.
+  /// Tests without taking anything, for a receiver that is awake: may miss a packet that is just arriving.
   bool is_empty() const { return inbox_->load(std::memory_order_relaxed) == empty; }
 
-  /// As is_empty(), for one who calls drain_while(): nothing waits to be offered again, either.
+  /// As is_empty(), for a caller of drain_while(): nothing waits to be offered again, either.
   bool is_drained() const { return offered_ == empty && is_empty(); }
 
-  /// Whether a packet lies in it; after a run, when nobody sends.
+  /// Whether there is a packet; after a run, when nobody sends.
   bool has_packets() const {
     const SlotIndex head = inbox_->load(std::memory_order_relaxed);
     return head != empty && head != asleep;
   }
 
-  /// Announces sleep, unless a packet has come: then false, and drain() finds it. After true call wait(), or end for good.
+  /// Announces sleep, unless a packet has arrived: then false, and drain() finds it. After true call wait(), or end for good.
   /// Acquire: after true the caller sees what any thread wrote before a rouse() that came too early to find it asleep.
   [[nodiscard]] bool fall_asleep() {
     SlotIndex expected = empty;
@@ -206,7 +205,7 @@ class BasicMailbox {
     }
   }
 
-  /// Waits as the other, for `most` at most, and the receiver is awake after it. For one whose waking `awake` does not count.
+  /// Waits for `most` at most; the receiver is awake afterwards. For a receiver that `awake` does not count.
   void wait(std::chrono::nanoseconds most) {
     Atomics::sleep(*inbox_, asleep, most);
     SlotIndex expected = asleep;
@@ -245,7 +244,7 @@ class BasicMailbox {
   struct alignas(cache_line_bytes) Inbox {
     Atomic<SlotIndex> word{empty};
   };
-  /// On a line, at most: a link is that large, or larger.
+  /// The maximum number of links on a cache line.
   static constexpr SlotIndex links_a_line = cache_line_bytes / sizeof(SlotIndex);
   static_assert(small_slot_bytes % cache_line_bytes == 0, "two packets never share a cache line");
   static_assert(LocalMemory::alignment % cache_line_bytes == 0, "local memory hands out whole cache lines");
@@ -253,12 +252,12 @@ class BasicMailbox {
                     links_a_line * sizeof(Atomic<SlotIndex>) % cache_line_bytes == 0,
                 "invariant (4)");
 
-  /// A sleeper's first look for itself, and its last: few nodes sleep so long that it costs them anything, and 4096 that sleep
-  /// for good take some hundredths of a core.
+  /// Interval of a sleeper's first poll, and the longest: few nodes sleep so long that it costs them anything, and 4096 that
+  /// sleep for good take some hundredths of a core.
   static constexpr std::chrono::milliseconds look_first{16}, look_last{1000};
 
   static SlotIndex slot_count(std::uint32_t capacity) { return capacity == 0 ? 0 : capacity + 1; }
-  /// The first bulk slot's number, and place among the links: behind the small ones', on a line of its own.
+  /// The first bulk slot's number, and index among the links: after the small ones', on a line of its own.
   static SlotIndex first_bulk(const MailboxCapacity& capacity) {
     return core::round_up(slot_count(capacity.small_slots), links_a_line);
   }
@@ -300,7 +299,7 @@ class BasicMailbox {
     return {NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)};
   }
 
-  /// One attempt to put `batch` on the inbox whose word was `head`; sets `head` anew if that failed.
+  /// One attempt to put `batch` on the inbox whose word was `head`; updates `head` if that failed.
   bool try_publish(const Batch& batch, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
     const bool wakes = head == asleep, counts = wakes && wake_up_ == nullptr;
     links_[batch.oldest_].store(wakes ? empty : head, std::memory_order_relaxed);
@@ -335,7 +334,7 @@ class BasicMailbox {
   static constexpr std::size_t link_count_limit = asleep;
 
   SlotIndex small_slots_;
-  SlotIndex offered_ = empty;  ///< the oldest of those that drain_while() has taken and not given
+  SlotIndex offered_ = empty;  ///< the oldest packet that drain_while() has taken and not passed on
   std::size_t small_payload_bytes_, bulk_payload_bytes_;
   Atomic<SlotIndex>* inbox_;
   std::span<Atomic<SlotIndex>> links_;

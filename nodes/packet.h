@@ -17,18 +17,18 @@ using PacketKind = std::uint8_t;
 inline constexpr std::size_t packet_kind_count = 24;
 
 struct PacketHeader {
-  std::uint32_t bytes = 0;   ///< of the payload, what lasts included
+  std::uint32_t bytes = 0;  ///< payload, including its immutable end
   std::uint16_t source = 0;  ///< index of the sending NodeId
   PacketKind kind = 0;
   std::uint8_t padding = 0;
 };
 static_assert(sizeof(PacketHeader) == 8 && std::is_trivially_copyable_v<PacketHeader>);
 
-/// A slot of a mailbox's small pool holds a header and so much payload; anything longer takes a bulk slot.
+/// A slot of a mailbox's small pool holds a header and this payload; anything longer takes a bulk slot.
 inline constexpr std::size_t small_slot_bytes = 64;
 inline constexpr std::size_t small_payload_bytes = small_slot_bytes - sizeof(PacketHeader);
 
-/// What fits a small place.
+/// Payload types that fit a small slot.
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= small_payload_bytes;
 
@@ -37,12 +37,12 @@ struct Packet {
   NodeId source{};
   PacketKind kind = 0;
   std::span<const std::byte> payload;
-  /// What follows it, if the sender has said that it lasts and the runner hands it over where it is. Else it is the payload's
-  /// end.
+  /// The immutable end of the payload, if it was sent so and the runner delivers it by address. Otherwise it is the end of
+  /// `payload`.
   std::span<const std::byte> immutable = {};
 
   std::size_t payload_bytes() const { return payload.size() + immutable.size(); }
-  /// What follows the first `front_bytes`, wherever it is: all that lasts, if that is how the packet was sent.
+  /// The payload after the first `front_bytes`, wherever it is stored: the immutable end, if the packet was sent so.
   std::span<const std::byte> behind(std::size_t front_bytes) const {
     return immutable.empty() ? payload.subspan(front_bytes) : immutable;
   }
@@ -53,7 +53,7 @@ struct Packet {
     core::expect(payload.size() == sizeof(T), "a packet has the size of its kind");
     return front<T>();
   }
-  /// What stands before the rest of the payload; expects that there is as much.
+  /// The first value of a longer payload; expects that the payload is long enough.
   template <class T>
   T front() const {
     static_assert(std::is_trivially_copyable_v<T>);

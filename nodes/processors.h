@@ -1,4 +1,4 @@
-// What every runner asks of all its processors: each has a `node` and its `program`, and the host is the last.
+// Functions on all processors of a runner: each has a `node` and its `program`, and the host is the last.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool all_finished(const Processors<Processor>& processors) {
   return std::all_of(processors.begin(), processors.end(), [](const auto& processor) { return processor->program->finished(); });
 }
 
-/// A line for each program on its queues and state, for the report on a stall.
+/// A line for each program on its queues and state, for the report on a deadlock.
 template <class Processor>
 std::string describe(const Processors<Processor>& processors) {
   std::string lines;
@@ -34,7 +34,7 @@ std::string describe(const Processors<Processor>& processors) {
   return lines;
 }
 
-/// What the processors say of themselves, by index.
+/// The processors' reports, by index.
 template <class Processor, class Report>
 std::vector<std::string> reported_by(const Processors<Processor>& processors, std::size_t peer_count, const Report& report) {
   std::vector<std::string> reported(peer_count);
@@ -44,7 +44,7 @@ std::vector<std::string> reported_by(const Processors<Processor>& processors, st
   return reported;
 }
 
-/// Expects, at a regular end, that packets sent are packets received; of those of other ranks `came` here and `went` there.
+/// Expects, at a regular end, that as many packets were received as sent; `came` and `went` are those from and to other ranks.
 template <class Processor>
 void expect_all_received(const Processors<Processor>& processors, std::uint64_t came = 0, std::uint64_t went = 0) {
   std::uint64_t sent = came, received = went;

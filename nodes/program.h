@@ -1,4 +1,4 @@
-// The seam between the runners and the strategies: an event-driven object that never blocks.
+// The interface between runners and strategies: an event-driven object that never blocks.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@
 
 namespace dmpc::nodes {
 
-/// How full or how far a program is: a count at a moment. `name` lives as long as the program's code.
+/// The fill level or progress of a program: a count at a moment. `name` lives as long as the program's code.
 struct Level {
   std::string_view name;
   std::uint64_t value = 0;
 };
 
-/// A few of them, always the same ones in the same order of one program.
+/// A few levels, always the same ones in the same order for one program.
 class Levels {
  public:
   static constexpr std::size_t count_max = 4;
@@ -58,8 +58,8 @@ class Program {
   /// One quantum: bounded, small. Returns whether there is more to do without a packet arriving first.
   virtual bool work() = 0;
 
-  /// After a work() that had no more to do: whether there is something, after all, that had better wait for a packet that comes
-  /// soon. If none does, the program is not to sleep: it does that something in the next quantum.
+  /// Called after a work() that had no more to do: whether there is something left that should rather wait for a packet that
+  /// comes soon. If none comes, the program must not sleep: it does that in the next quantum.
   virtual bool has_leftovers() const { return false; }
 
   /// True once this program will neither work nor need to receive any more. The run ends when all programs are finished.
@@ -68,14 +68,14 @@ class Program {
   /// The operations done since the start, for runners that price them. Only ever grows.
   virtual Charges charges() const { return {}; }
 
-  /// How full and how far it is, for observers. Called only while the program is not running.
+  /// Its levels, for observers. Called only while the program is not running.
   virtual Levels levels() const { return {}; }
 
   /// One line on queues and state, for the watchdog's report. Called only while the program is not running.
   virtual std::string describe() const = 0;
 };
 
-/// The host's where nodes need no host.
+/// The host's program if nodes need no host.
 class IdleProgram final : public Program {
  public:
   void receive(const Packet& /*packet*/) override { core::expect(false, "nobody sends the host anything"); }

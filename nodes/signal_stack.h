@@ -1,4 +1,4 @@
-// A stack for signals that come of a full one.
+// A stack for signals that are caused by stack overflow.
 #pragma once
 
 #include <sys/mman.h>
@@ -9,8 +9,8 @@
 
 namespace dmpc::nodes {
 
-/// The calling thread's, while it lives; of sanitizers' threads, which have one, none. Where there is no memory for it there is
-/// none: it is for what nobody expects.
+/// The calling thread's, while it exists; none under sanitizers, whose threads have one. If there is no memory for it there is
+/// none: it is only for the unexpected.
 class SignalStack {
  public:
   SignalStack() {
@@ -32,7 +32,7 @@ class SignalStack {
   SignalStack& operator=(const SignalStack&) = delete;
 
  private:
-  /// What the kernel saves there, of however many registers, and a handler.
+  /// What the kernel saves there, for any number of registers, plus a handler.
   static std::size_t bytes() {
     const long least = ::sysconf(_SC_MINSIGSTKSZ);
     return (least > 0 ? static_cast<std::size_t>(least) : 0) + 32768;

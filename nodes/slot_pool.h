@@ -8,8 +8,8 @@
 // (2) The link of a slot is meaningful to the one who holds it, or while it is free. It is atomic because a slow
 //     take() may still read it when the slot has gone to another; such a take() then fails, because the head has
 //     changed.
-//     A link of 0 is one that nobody has written yet: behind that slot comes the one with the next number. So a pool that
-//     is made touches neither links nor slots, and the real computer sets nothing aside for slots that are never taken.
+// A link of 0 has never been written: after that slot comes the one with the next number. So making a pool touches neither links
+// nor slots, and the real computer commits nothing for slots that are never taken.
 // (3) The head's tag grows by 1 with every take, so a head that looks the same is the same (no ABA). The tag has 32
 //     bits: wrong only if exactly a multiple of 2^32 takes happen while one take() is suspended between its load and
 //     its compare-exchange and the same slot is on top again.
@@ -40,8 +40,9 @@ class BasicSlotPool {
     Atomic<std::uint64_t> word{no_slot};
   };
 
-  /// Owns the slots first .. first + bytes.size() / stride_bytes - 1, all free. `links` has a place for every slot of the
-  /// mailbox, and those of these slots are 0. The caller's memory must outlive the pool. Before any other thread knows the pool.
+  /// Owns the slots first .. first + bytes.size() / stride_bytes - 1, all free. `links` has an entry for every slot of the
+  /// mailbox, and those of these slots are 0. The caller's memory must outlive the pool. To be called before any other thread
+  /// knows the pool.
   BasicSlotPool(Head& head, std::span<Atomic<SlotIndex>> links, SlotIndex first, std::span<std::byte> bytes,
                 std::size_t stride_bytes)
       : head_(&head),
@@ -71,7 +72,7 @@ class BasicSlotPool {
     }
   }
 
-  /// Makes a slot free that the caller holds and has finished reading.
+  /// Frees a slot that the caller holds and has finished reading.
   void give(SlotIndex slot) {
     std::uint64_t head = head_->word.load(std::memory_order_relaxed);
     do {
@@ -85,10 +86,10 @@ class BasicSlotPool {
   std::span<std::byte> slot(SlotIndex index) const { return bytes_.subspan((index - first_) * stride_bytes_, stride_bytes_); }
 
  private:
-  /// What is added to a link of the stack, modulo 2^32: that of a slot is 2 or more, that of none 1.
+  /// Added to a link of the stack, modulo 2^32: that of a slot is 2 or more, that of none 1.
   static constexpr SlotIndex link_offset = 2;
 
-  /// The free slot behind `slot`, whose link this is; anything if another has taken it meanwhile.
+  /// The free slot after `slot`, whose link this is; arbitrary if another thread has taken it meanwhile.
   SlotIndex behind(SlotIndex slot, SlotIndex link) const {
     return link != 0 ? link - link_offset : slot + 1 < end_ ? slot + 1 : no_slot;
   }

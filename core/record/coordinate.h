@@ -1,4 +1,4 @@
-// Coordinates as records and rays have them, floats on a lattice, and what rounding to them leaves nothing of.
+// Coordinates of records and rays: floats on a lattice; and what is degenerate after rounding to them.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace dmpc::core {
 
-/// Grid-local coordinates and radii, and where rays start, are multiples of this. Next to local zero floats alone would go on for
-/// ever, and what kernels make of their differences, products of two and of three, would underflow. Far less than what a picture
-/// can show: a scene that is 10^9 times as large as a thing leaves that 2^24 steps.
+/// Grid-local coordinates and radii, and rays' starts, are multiples of this. Otherwise floats near local zero would have no
+/// lower bound, and kernels' products of two and three of their differences would underflow. It is far below what a picture can
+/// show: with a scene 10^9 times as large as an object, 2^24 steps are left for the object.
 inline constexpr double coordinate_step = 0x1p-54;
 
 /// The nearest multiple of coordinate_step, where floats are finer.
@@ -25,17 +25,17 @@ inline Vec3f coordinates_of(const Vec3d& point) {
   return {coordinate_of(point.x), coordinate_of(point.y), coordinate_of(point.z)};
 }
 
-/// By so much of the largest coordinates, each by its share in the normal: more than what doubles leave of a ray's start, and of
-/// its way to the plane.
+/// A clearance as a share of the largest coordinates, weighted by the normal's components: more than the error in doubles of a
+/// ray's start, and of its distance to the plane.
 inline constexpr double exact_clearance = 0x1p-47;
-/// What two floats, in which a start is kept, leave of each of its coordinates.
+/// The relative error of each coordinate of a start, which is stored in two floats.
 inline constexpr double start_rounding = 0x1p-48;
 
-/// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
+/// In a scene of size about 1, rays in floats cannot tell anything smaller than this from a point.
 inline constexpr double size_least = 0x1p-40;
 
-/// Decided on the floats that are stored: area first, which most have, then equal corners, whose area need not come out as 0
-/// where products are fused, then size.
+/// Decided on the stored floats: first by area, which is positive for most, then by equal corners, whose area need not be 0 with
+/// fused products, then by size.
 inline bool leaves_nothing(const std::array<Vec3d, 3>& corner) {
   const Vec3d &a = corner[0], &b = corner[1], &c = corner[2];
   const Vec3d area = cross(b - a, c - a);

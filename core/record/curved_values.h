@@ -1,6 +1,6 @@
-// Values of spheres and cones as records hold them: centres and radii, which mirrors multiply errors of, a float each, and what
-// rounding left: a byte each, or more of it for radii. Of large surfaces that pass by local zero, where the detail of a scene
-// lies then, and of cones as flat as discs.
+// Values of spheres and cones in records: centres and radii, a float each and the rest of its rounding, since mirrors multiply
+// errors: a byte each, or more bits for radii of large surfaces that pass by local zero, where the detail of a scene lies then,
+// and of cones as flat as discs.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace dmpc::core {
 /// A cone as thin as this share of its radius is flat: used as a disc or a ring.
 inline constexpr double flat_cone_share = 0x1p-6;
 
-/// Of a flat cone rounding the two ends apart would leave no axis, so the rows of its apex hold the way there from the base, and
-/// the signs of its radii differ.
+/// A flat cone would have no axis if its two ends were rounded separately, so the rows of its apex hold the vector from the base,
+/// and the signs of its radii differ.
 inline bool is_flat_cone(float base_radius, float apex_radius) { return std::signbit(base_radius) != std::signbit(apex_radius); }
-/// Either way the base's radius has a negative sign if the cone shows its inside only.
+/// In either case the base's radius has a negative sign if the cone shows its inside only.
 inline bool shows_inside_only(float base_radius) { return std::signbit(base_radius); }
 
 /// A cone by its rows of a leaf: base, radius, apex, radius (core/record/record.h).
@@ -35,7 +35,7 @@ struct ConeFloats {
         apex_radius(std::fabs(cone.value(7))) {}
 
   double widest() const { return std::max(base_radius, apex_radius); }
-  /// At a share of the way from base to apex.
+  /// The radius at a relative height between base and apex.
   double radius_at(double height) const { return base_radius + (apex_radius - base_radius) * height; }
 
   Vec3d base;
@@ -44,9 +44,9 @@ struct ConeFloats {
   double base_radius, apex_radius;  ///< without their signs
 };
 
-/// From this radius on, beside a scene of about 1, a body is large.
+/// In a scene of size about 1, a body with at least this radius is large.
 inline constexpr float passing_radius_least = 0x1p-6F;
-/// Its surface passes by local zero if it comes nearer to it than this share of its radius.
+/// Its surface passes by local zero if its distance from there is below this share of its radius.
 inline constexpr double passing_share = 0x1p-8;
 
 /// Whether a surface of this radius passes by local zero; `distance_squared`: from there to its centre or axis.
@@ -65,8 +65,8 @@ inline bool is_large(float base_radius, float apex_radius) {
   return std::max(std::fabs(base_radius), std::fabs(apex_radius)) >= passing_radius_least;
 }
 
-/// A cone or cylinder that is about as wide as it is far away, between its ends. One that is long beside its radius has its
-/// place across it by all of its ends' bits.
+/// A cone or cylinder about as wide as its distance, between its ends. The position of a long thin one is given by all bits of
+/// both ends.
 inline bool cone_passes_by(const ConeFloats& cone) {
   constexpr double widths_away_max = 8;
   const double widest = cone.widest();
@@ -79,9 +79,9 @@ inline bool cone_passes_by(const ConeFloats& cone) {
   return height >= 0.0 && height <= 1.0 && passes_by(dot(across, across), cone.radius_at(height));
 }
 
-/// Whether a sphere or cone passes by local zero, by its floats alone. The place of such a surface there hangs on few bits of
-/// numbers that are as large as its radius. So its radius makes good what rounding moved its centre, or its ends, by, and has
-/// more of the rests than they (core/record/curved_values.h). In a scene whose grid begins at local zero there is none.
+/// Whether a sphere or cone passes by local zero, by its floats alone. The position of such a surface there depends on few bits
+/// of numbers as large as its radius. So its radius compensates for the rounding of its centre or ends, and gets more bits of the
+/// rests. There is none in a scene whose grid begins at local zero.
 inline bool passes_by_zero(PrimitiveKind kind, const LeafLane& curved) {
   const float* const values = curved.rows + curved.lane;
   if (kind == PrimitiveKind::sphere) {
@@ -90,9 +90,8 @@ inline bool passes_by_zero(PrimitiveKind kind, const LeafLane& curved) {
   return is_large(values[3 * curved.stride], values[7 * curved.stride]) && cone_passes_by(ConeFloats(curved));
 }
 
-/// What rounding left of a value, in 256ths of a unit in the last place of its float: with it a value is exact to 2^-32, but
-/// where it lies halfway between two floats, to 2^-31.
-/// None of what is not finite.
+/// The rest of a value's rounding, in 256ths of a unit in the last place of its float: with it a value is exact to 2^-32, or,
+/// halfway between two floats, to 2^-31. 0 if it is not finite.
 inline std::int8_t rest_of(double value, float rounded) {
   const float power = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) & 0x7f800000U);
   const double rest = std::floor((value - double{rounded}) / (double{power} * 0x1p-31) + 0.5);
@@ -103,18 +102,18 @@ inline double with_rest(float rounded, std::int8_t rest) {
   return double{rounded} + static_cast<double>(rest) * (double{power} * 0x1p-31);
 }
 
-/// The rests of a place and a radius that pass by local zero (core/record/curved_values.h): of each coordinate this many bits
-/// in place of a byte, lowest first, and of the radius the others. A value is exact to 2^-24 less its bits.
+/// Bits of the rests of a position and a radius that pass by local zero, in place of a byte each: those of the coordinates,
+/// lowest first, then the radius. A value is exact to 2^-24 less its bits.
 inline constexpr unsigned passing_place_bits = 4, passing_radius_bits = 32 - 3 * passing_place_bits;
 
-/// What rounding left, in 2^-bits of a unit in the last place of its float.
+/// The rest of rounding, in 2^-bits of a unit in the last place of its float.
 inline std::int32_t rest_in_bits(double value, float rounded, unsigned bits) {
   const float power = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) & 0x7f800000U);
   const double most = static_cast<double>(std::uint32_t{1} << (bits - 1));
   const double rest = std::floor((value - double{rounded}) / (double{power} * 0x1p-24 / most) + 0.5);
   return std::fabs(rest) <= most ? static_cast<std::int32_t>(std::min(rest, most - 1)) : 0;
 }
-/// `word` has the rest in so many bits from `first` on.
+/// The value with its rest, which is in bits `first` to `first + bits - 1` of `word`.
 inline double with_rest_in_bits(float rounded, std::uint32_t word, unsigned first, unsigned bits) {
   const float power = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) & 0x7f800000U);
   const std::int32_t rest = static_cast<std::int32_t>(word << (32 - first - bits)) >> (32 - bits);
@@ -175,12 +174,12 @@ class CurvedValues {
     };
     return {{with(x, 0), with(y, 8), with(z, 16)}, with(radius, 24)};
   }
-  /// The centre, the base, and of a cone's apex what its rows say.
+  /// The centre or base; the rows of a cone's apex.
   Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
-  /// Whether most of the rests is that of radii: see passes_by_zero().
+  /// Whether most bits of the rests are those of radii: see passes_by_zero().
   bool passes_by() const { return passes_by_; }
 
-  // Of a cone alone.
+  // For a cone only.
   bool is_flat() const { return is_flat_cone(rows_[3 * stride_], rows_[7 * stride_]); }
   bool is_inside_visible_only() const { return shows_inside_only(rows_[3 * stride_]); }
   /// From the base to the apex.
@@ -194,8 +193,8 @@ class CurvedValues {
   bool passes_by_;
 };
 
-/// Whether it is nearer to the surface than rounding may have moved that. `off_squared`: the square of its distance from the
-/// centre or axis, less that of the radius there; `size`: the largest coordinate and radius.
+/// Whether a point is nearer to the surface than the possible rounding of that. `off_squared`: the square of its distance from
+/// the centre or axis, minus that of the radius there; `size`: the largest coordinate and radius.
 inline bool is_on_surface(const CurvedValues& curved, double off_squared, double radius, double size) {
   constexpr double moved = 0x1p-30, moved_passing = 0x1p-46;
   return std::fabs(off_squared) <= (curved.passes_by() ? moved_passing : moved) * size * std::fabs(radius);

@@ -1,4 +1,4 @@
-// Where the directory keeps a macro cell's entry: row by row, x fastest, but of voxels z fastest; and the lists of voxels.
+// The order of entries in the directory: row by row, x fastest, for voxels z fastest; and the lists of voxels.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size,
   return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
 
-/// The other way round: z fastest, after the article.
+/// The same with z fastest, after the article.
 constexpr std::uint64_t voxel_index(const std::array<std::int32_t, 3>& size, const Corner& cell) {
   return directory_index({size[2], size[1], size[0]}, {cell[2], cell[1], cell[0]});
 }
@@ -78,8 +78,7 @@ constexpr Address reference_address(const DatabaseHeader& header, std::uint64_t 
 }
 constexpr std::size_t reference_offset(std::uint64_t index) { return index % 2 * sizeof(VoxelReference); }
 
-/// Calls visit(leaf's address) for all that the list of an occupied voxel names, whose records are here. Requires
-/// header.has_voxels().
+/// Calls visit(leaf's address) for the list of an occupied voxel, whose records are present. Requires header.has_voxels().
 template <Records R, class Visit>
 void for_each_listed(R& records, const DatabaseHeader& header, const DirectoryEntry& voxel, const Visit& visit) {
   for (std::uint64_t index = voxel.bits;; ++index) {

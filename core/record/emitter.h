@@ -1,4 +1,4 @@
-// What shines by itself and is aimed at: the records by which a hit draws one of it, and a place on that.
+// Emitters for light sampling: the records by which a hit selects an emitter, and a point on it.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct EmitterRecord {
   /// Grid-local: the corners of a triangle, the very floats of its leaf; of a sphere the centre, then its radius as x.
   std::array<Vec3f, 3> corner;
   Color radiance;
-  float chance = 0;  ///< of being drawn, by any hit
+  float chance = 0;  ///< of being selected, at any hit
   PrimitiveKind kind{};
   std::uint32_t primitive = 0;  ///< its id
   std::uint32_t padding = 0;
@@ -25,9 +25,9 @@ struct EmitterRecord {
 };
 static_assert(sizeof(EmitterRecord) == 64 && std::is_trivially_copyable_v<EmitterRecord>);
 
-/// One place of an alias table (A. J. Walker, "An Efficient Method for Generating Discrete Random Variables with General
-/// Distributions", ACM TOMS 3 (3), 1977): as many as there are emitters, each as likely as any other. How far a number is on its
-/// way through the place, from 0 to 1, decides: before `threshold` it means the emitter of this place, behind it the other one.
+/// One entry of an alias table (A. J. Walker, "An Efficient Method for Generating Discrete Random Variables with General
+/// Distributions", ACM TOMS 3 (3), 1977): there are as many as emitters, all equally likely. The fractional position of a number
+/// within the entry, from 0 to 1, decides: before `threshold` it selects the emitter of this entry, after it the other one.
 struct EmitterChoice {
   float threshold = 1;
   std::uint32_t other = 0;
@@ -39,16 +39,16 @@ inline bool has_emitters(const DatabaseHeader& header) { return header.emitter_c
 inline Address emitter_address(const DatabaseHeader& header, std::uint32_t emitter) {
   return advance(header.emitters, std::uint64_t{emitter} * sizeof(EmitterRecord));
 }
-/// The choices stand behind all emitters.
+/// The choices follow all emitters.
 inline Address choice_address(const DatabaseHeader& header, std::uint32_t place) {
   return advance(emitter_address(header, header.emitter_count), std::uint64_t{place} * sizeof(EmitterChoice));
 }
 
-/// What power is in proportion to, beside an area.
+/// Power per area up to a constant factor.
 inline double strength_of(const Color& radiance) { return double{radiance.x} + double{radiance.y} + double{radiance.z}; }
 
-/// How likely a place on an emitter that may be drawn is the one, per grid-local area: power says which emitter it is, and area
-/// which place, so that this is in proportion to radiance alone, whoever asks and however large the emitter.
+/// The density of a point on an emitter for light sampling, per grid-local area: the emitter is selected by power and the point
+/// by area, so the density is proportional to radiance alone, for any hit and emitter.
 inline double density_on(const DatabaseHeader& header, const Color& radiance) {
   return double{header.emitter_density} * strength_of(radiance);
 }

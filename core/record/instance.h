@@ -1,4 +1,4 @@
-// Records of instances: a base mesh, in one of its places.
+// Records of instances of base meshes.
 #pragma once
 
 #include <array>
@@ -11,23 +11,23 @@
 
 namespace dmpc::core {
 
-/// A mesh in a place. Its corners are those of the mesh's records times `unit`, exactly, which are then placed in double as those
-/// of a copy are (core/scene/placing.h), and rounded as theirs.
+/// An instance of a mesh. Its corners are those of the mesh's records times `unit`, exactly, transformed in double as those of a
+/// copy are (core/scene/placing.h), and rounded in the same way.
 struct InstanceRecord {
-  LeafHeader header{.kind = PrimitiveKind::instance};  ///< of no lane: so a traversal tells it from a leaf of boxes
+  LeafHeader header{.kind = PrimitiveKind::instance};  ///< no lanes: so a traversal tells it from a leaf of boxes
   std::array<double, 12> world{};  ///< from the mesh's coordinates to the world's: the rows of the linear part, then the shift
   Address root = no_address;       ///< the mesh's first BVH node
   std::uint32_t first = 0;         ///< the id of the mesh's triangle 0 here; the others follow
-  float unit = 1;                  ///< of the mesh's records, in its coordinates: a power of two
-  float pad = 0;  ///< how far along an axis of the mesh the grid's insertion pad reaches, in units of its records
+  float unit = 1;  ///< power of two: the mesh's coordinates per unit of its records
+  float pad = 0;  ///< the grid's insertion pad along an axis of the mesh, in units of its records
   std::array<std::uint32_t, 2> unused{};
 };
 static_assert(sizeof(InstanceRecord) == 128);
 
-/// Whether what begins so is an InstanceRecord, and no leaf.
+/// Whether a record with this header is an InstanceRecord, not a leaf.
 constexpr bool is_instance(const LeafHeader& header) { return header.kind == PrimitiveKind::instance && header.count == 0; }
 
-/// The box of a lane of a leaf of instances: that of the copy in this place, and the grid's pad around it.
+/// The box of a lane of a leaf of instances: that of the copy, enlarged by the grid's pad.
 inline Box instance_box(const std::byte* leaf, std::size_t lane) {
   const auto header = read<LeafHeader>(leaf);
   const auto at = [&](std::size_t row) {
@@ -41,15 +41,15 @@ inline Address instance_in(const std::byte* leaf, std::size_t lane) {
   return read<Address>(ids_of(header, leaf) + sizeof(Address) * (header.count + lane));
 }
 
-/// Levels of BVH nodes above leaves of instances, at most: such a leaf leaves up to 8 children where it was one, as a BVH node
-/// does.
+/// The maximum number of levels of BVH nodes above leaves of instances: such a leaf replaces one waiting child by up to 8, as a
+/// BVH node does.
 inline constexpr int levels_above_instances = bvh_levels_max - 1;
 
-// A hit on a base mesh tells in Hit::lane, above the lane of the leaf, which instance it is of.
+// A hit on a base mesh stores its instance in Hit::lane, above the leaf's lane.
 inline constexpr std::uint32_t instance_shift = 3, lane_mask = (1U << instance_shift) - 1;
 static_assert(leaf_lanes == 1U << instance_shift);
 
-/// What a Hit::lane says of a lane and an instance, whose record lies at a multiple of its size.
+/// The Hit::lane for a lane and an instance, whose record lies at a multiple of its size.
 constexpr std::uint32_t lane_in_instance(std::uint32_t lane, Address instance) {
   constexpr std::uint32_t step = sizeof(InstanceRecord) / record_alignment;
   return lane | (static_cast<std::uint32_t>(instance) / step + 1) << instance_shift;

@@ -1,4 +1,4 @@
-// How a point light's strength changes with the way from it, in eight bytes.
+// The strength of a point light by direction and distance, in eight bytes.
 #pragma once
 
 #include <array>
@@ -8,21 +8,21 @@
 
 namespace dmpc::core {
 
-/// How a cone's strength goes from 1 to 0, of t, which does so in proportion to the cosine: t, 3 t^2 - 2 t^3 or t^2.
+/// The falloff of a spot light from 1 to 0 as a function of t, which is linear in the cosine: t, 3 t^2 - 2 t^3 or t^2.
 enum class ConeEdge : std::uint8_t { linear, smooth, square };
 
-/// Where a light shines that does not shine all round.
+/// The cone of a spot light.
 struct LightCone {
   Vec3d ahead;                       ///< of unit length
-  double full_degrees = 0;           ///< up to so far from `ahead` it is as bright as there
-  double none_degrees = 0;           ///< from here on it is dark, up to 180; 0: it shines all round
-  ConeEdge edge = ConeEdge::linear;  ///< between both
+  double full_degrees = 0;  ///< full strength within this angle from `ahead`
+  double none_degrees = 0;  ///< dark beyond this angle, up to 180; 0: in all directions
+  ConeEdge edge = ConeEdge::linear;  ///< in between
 };
 
-/// All of it 0: as bright everywhere, as NFF's lights are.
+/// All 0: equal strength everywhere, like NFF's lights.
 struct LightSpread {
-  std::array<std::uint16_t, 2> ahead{};  ///< where a direction lies on the unit octahedron, unfolded
-  /// Angles, in steps of which 32,767 are 180 degrees; with a flag each. Of a square edge they have changed places.
+  std::array<std::uint16_t, 2> ahead{};  ///< direction as a position on the unfolded unit octahedron
+  /// Angles in units of 180 degrees / 32,767, each with a flag. They are swapped for a square edge.
   std::uint16_t full = 0, none = 0;
 
   static constexpr std::uint16_t flag = 0x8000;
@@ -35,8 +35,8 @@ struct LightSpread {
 
 /// `falls_off`: with the square of the distance. Angles and directions are rounded to some 1e-4 radians.
 LightSpread spread_of(const LightCone& cone, bool falls_off);
-/// By how much a light is weaker than it is ahead, 1 away, at a place from which it is seen `towards` this direction of unit
-/// length, so far away. 0 where it is dark.
+/// The strength of a light relative to that ahead at distance 1, at a point from which the light is seen in the unit direction
+/// `towards` at this distance. 0 where it is dark.
 double share_of(const LightSpread& spread, const Vec3d& towards, double distance);
 
 }  // namespace dmpc::core
