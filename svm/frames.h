@@ -1,4 +1,4 @@
-// Frames: pictures of one scene from one place after another, on nodes that keep what they have.
+// Frames: pictures of one scene from several viewpoints, on nodes that keep their data.
 #pragma once
 
 #include <optional>
@@ -18,48 +18,48 @@
 
 namespace dmpc::svm {
 
-/// Any programs of this family under a plan, on a computer. Thread safety: none.
+/// Any programs of this family under a plan, on a computer. Not thread-safe.
 class PictureComputer {
  public:
-  /// Makes nodes and host. `plan` and what `make_program` was made with outlive this.
+  /// Makes nodes and host. `plan` and the arguments of `make_program`'s maker outlive this.
   PictureComputer(const Plan& plan, const MakeProgram& make_program, const RunOptions& options);
 
-  /// As pictures::Computer's. Not where programs are others than pictures::PictureProgram.
+  /// As pictures::Computer's. Only for programs that are a pictures::PictureProgram.
   void begin_frame(const core::RenderSettings& settings, const core::FineDetail* detail);
 
-  /// Runs, checks the laws of conservation and reports: what is counted is this picture's.
+  /// Runs, checks the conservation laws and reports: counters are of this picture.
   Report render(std::stop_token stop);
 
  private:
   const Plan& plan_;
   pictures::Computer computer_;
-  std::vector<ProgramReport> before_;  ///< what programs had counted when the picture began
+  std::vector<ProgramReport> before_;  ///< counters at the start of the picture
 };
 
-/// A run of one frame, or of many. The film of each is that of a run of it alone; what is counted of it, and how long it takes,
-/// is not: caches, and which pages are resident, are those that the frames before it have left. The camera comes to the nodes
-/// as the scene did, before the start, in no virtual time. Thread safety: none.
+/// A run of one frame, or of many. The film of each is that of a single run; its counters and its time are not: caches and
+/// resident pages are left as they were by the frames before. The camera comes to the nodes as the scene did, before the start,
+/// in no virtual time. Not thread-safe.
 class Frames {
  public:
   /// Plans and, on ranks, hands out. `first`: the settings of the first frame. `are_several`: it may not be the only one, which
-  /// other ranks have to know. `database` outlives this. Throws as make_plan() does. After a stop is requested it makes haste.
+  /// other ranks have to know. `database` outlives this. Throws as make_plan() does. Returns early after a stop is requested.
   Frames(const Strategy& strategy, const core::Database& database, const core::RenderSettings& first, const RunOptions& options,
          const std::stop_token& stop, bool are_several = true);
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
-  /// The next frame: of the first, `settings` are those that this was made with, of any other they differ from them in the
-  /// camera, and what follows from it, alone. Not after a frame that was interrupted. Throws as run_by() does.
+  /// Renders the next frame: for the first, `settings` are those of the constructor, for others they differ only in the camera
+  /// and what follows from it. Not after a frame that was interrupted. Throws as run_by() does.
   Report render(const core::RenderSettings& settings, std::stop_token stop);
 
  private:
   const core::Database& database_;
   RunOptions options_;
-  core::RenderSettings settings_;  ///< of the frame under way, to which nodes of a modelled machine refer
+  core::RenderSettings settings_;  ///< of the current frame; nodes of a modelled machine refer to it
   core::FineDetail detail_;
   Plan plan_;
   nodes::ByteSource bytes_;
-  std::vector<ReferenceLog> recorded_;  ///< one a node, where references become a part of the report
+  std::vector<ReferenceLog> recorded_;  ///< one per node, if references are recorded for the report
   MakeProgram maker_;
   std::optional<PictureComputer> computer_;
 };

@@ -1,4 +1,4 @@
-// The whole database in a node's local memory: what replicated has in place of a pager.
+// The whole database in a node's local memory, for strategy replicated, in place of a pager.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace dmpc::svm {
 
-/// A core::Records that is never absent; on a modelled machine the copy is counted and one for all nodes. Thread safety: belongs
-/// to one node.
+/// A core::Records that is never absent; on a modelled machine the copy is counted, but shared by all nodes. Thread safety:
+/// belongs to one node.
 class LocalCopy : public PlainRecords {
  public:
   /// Puts `database` into the node's local memory.
@@ -24,15 +24,15 @@ class LocalCopy : public PlainRecords {
       : bytes_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, database.size_bytes(), core::overread_bytes)) {
     core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
   }
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::MemoryPlan layout(std::size_t database_bytes) {
     return nodes::ImmutablePieces::layout(core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
   }
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }
-  /// The copy, without the bytes that are readable behind it.
+  /// The copy, without the readable bytes behind it.
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// Nobody has anything to say about records that all have.
+  /// There are no packets about records, as all nodes have them.
   template <class Waiting>
   bool receive(const nodes::Packet& /*packet*/, Waiting& /*waiting*/) {
     return false;
@@ -41,7 +41,7 @@ class LocalCopy : public PlainRecords {
   void lacks(std::uint32_t /*slot*/, Waiting& /*waiting*/) {
     core::expect(false, "a whole copy of the database lacks no record");
   }
-  /// No pages, so all zero.
+  /// All 0: there are no pages.
   PageCounters counters() const { return {}; }
 
  private:

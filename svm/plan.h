@@ -1,4 +1,4 @@
-// What a run needs, in bytes, slots and credits, known before anything is allocated: fits, or says what would.
+// The resources of a run, in bytes, slots and credits, computed before anything is allocated: fits, or reports what would.
 #pragma once
 
 #include <cstddef>
@@ -24,75 +24,74 @@
 
 namespace dmpc::svm {
 
-/// Whether the strategy has this field of PageOptions: some are of nodes alone that fetch pages.
+/// Whether the strategy uses this field of PageOptions: some are only for nodes that fetch pages.
 bool goes_with(const core::Field& field, const Strategy& strategy);
 
 /// What a plan is made from. `optional` without a value means: choose.
 struct PlanRequest {
   const Strategy* strategy = svm_strategy();
   std::uint32_t page_count = 0;
-  std::uint32_t forest_page_count = 0;  ///< of them, that lie before the first subtree (core::Database::forest_page_count())
-  std::uint32_t open_page_count = 0;    ///< behind these (core::Database::open_page_count())
+  std::uint32_t forest_page_count = 0;  ///< those before the first subtree (core::Database::forest_page_count())
+  std::uint32_t open_page_count = 0;  ///< those after them (core::Database::open_page_count())
   std::size_t page_size_bytes = 1024;
-  nodes::ComputerRequest computer = {};  ///< without a bound of memory, svm's caches have a quarter of the database each, at
-                                         ///< least 64 pages and at most all pages that are not at home
+  nodes::ComputerRequest computer = {};  ///< without a memory limit, svm's caches have a quarter of the database each, at least 64 pages and at most all pages that are not at home
   PageOptions pages = {};
   int waiting_hits_max = 5;  ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
-  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
+  std::uint32_t first_samples = 1;  ///< per pixel in the first pass
   core::RefinementOptions refinement;
-  core::FilmScale film_scale;                   ///< of the film, which the host has
+  core::FilmScale film_scale;  ///< the film's, which the host has
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run. Its light is the
                                                 ///< host's: without that there may be none
-  std::span<const std::byte> database = {};  ///< its bytes, where the host is home to all pages; outlive the making of programs
-  const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; the host's alone; outlives plan and run
-  bool bundles = false;                      ///< rays of neighbouring pixels walk together, where enough are in flight
-  bool has_instances = false;                ///< of the database: rays have longer cursors
+  std::span<const std::byte> database = {};  ///< its bytes, if the host is home to all pages; outlive the making of programs
+  const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; used by the host alone; outlives plan and run
+  bool bundles = false;  ///< rays of neighbouring pixels are traced together, where enough are in flight
+  bool has_instances = false;  ///< the database's: rays have longer cursors
 
-  /// Nodes that render.
+  /// Number of nodes that render.
   std::uint32_t worker_count() const { return pages.worker_count.value_or(computer.node_count); }
-  /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
+  /// Whether some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
-  /// The host assigns the work.
+  /// Whether the host assigns the work.
   bool is_assigned() const { return pages.work_donor == WorkDonor::host; }
 };
 
-/// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
+/// A plan. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
-  std::uint32_t frames = 0;           ///< of each node's cache
-  std::uint32_t resident_count = 0;   ///< pages that every node keeps for good beside those at home, in frames of their own
-  std::vector<PageId> resident = {};  ///< which: as many, once the run has looked for them
-  std::uint32_t in_flight = 1;        ///< pixels under way, after reduction; no more than a node ever has
-  std::uint32_t pixels_a_task = 1;    ///< of them, at most: more than one where their rays walk in bundles
+  std::uint32_t frames = 0;  ///< per node's cache
+  std::uint32_t resident_count = 0;  ///< pages that every node keeps permanently in addition to those at home, in separate frames
+  std::vector<PageId> resident = {};  ///< which: as many, once the run has found them
+  std::uint32_t in_flight = 1;  ///< pixels in flight, after reduction; no more than a node ever has
+  std::uint32_t pixels_a_task = 1;  ///< at most: more than one if their rays are traced in bundles
   std::uint32_t worker_count = 1;     ///< nodes that render
   std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
-  std::uint32_t request_credits = 0;  ///< packets that ask for something which one node may have under way to one other
-  std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
-  std::uint32_t film_entries = 0;     ///< in a full film packet
-  std::uint32_t film_planes = 2;      ///< that an entry has light on
-  std::size_t held_bytes = 0;         ///< room at each node and the host for packets that chaos holds back
+  std::uint32_t request_credits = 0;  ///< packets that ask for something that one node may have in flight to one other
+  std::uint32_t film_credits = 0;  ///< film packets that one node may have in flight to the host
+  std::uint32_t film_entries = 0;  ///< per full film packet
+  std::uint32_t film_planes = 2;  ///< on which an entry has light
+  std::size_t held_bytes = 0;  ///< memory at each node and the host for packets delayed by chaos
   nodes::MailboxCapacity node_mailbox, host_mailbox;
-  std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
+  std::vector<std::string> notes;  ///< messages to print, such as what was reduced
 
   std::uint32_t node_count() const { return request.computer.node_count; }
-  /// Exactly what node `index` takes, by category. Home pages differ by one page at most between nodes.
+  /// The exact memory of node `index`, by category. Home pages differ by at most one page between nodes.
   nodes::MemoryPlan node_memory(std::uint32_t index) const;
-  /// The most that any node takes.
+  /// The largest memory of a node.
   std::size_t node_memory_max_bytes() const;
   nodes::MemoryPlan host_memory() const;
 
-  /// What each part is made for.
+  /// The capacities of the parts.
   PageCapacity pages() const;
   FilmCapacity film() const;
   WorkShape work() const;
-  /// Which packets need not wake their target each.
+  /// Packets that need not wake their target each.
   nodes::Batching batching() const;
 
-  /// What is under way on a node: a task waits for one page at a time.
+  /// Number of tasks on a node: a task waits for one page at a time.
   std::uint32_t task_count() const { return in_flight / pixels_a_task; }
-  /// Faults under way at a node: a fault has at least one task in flight, a task waits for one page, and a page that is not at
-  /// home has one fault at most.
+  /// Maximum number of faults at a node: a fault has at least one task in flight, a task waits for one page, and a page that is
+  /// not at home has at most one fault.
   std::uint32_t faults_max() const;
 };
 
@@ -101,7 +100,7 @@ struct Plan {
 /// nodes::node_count_max, the smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);
 
-/// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.
+/// The smallest node memory with which make_plan(request) succeeds, regardless of request.node_memory_bytes.
 std::size_t smallest_node_memory_bytes(const PlanRequest& request);
 
 }  // namespace dmpc::svm

@@ -1,14 +1,14 @@
-// The node program of all strategies by which pixels stay: pixels under way, work items, and the packets that concern them. What
-// it reads records from has packets of its own about them.
+// The node program of all strategies in which pixels stay on their node: pixels in flight, work items, and the packets about
+// them. Its records have their own packets.
 //
 // A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page.
 // Newest first: the pixel that ran last goes on, another one starts only when none can run. With one pixel in flight this is the
 // sequential ray tracer's order of references.
 //
-// Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was
-// reserved when its request left. A page that arrives runs every pixel that waited for it before the next packet is looked
-// at, and one step reads one record, so even one frame serves any number of pixels. A full film starts no pixel and waits for
-// the host, which waits for nobody.
+// Why the last node always makes progress: requests are served in receive(), regardless of the node's state. A reply's slot was
+// reserved when its request was sent. A page that arrives runs every pixel that waited for it before the next packet is handled,
+// and one step reads one record, so even one frame serves any number of pixels. A node with a full film starts no pixel and waits
+// for the host, which waits for nobody.
 #pragma once
 
 #include <algorithm>
@@ -41,12 +41,12 @@
 
 namespace dmpc::svm {
 
-/// `Records` is what PlainRecords describes; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask, or a test's.
+/// `Records` is described in PlainRecords; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask, or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram, public pictures::PictureProgram {
  public:
   /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/immutable_pieces.h). make_tracer(Records&)
-  /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
+  /// returns the tracer. `meter` is set if costs per pixel are observed.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                  const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)
@@ -73,7 +73,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     done_ = stopped_ = false;
   }
 
-  /// Packets about records come first: most are. The first pixel that goes on with what a packet brings is charged for it.
+  /// Packets about records come first: most are. The first pixel that continues with what a packet brings is charged for it.
   void receive(const nodes::Packet& packet) override {
     begin_metering();
     if (records_.receive(packet, *this)) {
@@ -145,11 +145,11 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     return report;
   }
 
-  // What records, and they alone, call to go on with the pixels that they serve.
+  // For records only, to continue the pixels that wait for them.
 
   Task& task(std::uint32_t slot) { return slots_.task(slot); }
   const core::RenderSettings& settings() const { return *settings_; }
-  /// What the node does is counted there, for other nodes' pixels, too.
+  /// The node's work is counted there, including that for other nodes' pixels.
   core::Operations& operations() { return operations_; }
   /// Runs the pixel, or those of the task, until a ray or bundle has ended, all is finished, or something is absent.
   void go_on(std::uint32_t slot) {
@@ -173,8 +173,8 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
   }
 
-  /// Neighbouring pixels that show nothing else go to the host row by row, without a task. On a modelled machine and for heat
-  /// maps each is a pixel like others.
+  /// Neighbouring background pixels are sent to the host row by row, without a task. On a modelled machine and for heat maps each
+  /// is a pixel like others.
   bool leave_background() {
     const PixelRectangle pixels =
         leaves_runs() ? work_.take_background(settings_->background, film_.room_left() - pixels_in_flight_) : PixelRectangle{};
@@ -190,7 +190,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     return true;
   }
 
-  /// A task takes pixels of one tile, so who walks together does not depend on who takes which item.
+  /// A task takes pixels of one tile, so the bundles do not depend on which node takes which item.
   void start() {
     const std::uint32_t slot = slots_.take_free();
     std::array<std::uint32_t, Task::pixels_max> pixels;
@@ -220,7 +220,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     }
   }
 
-  /// What the node counts from here to end_metering() is one pixel's.
+  /// What the node counts from here to end_metering() belongs to one pixel.
   void begin_metering() {
     if (meter_) [[unlikely]] {
       meter_->begin(heat_totals());
@@ -230,11 +230,11 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
   void end_metering(const Task& task) {
     if (meter_) [[unlikely]] {
       meter_->end(task.pixel(), task.ray().depth, heat_totals());
-      meter_->claim(task.pixel());  // of several passes the last one's node stays
+      meter_->claim(task.pixel());  // after several passes the last one's node remains
     }
   }
 
-  // Out of line, so that a quantum without a meter is no longer for it.
+  // Out of line, so that it does not lengthen a quantum without a meter.
   [[gnu::noinline]] nodes::HeatTotals heat_totals() const {
     const PageCounters pages = records_.counters();
     nodes::HeatTotals totals{.charges = charges()};
@@ -255,7 +255,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
     slots_.make_free(slot);
   }
 
-  /// Nothing can run until a packet comes: send what is asked, ask for work, send what is gathered, or say that all is done.
+  /// Nothing can run until a packet arrives: sends questions, asks for work, sends gathered pixels, or reports that all is done.
   void fall_idle() {
     records_.flush();
     if (slots_.has_free() && !work_.has_pixel()) {
@@ -275,7 +275,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
   void take_mask(const nodes::Packet& packet) {
     core::expect(done_, "the mask of a pass comes when the one before has ended");
     work_.take_mask(packet.as<MaskPart>());
-    node_->grant(host_, control_channel);  // the place that the part has reserved
+    node_->grant(host_, control_channel);  // the slot that the part has reserved
     node_->send_reserved(host_, control_channel, number_of(Kind::mask_acknowledgement), MaskAcknowledgement{});
   }
 
@@ -306,7 +306,7 @@ class ControlProgram final : public NodeProgram, public pictures::PictureProgram
   std::uint32_t pixels_in_flight_ = 0;
   bool done_ = false;
   bool stopped_ = false;
-  const bool may_leave_runs_;  ///< of background
+  const bool may_leave_runs_;  ///< for background
   std::optional<nodes::Meter> meter_;
 };
 

@@ -1,4 +1,4 @@
-// How the node programs of a plan are made over one kind of records, with our own grid.
+// Makes the node programs of a plan over one kind of records, with our own grid.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace dmpc::svm {
 
-/// `log` is there where references are to be noted.
+/// `log` is set if references are to be recorded.
 template <class Records>
 core::GridTracer<Records> tracer_over(Records& records, const core::RenderSettings& settings,
                                       [[maybe_unused]] ReferenceLog* log) {
@@ -30,9 +30,9 @@ core::GridTracer<Records> tracer_over(Records& records, const core::RenderSettin
   return core::GridTracer<Records>(records, settings.header, settings.skips);
 }
 
-/// `reference_logs`, one a node, are there where references are to be noted. `Bundles`: whether programs of bundles are made
-/// where the plan has them. All arguments outlive the result, and what it is called with; `database` and the plan's resident
-/// pages need not once all programs are made, but on modelled machines.
+/// `reference_logs`, one per node, are set if references are to be recorded. `Bundles`: whether programs of bundles are made
+/// where the plan has them. All arguments outlive the result and its calls; except on modelled machines `database` and the plan's
+/// resident pages may end once all programs are made.
 template <class Records, bool Bundles = false>
 MakeProgram maker_over(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                        const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) {

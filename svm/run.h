@@ -1,4 +1,4 @@
-// Renders a picture on N nodes: plans the memory, assembles nodes and host, runs them on threads, and reports.
+// Renders a picture on N nodes: plans the memory, makes nodes and host, runs them on threads, and reports.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +32,14 @@
 
 namespace dmpc::svm {
 
-/// A run, except for the database and the picture.
+/// Options of a run, without the database and the picture.
 struct RunOptions {
   nodes::ComputerRequest computer = {};
   PageOptions pages = {};
-  nodes::Watching watching = {};  ///< if it has a heat map of pages, these are counted, whatever `pages` says
-  /// Where the picture is begun, and what of it is kept on the way. An interrupted run keeps what it has.
+  nodes::Watching watching = {};  ///< if it has a heat map of pages, these are counted, regardless of `pages`
+  /// Where the picture is begun, and what of it is saved during the run. An interrupted run saves its state.
   core::Continuation continuation = {};
-  bool tracer_is_own = false;  ///< run_replicated() with a tracer that knows no bundles: rays walk alone
+  bool tracer_is_own = false;  ///< run_replicated() with a tracer that has no bundles: rays are traced one by one
 };
 
 struct NodeReport : nodes::NodeFigures {
@@ -51,7 +51,7 @@ struct Report : pictures::Report<NodeReport> {
   Plan plan = {};
   std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
   std::uint64_t pixels_done = 0;              ///< by this run, over all passes
-  std::uint64_t items_assigned = 0;           ///< work items that the host gave
+  std::uint64_t items_assigned = 0;  ///< work items assigned by the host
   std::uint64_t host_pages_served = 0;        ///< replies of the host to requests for pages
 
   core::Operations operations() const { return summed(&ProgramReport::operations); }
@@ -60,13 +60,12 @@ struct Report : pictures::Report<NodeReport> {
   QuestionCounters questions() const { return summed(&ProgramReport::questions); }
 };
 
-/// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
+/// The plan of a run with these options, for messages before the run. Throws as make_plan() does.
 Plan plan_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
              const RunOptions& options);
 
 /// Renders. On ranks rank 0 calls it, and the others follow() (svm/ranks.h). Throws as make_plan() does before anything is
-/// rendered; core::InternalError if a law of conservation is broken. One call at a time in a process needs no care; several are
-/// independent.
+/// rendered; core::InternalError if a conservation law is broken. Several calls in a process are independent.
 Report run_by(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
               const RunOptions& options, std::stop_token stop);
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
@@ -75,24 +74,24 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop);
 
-/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `continuation`
+/// The specifications for `plan`: the nodes in order, then the host, which writes `film`. All arguments except `continuation`
 /// outlive the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
                                                         const nodes::Progress& progress,
                                                         const core::Continuation& continuation = {});
 
-/// What a runner needs where the host is elsewhere.
+/// The specifications if the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
-/// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.
+/// To be called after a run, on all ranks: the reports of all nodes on the host's rank; on others those of their own nodes.
 std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan);
 
-/// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
+/// Runs any programs of this family under `plan`, checks the conservation laws and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
 
-/// Renders with strategy replicated and a tracer of one's own, as options.tracer_is_own says: make_tracer(index, copy) returns
-/// node `index`'s core::Tracer over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It
-/// is called before the start.
+/// Renders with strategy replicated and the caller's tracer, as in options.tracer_is_own: make_tracer(index, copy) returns node
+/// `index`'s core::Tracer over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is
+/// called before the start.
 template <class MakeTracer>
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop, const MakeTracer& make_tracer) {

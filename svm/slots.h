@@ -12,8 +12,8 @@
 
 namespace dmpc::svm {
 
-/// `count` tasks, each with a ray stack of `waiting_max` entries. A slot is free, or active; an active one is runnable, or known
-/// to whoever took it (the pager, when it waits). Thread safety: none.
+/// `count` tasks, each with a ray stack of `waiting_max` entries. A slot is free, or active; an active one is runnable, or held
+/// by its user (the pager, when it waits). Not thread-safe.
 template <class Task>
 class Slots {
   using Hits = typename Task::Hits;
@@ -28,7 +28,7 @@ class Slots {
       free_[free_count_++] = count - 1 - slot;
     }
   }
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<Slot, std::uint32_t, std::uint32_t, Hits> layout(std::uint32_t count, std::uint32_t waiting_max) {
     return {{core::MemoryUse::ray_stacks, count},
             {nodes::Category::queues, count},
@@ -61,7 +61,7 @@ class Slots {
   }
 
  private:
-  /// A task that local memory can make before its stack is known.
+  /// A task whose stack is set after local memory has made it.
   struct Slot {
     Task task{std::span<Hits>{}};
   };

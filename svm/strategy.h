@@ -27,7 +27,7 @@ struct Report;
 /// Makes the program of node `index`; called before the start, in order, on the calling thread.
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
 
-/// One object each, which outlives all plans; strategies are told apart by their addresses. Immutable.
+/// One object each, which outlives all plans; compared by address. Immutable.
 class Strategy {
  public:
   Strategy() = default;
@@ -35,33 +35,33 @@ class Strategy {
   Strategy& operator=(const Strategy&) = delete;
   virtual ~Strategy() = default;
 
-  /// As the command line calls it.
+  /// The option's value.
   virtual const char* name() const = 0;
-  /// Whether nodes fetch pages: else they have no caches, and pages no homes that could be chosen.
+  /// Whether nodes fetch pages: otherwise they have no caches, and homes of pages cannot be chosen.
   virtual bool fetches_pages() const { return false; }
-  /// Whether rays of neighbouring pixels may walk together.
+  /// Whether rays of neighbouring pixels may be traced together.
   virtual bool takes_bundles() const { return true; }
 
   // Before there is a plan.
 
-  /// Throws core::Refusal<core::UsageError> for what it does not take, or lacks.
+  /// Throws core::Refusal<core::UsageError> for what it does not accept, or what is missing.
   virtual void check(const PlanRequest& /*request*/) const {}
-  /// Tasks under way on a node unless the user has chosen.
+  /// The default number of tasks in flight on a node.
   virtual std::uint32_t usual_tasks(const PlanRequest& request) const = 0;
-  /// Pages that a node may fetch, at the node that has the fewest at home.
+  /// The number of pages that a node may fetch, at the node that has the fewest at home.
   virtual std::uint32_t foreign_pages_max(const PlanRequest& /*request*/) const { return 0; }
-  /// The first pages, which every node holds beside those at home there.
+  /// The first pages, which every node holds in addition to those at home there.
   virtual std::uint32_t leading_pages(const PlanRequest& /*request*/) const { return 0; }
-  /// What would help where no number of nodes works with the memory that each has.
+  /// What would help if no number of nodes works with the memory that each has.
   virtual core::Sentence advice() const;
 
-  // Of a plan, in which what comes before is settled.
+  // For a plan in which the settings above are fixed.
 
-  /// Packets that ask for something which one node may have under way to one other.
+  /// Packets that ask for something that one node may have in flight to one other.
   virtual std::uint32_t request_credits(const Plan& /*plan*/) const { return 0; }
-  /// Adds the places in a node's mailbox for packets about records.
+  /// Adds the slots in a node's mailbox for packets about records.
   virtual void add_slots(const Plan& /*plan*/, nodes::MailboxCapacity& /*capacity*/) const {}
-  /// What the records of node `index` take.
+  /// The memory of the records of node `index`.
   virtual nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) const = 0;
   /// Calls visit(offset in bytes, bytes) for each piece of the database that the program of node `index` reads when it is made,
   /// in its order.
@@ -71,15 +71,15 @@ class Strategy {
   virtual MakeProgram maker(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                             const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) const = 0;
 
-  /// Of a run that has ended: throws core::InternalError if something of what records said to each other is lost.
+  /// After a run: throws core::InternalError if packets about records are lost.
   virtual void check_conservation(const Report& /*report*/) const {}
 };
 
 using Strategies = std::vector<const Strategy*>;
 
-/// Pages travel.
+/// Pages are sent.
 const Strategy* svm_strategy();
-/// Every node holds the whole database; nothing travels but work and film.
+/// Every node holds the whole database; only work and film are sent.
 const Strategy* replicated_strategy();
 
 }  // namespace dmpc::svm

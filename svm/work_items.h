@@ -1,4 +1,4 @@
-// The image shared out, a part a node, and a part as work items: taken in scan order, given away from the far end.
+// The distribution of the image, one part per node, and a part as work items: taken in scan order, given away from the far end.
 #pragma once
 
 #include <array>
@@ -28,18 +28,18 @@ struct PixelRectangle {
   constexpr bool operator==(const PixelRectangle&) const = default;
 };
 
-/// The part of the image that node `index` starts with, where the first `worker_count` nodes render; nothing for the others. The
+/// The part of the image that node `index` starts with, if the first `worker_count` nodes render; empty for the others. The
 /// submaps of all workers cover each pixel exactly once; they are nearly square and of nearly equal area (the longer side is cut
-/// in proportion to the workers on each side, again and again); where there are more workers than pixels, some are empty.
+/// in proportion to the workers on each side, recursively); if there are more workers than pixels, some are empty.
 PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
 
-/// The pixels that node `index` of the first `worker_count` starts with where they are interleaved, as in the frame buffer of the
+/// The pixels that node `index` of the first `worker_count` starts with if they are interleaved, as in the frame buffer of the
 /// Pixel Machine (M. Potmesil, E. Hoffert, "The Pixel Machine: A Parallel Image Computer", 1989): of every n-th line every m-th
-/// pixel, from a corner of its own; nothing for the other nodes. m x n nodes are all workers, m >= n, as nearly square as their
-/// number can be had as a product: a prime number of them is one row, and what an image has no columns for is empty.
+/// pixel, each node at a different offset; empty for the other nodes. m x n is the number of workers, m >= n, as nearly square as
+/// possible: a prime number of them is one row, and parts beyond the image's columns are empty.
 PixelRectangle interleaved_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
 
-/// Which pixels a node starts with.
+/// The pixels that a node starts with.
 enum class PixelShares : std::uint8_t {
   submaps,     ///< a rectangle
   interleaved  ///< every m-th pixel of every n-th line
@@ -50,8 +50,8 @@ constexpr const char* name_of(PixelShares shares) { return shares == PixelShares
 /// submap_of() or interleaved_of().
 PixelRectangle share_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count, PixelShares shares);
 
-/// What is left of a node's share of the image, as items of side x side of its pixels, clipped at the share's edge: where pixels
-/// are interleaved, those of an item are as far apart as the share's. Needs no memory beside itself.
+/// The rest of a node's share of the image, as items of side x side of its pixels, clipped at the share's edge: if pixels are
+/// interleaved, those of an item are as far apart as the share's. Needs no further memory.
 class WorkItems {
  public:
   /// `side` 0 makes the whole share one item.
@@ -59,7 +59,7 @@ class WorkItems {
 
   bool empty() const { return next_ == end_; }
   std::uint64_t count() const { return end_ - next_; }
-  /// The next item in scan order, which is left there.
+  /// The next item in scan order, which is not removed.
   std::optional<PixelRectangle> front() const;
   /// The next item in scan order, for the node itself.
   std::optional<PixelRectangle> take();
@@ -70,14 +70,14 @@ class WorkItems {
   PixelRectangle item(std::uint64_t index) const;
 
   PixelRectangle share_;
-  std::uint32_t side_x_, side_y_;  ///< of an item that is not clipped
+  std::uint32_t side_x_, side_y_;  ///< of an unclipped item
   std::uint64_t columns_ = 0;      ///< items side by side
   std::uint64_t next_ = 0, end_ = 0;
 };
 
-/// A masked item has as many pixels a side at most, so that a small packet has a step for each of its pixels.
+/// The maximum number of pixels along a side of a masked item, so that a small packet has a step for each of its pixels.
 inline constexpr std::uint32_t masked_side_max = 4;
-/// The steps of the pixels of a masked item, row by row; those beyond it bring no samples.
+/// The steps of the pixels of a masked item, row by row; those beyond it add no samples.
 using ItemSteps = std::array<core::SampleStep, std::size_t{masked_side_max} * masked_side_max>;
 
 /// Pixels that one task takes at a time.
@@ -88,7 +88,7 @@ struct PixelTile {
   constexpr bool operator==(const PixelTile&) const = default;
 };
 
-/// The tile of at most so many pixels, at least 1, that is nearest to a square with sides of powers of two.
+/// The tile of at most `pixels_max` pixels, at least 1, that is nearest to a square with sides of powers of two.
 constexpr PixelTile tile_of(std::uint32_t pixels_max) {
   PixelTile tile;
   for (bool wider = true; 2 * tile.pixel_count() <= pixels_max; wider = !wider) {
@@ -97,13 +97,13 @@ constexpr PixelTile tile_of(std::uint32_t pixels_max) {
   return tile;
 }
 
-/// What a task of at most so many pixels takes, where a ray of each sample makes as many rays at most.
+/// The tile of a task of at most `pixels_a_task` pixels, if each sample needs a ray of the bundle.
 constexpr PixelTile tile_for(std::uint32_t samples, std::uint32_t pixels_a_task) {
   return tile_of(pixels_a_task / (samples > 0 ? samples : 1));
 }
 
-/// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and so the pixels of a tile, or of what
-/// the item's edge leaves of it. With tiles of one pixel that is row by row.
+/// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and in the same order within a tile,
+/// clipped at the item's edge. With tiles of one pixel this is row by row.
 class PixelScan {
  public:
   PixelScan() = default;
@@ -113,7 +113,7 @@ class PixelScan {
   PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted);
 
   bool empty() const { return left_ == 0; }
-  /// The next pixel lies in the tile of the one before.
+  /// Whether the next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return left_ > 0 && in_tile_; }
   /// The next pixel's place in the item, row by row. Requires !empty().
   std::uint64_t place() const { return std::uint64_t{y_} * item_.width + x_; }
@@ -126,7 +126,7 @@ class PixelScan {
 
   PixelRectangle item_;
   PixelTile tile_;
-  std::uint32_t x_ = 0, y_ = 0;  ///< of the next pixel, in the item
+  std::uint32_t x_ = 0, y_ = 0;  ///< the next pixel's, in the item
   bool in_tile_ = false;
   std::uint64_t left_ = 0;
   std::optional<std::uint64_t> wanted_;

@@ -1,21 +1,21 @@
-// What a node has of the scene with strategy forest: the tree's upper part, as every node, and whole subtrees, of which it alone
-// answers questions (J. Goldsmith, J. Salmon, "A Ray Tracing System for the Hypercube", Caltech 1985; J. Salmon, J. Goldsmith, "A
-// Hypercube Ray-tracer", 1988).
+// A node's part of the scene with strategy forest: the tree's upper part, like every node, and whole subtrees, about which it
+// alone answers questions (J. Goldsmith, J. Salmon, "A Ray Tracing System for the Hypercube", Caltech 1985; J. Salmon, J.
+// Goldsmith, "A Hypercube Ray-tracer", 1988).
 //
-// Invariants: (1) what lies in a page behind the forest holds all that is below it in the tree, so its home answers from its own
-// memory at once, and waits for nothing; (2) a pixel waits for one answer at most, so there are never more questions than slots;
-// (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions. Pages that lead into
-// base meshes are open, which (1) does not hold for: few are at every node, of more a walk asks for one record after the other,
-// and goes on by itself; in a mesh (1) holds again, and the question tells where the mesh stands.
+// Invariants: (1) a page after the forest holds everything below its part of the tree, so its home answers from its own memory at
+// once, and waits for nothing; (2) a pixel waits for at most one answer, so there are never more questions than slots; (3)
+// packets of questions are answered one by one, so that an answer's slot is reserved by its questions. Invariant (1) does not
+// hold for open pages, which lead into base meshes: if there are few, every node has them, otherwise a traversal asks for one
+// record after the other, and goes on by itself; in a mesh (1) holds again, and the question includes the instance.
 //
-// What nodes of strategy forest ask each other, and answer: values, without pointers. A packet has as many as fill it.
+// Questions and answers between nodes of strategy forest are values, without pointers. A packet has as many as fill it.
 //
-//   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
+// kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
 //   questions              node -> owner       request   any    the sender's request credits for that owner
 //   answers                owner -> node       bulk      any    the questions
 //
-// They stand in place of page requests and replies (svm/pages/packets.h), which has their numbers. They are small or bulk, as it
-// comes: their credits reserve places of both.
+// They replace page requests and replies (svm/pages/packets.h), and have their numbers. They may be small or bulk: their credits
+// reserve slots of both.
 #pragma once
 
 #include <cstddef>
@@ -41,40 +41,39 @@
 
 namespace dmpc::svm {
 
-/// What a question asks for: what a ray meets below a child, outside of base meshes or in one, or a record.
+/// What a question asks for: what a ray hits below a child, outside of base meshes or in one, or a record.
 enum class QuestionKind : std::uint8_t { below, leaf, normals, tile, bvh_node, below_in_mesh };
 
 /// Whether it is about a ray.
 constexpr bool is_about_ray(QuestionKind kind) { return kind == QuestionKind::below || kind == QuestionKind::below_in_mesh; }
 
-/// Stands before a core::Below, in a mesh with a core::ReportedInstance behind, or, of a record, its core::Address.
+/// Precedes a core::Below, in a mesh followed by a core::ReportedInstance, or, for a record, its core::Address.
 struct QuestionHeader {
-  std::uint16_t slot = 0;  ///< of the pixel that waits, for the answer
+  std::uint16_t slot = 0;  ///< of the waiting pixel, for the answer
   QuestionKind kind{};
   std::uint8_t padding = 0;
 };
 static_assert(sizeof(QuestionHeader) == 4);
 
-/// Stands before as many bytes: a core::Hit, if there is something nearer, or the record. A packet answers a packet.
+/// Precedes as many bytes: a core::Hit, if there is a nearer one, or the record. A packet answers a packet.
 struct AnswerHeader {
   std::uint16_t slot = 0;
   std::uint16_t bytes = 0;
 };
 static_assert(sizeof(AnswerHeader) == 4);
 
-/// Open pages that every node holds as the forest, at most: records that are so few are met by many rays, each of which would ask
-/// for them one by one.
+/// The maximum size of open pages for every node to hold them like the forest: so few records are read by many rays, each of
+/// which would ask for them one by one.
 inline constexpr std::size_t held_open_bytes_max = std::size_t{256} << 10U;
 constexpr bool holds_open_pages(std::uint32_t count, std::size_t page_size_bytes) {
   return count * page_size_bytes <= held_open_bytes_max;
 }
 
-/// The room that a full packet of questions takes, as that of its answers; none if there is nobody to ask.
+/// The size of a full packet of questions, and of its answers; 0 if there is nobody to ask.
 std::size_t question_packet_bytes(const PageCapacity& capacity);
 
-/// A core::Records whose find() answers nullptr for a record that is neither in the forest nor at home, unless its owner has just
-/// sent it. What a pixel waits for is asked of the owner, in packets that leave when they are full or there is nothing else to
-/// do. Thread safety: none.
+/// A core::Records whose find() returns nullptr for a record that is neither in the forest nor at home, unless its owner has just
+/// sent it. Questions to owners are sent in packets when they are full or there is nothing else to do. Not thread-safe.
 class Forest : public PlainRecords {
  public:
   static constexpr const char* awaited = "answers";
@@ -82,7 +81,7 @@ class Forest : public PlainRecords {
   /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/immutable_pieces.h), and takes the
   /// credits for its questions.
   Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// What the constructor takes at node `index`.
+  /// The memory that the constructor takes at node `index`.
   static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
 
   /// The pointer is valid until the next packet of answers is taken.
@@ -95,8 +94,8 @@ class Forest : public PlainRecords {
     return find_below(address);
   }
 
-  /// Answers questions, or takes answers and has all go on that wait for them. Returns false for any other packet. `waiting`,
-  /// here and below, is a node program of core::PixelTasks.
+  /// Answers questions, or takes answers and continues all pixels that wait for them. Returns false for any other packet.
+  /// `waiting`, also below, is a node program of core::PixelTasks.
   template <class Waiting>
   bool receive(const nodes::Packet& packet, Waiting& waiting) {
     switch (Kind{packet.kind}) {
@@ -127,19 +126,19 @@ class Forest : public PlainRecords {
       ask(slot, task.below(waiting.settings().skips));
     }
   }
-  /// `slot` goes on when it is known what its ray meets below a child, which find() has just said is absent.
+  /// Asks what the ray of `slot` hits below a child that find() has just reported absent.
   void ask(std::uint32_t slot, const core::Below& below);
-  /// The same in a mesh that stands there.
+  /// The same in a mesh, by its instance.
   void ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place);
-  /// `slot` goes on when the record, of which find() has just said the same, has come.
+  /// Asks for a record that find() has just reported absent, for `slot`.
   void ask(std::uint32_t slot, core::RecordKind kind, core::Address address);
-  /// Sends what is asked, in full packets or not, as far as credits go.
+  /// Sends all questions, in full packets or not, as far as credits go.
   void flush();
 
-  /// Answers a packet of questions at once. `header`: the database's. What it takes to trace them is added to `operations`.
+  /// Answers a packet of questions at once. `header`: the database's. The work of tracing them is added to `operations`.
   void answer(const nodes::Packet& questions, const core::DatabaseHeader& header, core::Operations& operations);
-  /// Takes a packet of answers: calls go_on(slot, hit) for each; `hit` is what trace_below() has found, or nullptr if a record
-  /// has come, which find() then finds until go_on() returns.
+  /// Takes a packet of answers: calls go_on(slot, hit) for each; `hit` is the result of trace_below(), or nullptr if it is a
+  /// record, which find() then finds until go_on() returns.
   template <class GoOn>
   void take(const nodes::Packet& answers, const GoOn& go_on) {
     std::span<const std::byte> rest = begin_taking(answers);
@@ -162,7 +161,7 @@ class Forest : public PlainRecords {
 
   /// Questions without an answer, sent or not.
   std::uint32_t pending() const { return waiting_ + under_way_; }
-  /// References are look-ups; misses those that were asked of an owner.
+  /// References are look-ups; misses are those that were asked of an owner.
   PageCounters counters() const;
   const QuestionCounters& questions() const { return questions_counted_; }
   void add_charges(nodes::Charges& charges) const;
@@ -173,9 +172,9 @@ class Forest : public PlainRecords {
     core::Below below;
     core::Address record = core::no_address;
     QuestionKind kind{};
-    std::uint32_t next = no_slot;  ///< that waits for the same owner
+    std::uint32_t next = no_slot;  ///< the next slot that waits for the same owner
   };
-  /// Questions that wait to be sent to one owner, by slot, in the order in which they came.
+  /// Questions to be sent to one owner, by slot, in the order of their arrival.
   struct Queue {
     std::uint32_t first = no_slot, last = no_slot;
     std::uint32_t count = 0;
@@ -183,7 +182,7 @@ class Forest : public PlainRecords {
 
   static nodes::Layout<Question, Queue, std::byte, std::byte, core::ReportedInstance> own_layout(const PageCapacity& capacity);
   const std::byte* find_below(core::Address address);
-  /// Of a record that is not in the forest.
+  /// For a record that is not in the forest.
   bool is_open(core::Address address) const { return core::byte_offset(address) < closed_from_; }
   void ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below);
   void add(std::uint32_t slot, core::Address address);
@@ -193,7 +192,7 @@ class Forest : public PlainRecords {
 
   PageGeometry geometry_;
   std::span<const std::byte> forest_;
-  std::uint64_t closed_from_;  ///< where pages begin that hold all that is below their records
+  std::uint64_t closed_from_;  ///< from here on pages hold everything below their records
   HomePages homes_;
   std::uint32_t self_;
   PageCounters counters_;

@@ -1,4 +1,4 @@
-// The strategy by which questions travel: J. Goldsmith and J. Salmon's, over one tree of boxes.
+// The strategy that sends questions about rays: J. Goldsmith and J. Salmon's, over one tree of boxes.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace dmpc::svm {
 
-/// Pixels that a node has under way unless asked otherwise: a quarter of its share of the picture, within these. One whose pixel
-/// waits for an answer has others to go on with, and the more there are, the fuller are packets of questions; but what is under
-/// way cannot be given to an idle node (svm/RESULTS.md).
+/// The default number of pixels in flight on a node: a quarter of its share of the picture, within these. A node whose pixel
+/// waits for an answer goes on with others, and the more there are, the fuller are packets of questions; but pixels in flight
+/// cannot be given to an idle node (svm/RESULTS.md).
 inline constexpr std::uint32_t forest_in_flight_least = 16, forest_in_flight_most = 256;
 
-/// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
+/// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays hit there.
 const Strategy* forest_strategy();
 
 /// Renders with strategy forest, a database of one tree in spatial order (core::Database::forest_page_count()), as run_by() does.

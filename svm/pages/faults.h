@@ -1,8 +1,8 @@
-// Pages that are on their way to a node, and which of its pixels wait for each.
+// Pages that have been requested, and the node's pixels that wait for each.
 //
-// Invariants: (1) a page has at most one fault, so at most one request is under way for it, and there are never more faults than
-// pages that live elsewhere; (2) a slot waits for at most one page, so there are never more faults than slots; (3) faults stand
-// in the order in which they arose.
+// Invariants: (1) a page has at most one fault, so at most one request is in flight for it, and there are never more faults than
+// pages that live elsewhere; (2) a slot waits for at most one page, so there are never more faults than slots; (3) faults are in
+// the order in which they arose.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace dmpc::svm {
 
 inline constexpr std::uint32_t no_slot = 0xffffffffU;
 
-/// Thread safety: none; belongs to one node.
+/// Not thread-safe; belongs to one node.
 class Faults {
  public:
   struct Fault {
@@ -28,17 +28,17 @@ class Faults {
     bool requested = false;                         ///< false: the request was refused and waits for a credit
   };
 
-  /// Room for slots 0 .. slot_count - 1, which wait for up to `faults_max` pages.
+  /// For slots 0 .. slot_count - 1, which wait for up to `faults_max` pages.
   Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max) {
     std::tie(faults_, next_) = layout(slot_count, faults_max).in(memory);
   }
 
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<Fault, std::uint32_t> layout(std::uint32_t slot_count, std::uint32_t faults_max) {
     return {{nodes::Category::queues, faults_max}, {nodes::Category::queues, slot_count}};
   }
 
-  /// `slot` waits for `page`. Returns the new fault if nobody waited for that page before, else nullptr.
+  /// Lets `slot` wait for `page`. Returns the new fault if no slot waited for that page before, otherwise nullptr.
   Fault* park(std::uint32_t slot, PageId page, std::uint32_t home) {
     next_[slot] = no_slot;
     if (Fault* fault = find(page)) {
@@ -53,8 +53,8 @@ class Faults {
     return &fault;
   }
 
-  /// Ends the fault of an arrived page; returns the first of the slots that waited for it. Expects that there was one,
-  /// requested.
+  /// Ends the fault of an arrived page; returns the first slot that waited for it. Expects that there is one, and that the page
+  /// was requested.
   std::uint32_t arrived(PageId page) {
     Fault* fault = find(page);
     core::expect(fault != nullptr && fault->requested, "a page arrives only where it was asked for");
@@ -64,7 +64,7 @@ class Faults {
     return first;
   }
 
-  /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs on: it may park again.
+  /// The slot that waits for the same page after `slot`, or no_slot. Read it before the slot runs: it may park again.
   std::uint32_t next(std::uint32_t slot) const { return next_[slot]; }
   /// The oldest fault at `home` whose request was refused, or nullptr.
   Fault* oldest_refused(std::uint32_t home) {

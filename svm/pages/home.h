@@ -1,4 +1,4 @@
-// Who keeps a page for good, a node or the host: by arithmetic, so that no node needs a table of all pages.
+// The home of a page, a node or the host: by arithmetic, so that no node needs a table of all pages.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@ namespace dmpc::svm {
 
 /// Where pages are at home.
 enum class PageHomes : std::uint8_t {
-  spread,  ///< assigned over the nodes
-  host,    ///< all at the host, which every node asks, as virtual memory was in the Pixel Machine's
+  spread,  ///< distributed over the nodes
+  host,  ///< all at the host, which every node asks, like the virtual memory of the Pixel Machine
   tree     ///< all at the host, which is the root of a tree of nodes that ask their parents (svm/pages/request_tree.h)
 };
 /// As the command line calls it.
 constexpr const char* name_of(PageHomes homes) {
   return homes == PageHomes::spread ? "spread" : homes == PageHomes::host ? "host" : "tree";
 }
-/// The host has all pages, and no node has any for good.
+/// The host has all pages, and no node has any permanently.
 constexpr bool are_at_host(PageHomes homes) { return homes != PageHomes::spread; }
 
-/// Page p lives at node p mod N, as the (p div N)-th of its home pages: spread evenly, without any strategy, as in the 1994
-/// paper. Or all of them live at the host, which is one behind the nodes. The division is a multiplication by ceil(2^63 / N),
-/// exact for every 32-bit page and N < 2^16: the quotient's error p * e / (N * 2^63), with e < N, stays below 1 / N (T. Granlund,
-/// P. Montgomery, "Division by Invariant Integers using Multiplication", 1994).
+/// Page p lives at node p mod N, as the (p div N)-th of its home pages: distributed evenly, without any heuristics, as in the
+/// article. Or all of them live at the host, whose index is node_count. The division is a multiplication by ceil(2^63 / N), exact
+/// for every 32-bit page and N < 2^16: the quotient's error p * e / (N * 2^63), with e < N, stays below 1 / N (T. Granlund, P.
+/// Montgomery, "Division by Invariant Integers using Multiplication", 1994).
 class Homes {
  public:
   struct Place {
@@ -33,7 +33,7 @@ class Homes {
     constexpr bool operator==(const Place&) const = default;
   };
 
-  /// The homes of pages assigned over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
+  /// The homes of pages distributed over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
   explicit Homes(std::uint32_t node_count, std::uint32_t first = 0)
       : node_count_(node_count),
         first_(first),
@@ -46,14 +46,14 @@ class Homes {
     return {first_ + index_of(page) - slot * node_count_, slot};
   }
   PageId page_at(Place place) const { return PageId{place.slot * node_count_ + place.node - first_}; }
-  /// How many of `page_count` pages are at home at `node`, or at the host.
+  /// The number of pages, of `page_count`, that are at home at `node`, or at the host.
   std::uint32_t count_at(std::uint32_t node, std::uint32_t page_count) const {
     if (node < first_ || node >= end()) {
       return 0;
     }
     return page_count / node_count_ + (node - first_ < page_count % node_count_ ? 1 : 0);
   }
-  /// The first that is a home, and the one behind the last.
+  /// The first node that is a home; end() is one past the last.
   std::uint32_t first() const { return first_; }
   std::uint32_t end() const { return first_ + node_count_; }
 
@@ -66,7 +66,7 @@ class Homes {
   std::uint64_t reciprocal_;
 };
 
-/// The homes on a computer with so many nodes.
+/// The homes on a computer with `node_count` nodes.
 inline Homes homes_of(PageHomes where, std::uint32_t node_count) {
   return are_at_host(where) ? Homes(1, node_count) : Homes(node_count);
 }

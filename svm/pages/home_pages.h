@@ -1,4 +1,4 @@
-// The pages that a node, or the host, keeps for good.
+// The pages that a node, or the host, stores permanently.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,12 @@
 
 namespace dmpc::svm {
 
-/// Which of the pages, behind those that every node holds, are at home where, and the bytes of those at home here. Thread safety:
-/// none.
+/// The homes of pages after those that every node holds, and the bytes of those at home here. Not thread-safe.
 class HomePages {
  public:
   /// Puts the node's pages, from `database`, into its local memory (nodes/immutable_pieces.h).
   HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// What the constructor takes at node `index`.
+  /// The memory that the constructor takes at node `index`.
   static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
   /// Calls visit(offset in bytes) for each page that the constructor reads at node `index`, in its order.
   template <class Visit>
@@ -31,7 +30,7 @@ class HomePages {
     }
   }
 
-  /// The node that keeps a page, or the host.
+  /// The index of the page's home: a node or the host.
   std::uint32_t home_of(PageId page) const { return place_of(page).node; }
   /// A page's first byte, or nullptr if it is at home elsewhere, or nowhere.
   const std::byte* find(PageId page) const {
@@ -49,7 +48,7 @@ class HomePages {
   nodes::ImmutablePieces pages_;
 };
 
-/// Takes the credits for what a node may ask of each other one, or of its parent if the host is home to all.
+/// Takes the credits for a node's requests to each other node, or to its parent if the host is home to all.
 void grant_requests(nodes::Node& node, const PageCapacity& capacity);
 
 }  // namespace dmpc::svm

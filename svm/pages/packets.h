@@ -1,12 +1,12 @@
-// What nodes tell each other about pages: values, without pointers.
+// Messages between nodes about pages: values, without pointers.
 //
-//   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
+// kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
 //   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
-//   passed_request         node -> parent      request   small  the requester's request, which has places all the way up
+// passed_request         node -> parent      request   small  the requester's request, which has slots all the way up
 //   page_reply             home -> node        bulk      bulk   the request
 //
-// Where nodes ask the host by way of a tree (svm/pages/request_tree.h) page requests go to the parent, and the reply comes from
-// whoever above has the page.
+// If nodes ask the host through a tree (svm/pages/request_tree.h) page requests go to the parent, and the reply comes from the
+// ancestor that has the page.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace dmpc::svm {
 
-/// All that travels in this family, packets of pixels (svm/packets.h) and questions (svm/forest/forest.h) too, so that a number
-/// has one name in every trace.
+/// All messages of this family, including those about pixels (svm/packets.h) and questions (svm/forest/forest.h), so that a
+/// number has one name in every trace.
 enum class Kind : nodes::PacketKind {
   page_request,
   page_reply,
@@ -59,20 +59,20 @@ struct PageRequest {
 };
 static_assert(is_small_packet<PageRequest>);
 
-/// A page request that its receiver does not have the page for, on its way up the tree.
+/// A page request on its way up the tree, passed on by a receiver that does not have the page.
 struct PassedRequest {
   PageId page = no_page;
   std::uint32_t requester = 0;
 };
 static_assert(is_small_packet<PassedRequest>);
 
-/// What a page request, passed on or not, asks for, and for whom.
+/// The page and the requester of a page request, passed on or not.
 inline PassedRequest request_in(const nodes::Packet& packet) {
   return Kind{packet.kind} == Kind::passed_request ? packet.as<PassedRequest>()
                                                    : PassedRequest{packet.as<PageRequest>().page, nodes::index_of(packet.source)};
 }
 
-/// Stands before the page's bytes.
+/// Precedes the page's bytes.
 struct PageReplyHeader {
   PageId page = no_page;
   std::uint32_t padding = 0;
@@ -80,7 +80,7 @@ struct PageReplyHeader {
 static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
 static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
 
-/// A page of this size on its way.
+/// The size of a reply with a page of this size.
 constexpr std::size_t page_reply_bytes(std::size_t page_size_bytes) { return sizeof(PageReplyHeader) + page_size_bytes; }
 
 }  // namespace dmpc::svm

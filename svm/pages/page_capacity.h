@@ -1,4 +1,4 @@
-// How many pages there are, and for how many of them and of pixels a node has room.
+// The number of pages, and a node's capacities for pages and pixels.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,36 @@
 
 namespace dmpc::svm {
 
-/// The most pixels, or other tasks, under way on a node.
+/// The maximum number of pixels, or other tasks, in flight on a node.
 inline constexpr std::uint32_t in_flight_max = 4096;
 
-/// What a node's part of the database is made for; alike on all nodes.
+/// The size of a node's part of the database; the same on all nodes.
 struct PageCapacity {
-  std::uint32_t page_count = 0;  ///< of the database
+  std::uint32_t page_count = 0;  ///< in the database
   std::uint32_t node_count = 1;
-  PageHomes where = PageHomes::spread;    ///< they are at home
-  std::uint32_t resident_count = 0;       ///< pages that every node keeps for good, wherever they are at home
-  std::span<const PageId> resident = {};  ///< which; once they are known as many, and they outlive the making of programs
-  CacheShape cache;                       ///< whose pages are as large as all
-  std::uint32_t in_flight = 1;            ///< pixels under way
-  std::uint32_t faults_max = 0;           ///< under way at a time
-  std::uint32_t request_credits = 0;      ///< page requests, or other packets that ask, that may be under way to one home
-  std::uint32_t leading_pages = 0;        ///< the first ones, if every node holds them: they have no home
-  std::uint32_t open_pages = 0;           ///< the last of these, or behind, that lead into pages elsewhere
+  PageHomes where = PageHomes::spread;  ///< where they are at home
+  std::uint32_t resident_count = 0;  ///< pages that every node keeps permanently, wherever they are at home
+  std::span<const PageId> resident = {};  ///< which; as many, once they are known, and they outlive the making of programs
+  CacheShape cache;  ///< with frames of the page size
+  std::uint32_t in_flight = 1;  ///< pixels in flight
+  std::uint32_t faults_max = 0;  ///< maximum in flight
+  std::uint32_t request_credits = 0;  ///< page requests, or other packets that ask, that may be in flight to one home
+  std::uint32_t leading_pages = 0;  ///< the first ones, if every node holds them: they have no home
+  std::uint32_t open_pages = 0;  ///< the last of these, or those after them, that lead into pages elsewhere
 
   std::size_t page_size_bytes() const { return cache.page_size_bytes; }
   std::size_t database_bytes() const { return page_count * page_size_bytes(); }
   std::size_t leading_bytes() const { return leading_pages * page_size_bytes(); }
   Homes homes() const { return homes_of(where, node_count); }
-  /// Who asks whom, if all pages are at home at the host.
+  /// The request tree, if all pages are at home at the host.
   std::optional<RequestTree> tree() const { return request_tree_of(where, node_count); }
-  /// Whether requests come to node `index`, or the host.
+  /// Whether node `index`, or the host, gets requests.
   bool is_asked(std::uint32_t index) const {
     return pages_at(index) > 0 || (index < node_count && tree() && tree()->count_below(index) > 0);
   }
-  /// The shape of the frames of resident pages, all alike.
+  /// The shape of the frames of resident pages.
   CacheShape resident_shape() const { return {resident_count, page_size_bytes()}; }
-  /// Pages at home at node `index`, or the host, beside those that all nodes hold.
+  /// Number of pages at home at node `index`, or the host, without those that all nodes hold.
   std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - leading_pages); }
 };
 

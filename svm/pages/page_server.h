@@ -1,4 +1,4 @@
-// Replies to requests for pages that are here: at a node or, if all are at home there, at the host.
+// Replies to requests for pages that are here: on a node or, if all are at home there, on the host.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace dmpc::svm {
 
-/// Copies a page, so it may serve at any time. Thread safety: belongs to one node, or the host.
+/// Copies a page, so it may reply at any time. Thread safety: belongs to one node, or the host.
 class PageServer {
  public:
   PageServer(nodes::Node& node, const PageCapacity& capacity)
@@ -21,12 +21,12 @@ class PageServer {
         page_size_bytes_(capacity.page_size_bytes()),
         reply_(layout(capacity, nodes::index_of(node.id())).in(node.memory())) {}
 
-  /// What the constructor takes at node `index`, or at the host.
+  /// The memory that the constructor takes at node `index`, or at the host.
   static nodes::Room<std::byte> layout(const PageCapacity& capacity, std::uint32_t index) {
     return {nodes::Category::queues, capacity.is_asked(index) ? page_reply_bytes(capacity.page_size_bytes()) : 0};
   }
 
-  /// Replies at once, with the page's bytes: the request has reserved the reply's place.
+  /// Replies at once, with the page's bytes: the request has reserved the reply's slot.
   void reply(const PassedRequest& request, const std::byte* bytes) {
     const PageReplyHeader header{request.page};
     const nodes::NodeId requester{request.requester};
@@ -37,13 +37,13 @@ class PageServer {
     ++served_;
   }
 
-  /// Replies so far.
+  /// Number of replies so far.
   std::uint64_t served() const { return served_; }
 
  private:
   nodes::Node* node_;
   std::size_t page_size_bytes_;
-  std::span<std::byte> reply_;  ///< where a reply is put together, if it is; empty where nobody asks
+  std::span<std::byte> reply_;  ///< buffer in which a reply is put together; empty if not needed
   std::uint64_t served_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Where each of a bounded number of pages is.
+// Maps a bounded number of pages to their places.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace dmpc::svm {
 
-/// A table with open addressing, at most half full, so that a search ends soon. It lies in the node's local memory. Thread
-/// safety: none; belongs to one node.
+/// A hash table with open addressing, at most half full, so that a search ends soon. It lies in the node's local memory. Not
+/// thread-safe; belongs to one node.
 class PageTable {
   struct Entry;
 
@@ -27,7 +27,7 @@ class PageTable {
   PageTable(nodes::LocalMemory& memory, std::uint32_t page_count)
       : hash_shift_(32U - static_cast<std::uint32_t>(std::countr_zero(size_for(page_count)))),
         entries_(layout(page_count).in(memory)) {}
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Room<Entry> layout(std::uint32_t page_count) { return {core::MemoryUse::page_table, size_for(page_count)}; }
 
   /// nowhere if the page is not in the table.
@@ -41,7 +41,7 @@ class PageTable {
     }
     return entries_[at].place;
   }
-  /// The page is not in the table, which has fewer than it is made for.
+  /// Requires that the page is not in the table, and that the table is not full.
   void insert(PageId page, std::uint32_t place) {
     std::size_t at = start_of(page);
     while (entries_[at].page != no_page) {
@@ -49,7 +49,7 @@ class PageTable {
     }
     entries_[at] = {page, place};
   }
-  /// Takes out a page that is in the table. Closes the gap by moving back every later entry of the run that may stand there, so
+  /// Removes a page that is in the table. Closes the gap by moving back every later entry of the run that may stand there, so
   /// that no search ends too early (D. E. Knuth, The Art of Computer Programming 3, section 6.4, algorithm R).
   void erase(PageId page) {
     const std::size_t mask = entries_.size() - 1;

@@ -26,14 +26,14 @@
 namespace dmpc::svm {
 
 /// A node's part of the shared virtual memory: its home pages, those resident at every node, its cache, its faults. A
-/// core::Records whose find() answers nullptr for a page that is none of these. The victim of a page is chosen when the page
-/// arrives. Thread safety: none.
+/// core::Records whose find() returns nullptr for any other page. The victim of a page is chosen when the page arrives. Not
+/// thread-safe.
 class Pager : public PlainRecords {
  public:
   /// Puts the node's home pages, from `database`, into its local memory (nodes::ImmutablePieces) and takes the credits for its
   /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// What the constructor takes at node `index`.
+  /// The memory that the constructor takes at node `index`.
   static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
 
   /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
@@ -48,8 +48,9 @@ class Pager : public PlainRecords {
     return find_other(page, offset);
   }
 
-  /// A packet about pages: replies to a request, or installs a page and has all go on that wait for it, before the next packet
-  /// can evict it: waiting.go_on(slot) runs a slot until it can do no more for now. Returns false for any other packet.
+  /// Takes a packet about pages: replies to a request, or installs a page and continues all slots that wait for it, before the
+  /// next packet can evict it: waiting.go_on(slot) runs a slot until it can do no more for now. Returns false for any other
+  /// packet.
   template <class Waiting>
   bool receive(const nodes::Packet& packet, Waiting& waiting) {
     switch (Kind{packet.kind}) {
@@ -69,15 +70,15 @@ class Pager : public PlainRecords {
         return false;
     }
   }
-  /// The task in `slot` needs what find() has just said is absent.
+  /// To be called when find() has reported a page absent that the task in `slot` needs.
   template <class Waiting>
   void lacks(std::uint32_t slot, Waiting& waiting) {
     park(slot, waiting.task(slot).absent());
   }
-  /// `slot` goes on when the page of `address`, which find() has just said is absent, arrives. Requests the page if nobody has.
+  /// Lets `slot` wait for the page of `address`, which find() has just reported absent. Requests the page if no slot has done so.
   void park(std::uint32_t slot, core::Address address);
-  /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls
-  /// retried() before each and runs them all before the next install().
+  /// Takes a page reply: installs the page and returns the first slot that waited for it. The caller calls retried() before
+  /// running each of those slots, and runs them all before the next install().
   std::uint32_t install(const nodes::Packet& reply);
   /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs.
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }

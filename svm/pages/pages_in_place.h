@@ -15,15 +15,15 @@
 
 namespace dmpc::svm {
 
-/// There pages lie in the one database, so that two bytes a page say all: whether it is here, for good or in which frame. With
-/// many nodes that is what the real computer's caches can hold, where tables of places and translations, and a search in them,
-/// are more. Outside of the node's memory. Thread safety: none; belongs to one node.
+/// Where pages lie in the one database, two bytes per page suffice: whether it is here, permanently or in which frame. With many
+/// nodes that fits the real computer's caches, which tables of places and translations, and searches in them, do not. Outside of
+/// the node's memory. Not thread-safe; belongs to one node.
 class PagesInPlace {
  public:
-  /// Of more pages, or frames, the tables of hundreds of nodes would take the room that they are to spare.
+  /// With more pages, or frames, the tables of hundreds of nodes would take the memory that they save.
   static constexpr std::uint32_t pages_max = 32768;
 
-  /// None where the memory has copies of what lasts, or if there are too many.
+  /// Nothing if the memory copies immutable bytes, or if there are too many pages.
   static std::optional<PagesInPlace> of(const nodes::LocalMemory& memory, const PageCapacity& capacity,
                                         const nodes::ByteSource& database) {
     return memory.immutable() == nodes::Immutable::is_referred_to &&
@@ -34,11 +34,11 @@ class PagesInPlace {
 
   static constexpr std::uint32_t absent = 0xffff, for_good = 0xfffe;
 
-  /// The frame in which a page is, for_good or absent.
+  /// The frame of a page, or for_good or absent.
   std::uint32_t frame_of(PageId page) const { return index_of(page) < count_ ? frames_[index_of(page)] : absent; }
   void put(PageId page, std::uint32_t frame) { frames_[index_of(page)] = static_cast<std::uint16_t>(frame); }
 
-  // In place of a cache's own table.
+  // Interface of a cache's own table.
   std::uint32_t find(PageId page) const {
     const std::uint32_t frame = frame_of(page);
     return frame == absent ? PageTable::nowhere : frame;

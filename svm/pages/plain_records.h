@@ -1,4 +1,4 @@
-// What any node's records answer to whoever runs tasks over them, and what they do unless their kind hides it.
+// The interface of a node's records for tasks, with default implementations, which kinds of records hide.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,26 @@
 
 namespace dmpc::svm {
 
-/// A base of what a node has of the database (Pager, and outside of pages a whole copy, or a forest). Each kind has besides, for
-/// those whose tasks it serves:
-///   receive(packet, waiting) takes a packet about records, goes on with tasks for which it brings something, and returns false
-///     for any other packet;
-///   lacks(slot, waiting)     sees to it that the task there goes on when it has what find() has just said is absent;
-///   counters()               of look-ups.
-/// Nothing is virtual: what a kind does is known where programs are compiled. Thread safety: belongs to one node.
+/// A base of a node's part of the database (Pager, and without pages a whole copy, or a forest). Each kind also has:
+/// receive(packet, waiting) takes a packet about records, continues the tasks for which it brings something, and returns false
+/// for any other packet;
+/// lacks(slot, waiting)     lets the task there wait for what find() has just reported absent;
+/// counters()               counts look-ups.
+/// Nothing is virtual: kinds are known when programs are compiled. Thread safety: belongs to one node.
 struct PlainRecords {
-  /// What tasks wait for, as reports call it.
+  /// What tasks wait for, for reports.
   static constexpr const char* awaited = "pages";
 
-  /// References from now on are those of the task in `slot`.
+  /// References from now on belong to the task in `slot`.
   void select(std::uint32_t /*slot*/) {}
   /// The selected slot starts another task.
   void forget() {}
-  /// Nothing can go on until a packet comes: sends what may have waited for more of its kind.
+  /// To be called when nothing can go on until a packet arrives: sends packets that are not full.
   void flush() {}
-  /// How many answers of others are awaited.
+  /// Number of answers that are awaited.
   std::uint32_t pending() const { return 0; }
   QuestionCounters questions() const { return {}; }
-  /// Adds what a model asks a price for.
+  /// Adds operations that a model has a price for.
   void add_charges(nodes::Charges& /*charges*/) const {}
   nodes::Levels levels() const { return {}; }
 };

@@ -1,4 +1,4 @@
-// Who asks whom for pages where all are at home at the host: a tree of nodes below it.
+// A tree of nodes below the host for page requests, if all pages are at home there.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace dmpc::svm {
 inline constexpr std::uint32_t tree_arity = 3;
 
 /// The host is the root, and it and every node have up to `arity` children, in the order of the nodes' numbers. With an arity of
-/// node_count or more all nodes are the host's children: a star. Requests climb, from child to parent, so none can wait for
-/// another in a circle, and the host has every page.
+/// node_count or more all nodes are the host's children: a star. Requests go from child to parent, so there can be no circular
+/// wait, and the host has every page.
 class RequestTree {
  public:
   /// Requires both to be 1 or more.
@@ -24,9 +24,9 @@ class RequestTree {
   }
 
   std::uint32_t host() const { return node_count_; }
-  /// Whom a node asks: another, with a lower number, or the host.
+  /// Whom a node asks: a node with a lower number, or the host.
   std::uint32_t parent_of(std::uint32_t node) const { return node < arity_ ? host() : node / arity_ - 1; }
-  /// Nodes whose requests may come to this one: all below it.
+  /// The number of nodes whose requests may come to this one: all below it.
   std::uint32_t count_below(std::uint32_t node) const {
     std::uint64_t first = node, last = node, count = 0;
     while ((first + 1) * arity_ < node_count_) {
@@ -49,7 +49,7 @@ class RequestTree {
   std::uint32_t node_count_, arity_;
 };
 
-/// The tree of a computer with so many nodes; none where nodes ask each other. Where there is none all ask the host.
+/// The tree of a computer with `node_count` nodes; nothing if nodes ask each other, or if all ask the host directly.
 inline std::optional<RequestTree> request_tree_of(PageHomes where, std::uint32_t node_count) {
   return are_at_host(where) ? std::optional(RequestTree(node_count, where == PageHomes::tree ? tree_arity : node_count))
                             : std::nullopt;

@@ -1,4 +1,4 @@
-// Tasks over pages, of whatever they are: run on the computer from bytes to results.
+// Tasks over pages, of any kind: run on the computer from bytes to results.
 #pragma once
 
 #include <cstddef>
@@ -26,54 +26,54 @@
 
 namespace dmpc::svm {
 
-/// What became of a run, beside results. Of nodes on other ranks nothing is known but on rank 0.
+/// Figures of a run, without results. Those of nodes on other ranks are known only on rank 0.
 struct TaskFigures {
   nodes::RunEnd end = nodes::RunEnd::finished;
   std::vector<PageCounters> pages;                   ///< by node
   std::vector<nodes::NodeCounters> counters;         ///< by node
   std::vector<nodes::Charges> charges;               ///< by node
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
-  std::vector<nodes::RankFigures> ranks;             ///< of rank 0, where there are any
+  std::vector<nodes::RankFigures> ranks;  ///< on rank 0, if there are ranks
 
-  /// The counters of all nodes together.
+  /// The sum over all nodes.
   PageCounters all_pages() const;
 };
 
 template <class Result>
 struct TaskReport : TaskFigures {
-  std::vector<Result> results;  ///< by task; those of an interrupted run mean nothing
+  std::vector<Result> results;  ///< by task; meaningless if the run was interrupted
 };
 
-/// Who looks on. Of ranks, each has the same.
+/// Observers of a run. On ranks each has the same.
 struct TaskWatching {
   nodes::Observer* observer = nullptr;
-  std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, where its references are noted
-  TaskHeat* heat = nullptr;                             ///< of all tasks, to which what each takes is added
-  /// On ranks, when the nodes that are here are made: calls `run`, in which ranks talk to each other, on the thread that
-  /// communicates, as soon as all ranks have theirs.
+  std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, to record its references
+  TaskHeat* heat = nullptr;  ///< for all tasks; each task's costs are added to it
+  /// On ranks, after the nodes that are here are made: calls `run`, in which ranks communicate, on the communicating thread, as
+  /// soon as all ranks have their nodes.
   std::function<void(const std::function<void()>& run)> communicate = [](const auto& run) { run(); };
-  /// Likewise, after a regular end: what was seen here, and, on rank 0, what was seen on another rank.
+  /// Likewise, after a regular end: what was observed here, and, on rank 0, what was observed on another rank.
   std::function<std::string()> seen = [] { return std::string(); };
   nodes::AddSeen add = {};
 };
 
-/// Tasks for a program that notes references, and for one that does not.
+/// Tasks for a program that records references, and for one that does not.
 struct TaskKinds {
   TaskKind<Pager> plain;
   TaskKind<RecordingPager> recording;
 };
 
-/// Where a node's results go: those of tasks `first` on, as bytes. Of nodes on other ranks rank 0 alone has them.
+/// Takes a node's results: those of tasks `first` on, as bytes. Results of nodes on other ranks come only to rank 0.
 using TakeResults = std::function<void(std::uint32_t first, std::string_view results)>;
 
-/// run_tasks() of tasks whose type is not known here, and for which there is a plan.
+/// run_tasks() for a given plan and tasks of a type that is not known here.
 TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std::span<const std::byte> database,
                               const TaskWatching& watching, std::stop_token stop, const TakeResults& take);
 
-/// Runs tasks 0 .. count - 1 over `database`, whole pages that are spread over the nodes and do not change. Results are the same
-/// for every computer, cache and schedule, if each task's depend on its number and what it reads alone. With in_flight = 1 so is
-/// the order of each node's references for every cache: then what svm/pages/observers tells of other caches is exact. Throws
-/// core::UsageError and core::CapacityError as TaskPlan does, and whatever a task throws.
+/// Runs tasks 0 .. count - 1 over `database`, whole pages that are distributed over the nodes and do not change. Results are the
+/// same for every computer, cache and schedule, if each task's depend only on its number and what it reads. With in_flight = 1 so
+/// is the order of each node's references for every cache: then the predictions of svm/pages/observers for other caches are
+/// exact. Throws core::UsageError and core::CapacityError as TaskPlan does, and whatever a task throws.
 template <PagedTask Task>
 TaskReport<typename Task::Result> run_tasks(std::span<const std::byte> database, std::uint32_t count, const TaskOptions& options,
                                             const TaskWatching& watching = {}, std::stop_token stop = {}) {

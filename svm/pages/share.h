@@ -1,4 +1,4 @@
-// Which of many are kept, where there is room for a share of them only: the same ones wherever the share is the same.
+// Samples keys where there is memory for a share of them only: the same ones wherever the share is the same.
 #pragma once
 
 #include <bit>
@@ -9,11 +9,11 @@
 
 namespace dmpc::svm {
 
-/// One key of every(), a power of two, chosen by a hash; the smaller share is part of the larger. Salted, since core::mix()
-/// leaves 0 as it is, which every share would have: with the salt that is two keys above 10^9. Thread safety: none.
+/// One key of every(), a power of two, chosen by a hash; the smaller share is part of the larger. Salted, since core::mix() maps
+/// 0 to itself, which every share would contain: with the salt that applies to two keys above 10^9. Not thread-safe.
 class Share {
  public:
-  /// In the least share.
+  /// every() of the least share.
   static constexpr std::uint32_t every_max = std::uint32_t{1} << 31U;
 
   bool has(std::uint64_t key) const { return (core::mix(key + salt) & (every_ - 1)) == 0; }
@@ -24,7 +24,7 @@ class Share {
     core::expect(std::has_single_bit(every) && every >= every_, "a share shrinks, by halves");
     every_ = every;
   }
-  /// Not the least.
+  /// Requires that it is not the least.
   void halve() { shrink_to(2 * every_); }
 
  private:

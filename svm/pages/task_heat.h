@@ -1,4 +1,4 @@
-// What each task took: an instrument beside the computer, whose memory is no node's.
+// The costs of each task: an instrument outside of the computer, whose memory is no node's.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@
 
 namespace dmpc::svm {
 
-/// What one task has taken. Over all tasks of a node they add up to what the node counted.
+/// The costs of one task. Over all tasks of a node they add up to the node's counters.
 struct TaskTaken {
-  std::uint32_t node = 0;        ///< that ran it
-  std::uint64_t steps = 0;       ///< calls of it, those in which its page was not there included
+  std::uint32_t node = 0;  ///< the node that ran it
+  std::uint64_t steps = 0;  ///< its calls, including those in which its page was absent
   std::uint64_t references = 0;  ///< look-ups of a page, each counted once
-  std::uint64_t faults = 0;      ///< requests for pages that it began
-  nodes::Charges charges = {};   ///< a page that comes is its first waiter's
+  std::uint64_t faults = 0;  ///< requests for pages that it started
+  nodes::Charges charges = {};  ///< an arriving page is charged to its first waiter
 };
 
-/// By task. Thread safety: each task is one node's; read when none runs.
+/// By task. Thread safety: each task belongs to one node; read when none runs.
 using TaskHeat = std::vector<TaskTaken>;
 
-/// Puts what the tasks that ran here took, for add_heat() on another rank.
+/// Serialises the costs of the tasks that ran here, for add_heat() on another rank.
 inline void put_heat(nodes::FlatWriter& flat, const TaskHeat& heat) {
   const auto is_here = [](const TaskTaken& taken) { return taken.steps > 0; };
   flat.put(static_cast<std::uint64_t>(std::count_if(heat.begin(), heat.end(), is_here)));
@@ -44,14 +44,14 @@ inline void add_heat(nodes::FlatReader& flat, TaskHeat& heat) {
   }
 }
 
-/// One node's: puts what it counts from one step to the end of the next onto the task of that step. Thread safety: belongs to the
-/// node.
+/// One node's meter: attributes what it counts from one step to the end of the next to the task of that step. Thread safety:
+/// belongs to the node.
 class TaskMeter {
  public:
   /// `heat` outlives the meter.
   TaskMeter(TaskHeat& heat, std::uint32_t node) : heat_(&heat), node_(node) {}
 
-  /// Says what the node has counted since the start, at the end of a step of `task`.
+  /// Takes the node's counts since the start, at the end of a step of `task`.
   void stepped(std::uint32_t task, const PageCounters& pages, const nodes::Charges& charges) {
     TaskTaken& taken = (*heat_)[task];
     taken.node = node_;

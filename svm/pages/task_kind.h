@@ -1,4 +1,4 @@
-// What a program has to know of its tasks, of whatever type: how long they are, and how they are begun, run and read.
+// A program's interface to its tasks, of any type: their sizes, and how they are begun, run and read.
 #pragma once
 
 #include <concepts>
@@ -18,10 +18,10 @@
 
 namespace dmpc::svm {
 
-/// A task: a value without pointers of its own, made again and again. start(number) makes it that one of all; run() reads records
-/// by records.find() and answers `more` after a bounded time, `finished`, or `absent` if find() had nothing: then absent() is the
-/// address, and run() is called again when it is there, and asks for it again. What it does beside look-ups it adds to the
-/// charges. result() is asked for once it is finished.
+/// A task: a value without pointers, which is reused. start(number) makes it task `number`; run() reads records by records.find()
+/// and returns `more` after a bounded time, `finished`, or `absent` if find() had nothing: then absent() is the address, and
+/// run() is called again when it is present, and reads it again. It adds its work apart from look-ups to the charges. result() is
+/// called once it is finished.
 template <class Task>
 concept PagedTask = std::default_initializable<Task> && std::is_trivially_copyable_v<Task> &&
     std::default_initializable<typename Task::Result> && std::is_trivially_copyable_v<typename Task::Result> &&
@@ -32,19 +32,18 @@ concept PagedTask = std::default_initializable<Task> && std::is_trivially_copyab
   { finished.result() } -> std::same_as<typename Task::Result>;
 };
 
-/// Tasks that lie as bytes in memory aligned to nodes::LocalMemory::alignment, one behind the other. `Records` is Pager or
-/// RecordingPager.
+/// Tasks as bytes in memory aligned to nodes::LocalMemory::alignment, one after the other. `Records` is Pager or RecordingPager.
 template <class Records>
 struct TaskKind {
   TaskPlan::Sizes sizes;
   std::function<void(std::byte* task, std::uint32_t number)> start;
-  /// Runs a step of a task; where that answers `absent` the address is set.
+  /// Runs a step of a task; if that returns `absent` the address is set.
   std::function<core::TaskState(std::byte* task, Records& records, nodes::Charges& charges, core::Address& absent)> run;
-  /// Puts down the result of a finished task.
+  /// Stores the result of a finished task.
   std::function<void(const std::byte* task, std::byte* result)> put_result;
 };
 
-/// Those of a type.
+/// The TaskKind of a type.
 template <class Records, PagedTask Task>
 TaskKind<Records> task_kind() {
   static_assert(alignof(Task) <= nodes::LocalMemory::alignment);

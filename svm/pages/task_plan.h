@@ -1,4 +1,4 @@
-// What a run of tasks over pages needs, known before anything is allocated.
+// The resources of a run of tasks over pages, known before anything is allocated.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,31 @@
 
 namespace dmpc::svm {
 
-/// What tasks may choose. `optional` without a value means: choose.
+/// Options of tasks. `optional` without a value means: choose.
 struct TaskOptions {
   nodes::ComputerRequest computer = {};
   std::size_t page_size_bytes = 1024;                       ///< a power of two, 512 B to 64 KiB
-  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< frames of each node; else a quarter of the pages
-  Replacement replacement = Replacement::lru;               ///< which page of the cache makes room
-  std::uint32_t in_flight = 16;                             ///< tasks under way on a node, 1 to 4096
+  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< frames of each node; by default a quarter of the pages
+  Replacement replacement = Replacement::lru;  ///< which page is evicted
+  std::uint32_t in_flight = 16;  ///< tasks in flight on a node, 1 to 4096
 };
 
-/// Tasks are shared out beforehand, each node's in a row. Immutable; everything is checked when it is made.
+/// Tasks are distributed beforehand, consecutive ones to each node. Immutable; everything is checked when it is made.
 class TaskPlan {
  public:
-  /// What a node keeps of each task.
+  /// Sizes of a task.
   struct Sizes {
-    std::size_t task_bytes = 0;    ///< of one under way
-    std::size_t result_bytes = 0;  ///< of each, under way or done
+    std::size_t task_bytes = 0;  ///< of a task in flight
+    std::size_t result_bytes = 0;  ///< of each result, in flight or done
   };
 
-  /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of
-  /// range and bytes that are not whole pages, of core::CapacityError for less memory than a node takes, naming that.
+  /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of range
+  /// and bytes that are not whole pages, of core::CapacityError for less memory than a node needs, naming that.
   TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes);
 
   const nodes::ComputerRequest& computer() const { return options_.computer; }
   std::uint32_t node_count() const { return options_.computer.node_count; }
-  /// The first task of a node; of the one behind the last node the number of all.
+  /// The first task of a node; for node_count the number of all tasks.
   std::uint32_t first_task(std::uint32_t node) const {
     return static_cast<std::uint32_t>(std::uint64_t{task_count_} * node / node_count());
   }
@@ -48,9 +48,9 @@ class TaskPlan {
   const nodes::MailboxCapacity& mailbox() const { return mailbox_; }
   std::size_t held_bytes() const { return held_bytes_; }
 
-  /// What a node's program takes beside its pages: tasks; their numbers, those runnable, free places; results.
+  /// A node's program's memory without its pages: tasks; their numbers, runnable ones, free slots; results.
   nodes::Layout<std::byte, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> program_layout(std::uint32_t node) const;
-  /// Exactly what a node takes.
+  /// The exact memory of a node.
   nodes::MemoryPlan node_memory(std::uint32_t node) const;
   /// The memory of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;

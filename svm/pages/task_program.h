@@ -1,8 +1,8 @@
-// The node program of tasks that read pages and are no pixels: graphs, tables, whatever does not fit one memory.
+// The node program of tasks that read pages and are no pixels: graphs, tables, anything that does not fit one memory.
 //
-// As with pixels (svm/program.h): requests are served in receive(), whatever a node's own state, and a page that arrives runs
-// every task that waited for it before the next packet is looked at. So a task that reads one record after another goes on with a
-// cache of one page, and the last node always moves.
+// As with pixels (svm/program.h): requests are served in receive(), regardless of the node's state, and a page that arrives runs
+// every task that waited for it before the next packet is handled. So a task that reads one record after another proceeds with a
+// cache of one page, and the last node always makes progress.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@
 
 namespace dmpc::svm {
 
-/// What a task's program tells, whatever the task.
+/// The results of a program of any tasks.
 class AnyTaskProgram : public NodeProgram {
  public:
-  /// In bytes; of each task of the node, in order.
+  /// In bytes; for each task of the node, in order.
   virtual std::span<const std::byte> results() const = 0;
 };
 
@@ -47,7 +47,7 @@ class TaskProgram final : public AnyTaskProgram {
   }
 
   Records& records() { return records_; }
-  /// What each task takes is noted from now on. To be called before the start, if at all.
+  /// Records the costs of each task from now on. To be called before the start, if at all.
   void note_heat(TaskMeter meter) { meter_ = meter; }
 
   void receive(const nodes::Packet& packet) override {
@@ -87,7 +87,7 @@ class TaskProgram final : public AnyTaskProgram {
   ProgramReport report() const override { return {.operations = {}, .pages = records_.counters(), .work = {}}; }
   std::span<const std::byte> results() const override { return results_; }
 
-  /// A step of the task there, and what it took. For records that have what the task has waited for.
+  /// Runs a step of the task there, and records its costs. Called by records that have what the task has waited for.
   void go_on(std::uint32_t place) {
     step(place);
     if (meter_) {
@@ -125,10 +125,10 @@ class TaskProgram final : public AnyTaskProgram {
 
   Records records_;
   const TaskKind<Records>& kind_;
-  std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first of all, and how many there are
+  std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first, and their number
   std::uint32_t done_ = 0;
-  std::span<std::byte> tasks_;        ///< those under way
-  std::span<std::uint32_t> numbers_;  ///< by place: of the task there
+  std::span<std::byte> tasks_;  ///< in flight
+  std::span<std::uint32_t> numbers_;  ///< task number, by slot
   std::span<std::uint32_t> runnable_, free_;
   std::uint32_t runnable_count_ = 0, free_count_ = 0;
   std::span<std::byte> results_;

@@ -1,9 +1,9 @@
 // The page misses of an LRU cache of every size at once, from the references of one run.
 //
 // Source: R. L. Mattson, J. Gecsei, D. R. Slutz, I. L. Traiger, "Evaluation Techniques for Storage Hierarchies" (1970). A
-// reference's stack distance is the number of different pages referenced since the last reference of its page; in an LRU cache
+// reference's stack distance is the number of distinct pages referenced since the last reference of its page; in an LRU cache
 // with more frames than that it is a page hit, in any other a miss. So one histogram has the misses for every size. It is exact
-// where the references do not depend on the cache.
+// if the references do not depend on the cache.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace dmpc::svm {
 
-/// A value. Of one node, or of several added up, each with a cache of its own.
+/// A value: for one node, or the sum over several, each with its own cache.
 class MissCurve {
  public:
   /// The curve of no references.
@@ -31,10 +31,10 @@ class MissCurve {
   std::uint64_t cold_misses() const { return cold_misses_; }
   /// Page misses with `cache_pages` frames; with none every reference is one.
   std::uint64_t misses(std::uint32_t cache_pages) const;
-  /// The fewest frames with which cold misses are all there are, 0 if there are no references. No page ever leaves a cache with
-  /// the different pages of a node's references.
+  /// The fewest frames with which there are only cold misses, 0 if there are no references. A cache that holds all distinct pages
+  /// of a node's references never evicts one.
   std::uint32_t sufficient_pages() const { return static_cast<std::uint32_t>(at_distance_.size()); }
-  /// Different pages of the node that has most.
+  /// The largest number of distinct pages of a node.
   std::uint32_t distinct_pages() const { return distinct_pages_; }
 
  private:

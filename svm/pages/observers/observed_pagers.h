@@ -1,4 +1,4 @@
-// Pagers that also note what is referenced: which pages, or how many different ones each pixel does. Types of their own, so that
+// Pagers that also record references: which pages, or how many distinct ones per pixel. They are types of their own, so that
 // normal runs pay nothing for it.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace dmpc::svm {
 
-/// Keeps one bit a page for each pixel in flight. Whoever runs a slot calls select() before, and forget() when a pixel starts
-/// in it. Thread safety: none.
+/// Keeps one bit per page for each pixel in flight. Call select() before a slot runs, and forget() when a pixel starts in it. Not
+/// thread-safe.
 class CountingPager : public Pager {
  public:
   CountingPager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
@@ -23,7 +23,7 @@ class CountingPager : public Pager {
         geometry_(capacity.page_size_bytes()),
         words_per_slot_(words_for(capacity.page_count)),
         seen_(own_layout(capacity).in(node.memory())) {}
-  /// What the constructor takes beside Pager's.
+  /// The memory that the constructor takes in addition to Pager's.
   static nodes::Room<std::uint64_t> own_layout(const PageCapacity& capacity) {
     return {nodes::Category::queues, capacity.in_flight * words_for(capacity.page_count)};
   }
@@ -34,7 +34,7 @@ class CountingPager : public Pager {
     return Pager::find(address);
   }
 
-  /// References from now on are those of the pixel in `slot`.
+  /// References from now on belong to the pixel in `slot`.
   void select(std::uint32_t slot) { selected_ = seen_.subspan(slot * words_per_slot_, words_per_slot_); }
   /// The selected slot starts another pixel.
   void forget() { std::fill(selected_.begin(), selected_.end(), 0); }
@@ -63,8 +63,9 @@ class CountingPager : public Pager {
 };
 static_assert(core::Records<CountingPager>);
 
-/// Notes a reference when it is answered, so a step that is retried after its page arrived is noted once. Pages that are here for
-/// good are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
+/// Records a reference when it is answered, so retrying a step after its page has arrived is recorded once. Pages that are stored
+/// here permanently are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Not
+/// thread-safe.
 class RecordingPager : public Pager {
  public:
   RecordingPager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
@@ -73,7 +74,7 @@ class RecordingPager : public Pager {
   /// To be called once, before the first reference. `log` outlives this.
   void record_into(ReferenceLog& log) { log_ = &log; }
 
-  /// Hides Pager's: looks the page up, then notes it.
+  /// Hides Pager's: looks the page up, then records it.
   const std::byte* find(core::Address address) {
     const std::byte* const record = Pager::find(address);
     const PageId page = geometry_.page_of(address);

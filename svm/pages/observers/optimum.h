@@ -1,8 +1,7 @@
-// The page misses of a replacement policy, from the references alone, and the fewest that any could have made, had it known the
-// future.
+// The page misses of a replacement policy, from the references alone, and the minimum for any policy that knows the future.
 //
-// Source: L. A. Belady, "A Study of Replacement Algorithms for a Virtual-Storage Computer" (1966): the page that leaves is the
-// one whose next reference is furthest away. Pages come on demand, each into a frame.
+// Source: L. A. Belady, "A Study of Replacement Algorithms for a Virtual-Storage Computer" (1966): evict the page whose next
+// reference is furthest away. Pages are fetched on demand, each into a frame.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,8 @@
 
 namespace dmpc::svm {
 
-/// The fewest misses of one node's references. The first pass, which finds each reference's next, is the constructor's; the
-/// second is each size's. Thread safety: an immutable value once made.
+/// The minimum of misses of one node's references. The first pass, which finds each reference's next, is in the constructor; the
+/// second is done for each size. Thread safety: an immutable value once made.
 class Optimum {
  public:
   /// Fewer than 2^32 - 1 references, which outlive this.
@@ -28,12 +27,12 @@ class Optimum {
  private:
   std::span<const PageId> references_;
   std::uint32_t page_bound_;
-  std::vector<std::uint32_t> next_;  ///< by time: when the page is referenced again
+  std::vector<std::uint32_t> next_;  ///< by time: the time of the page's next reference
 };
 
-/// What a node's cache of `cache_pages` frames would miss, if each page came before the next reference; with none every reference
-/// is a miss. `seed` is the node's number. Takes a cache's memory, its pages of one byte, and for each reference about what a
-/// cache takes. Throws core::CapacityError if there is not so much.
+/// The misses of a node's cache of `cache_pages` frames, if each page arrived before the next reference; with none every
+/// reference is a miss. `seed` is the node's number. Takes a cache's memory, with pages of one byte, and for each reference about
+/// a cache's time. Throws core::CapacityError if there is not enough memory.
 std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
                             std::uint32_t seed);
 

@@ -1,4 +1,4 @@
-// The pages of other homes that a node references, in order: an instrument, not a part of the computer.
+// The pages of other homes that a node references, in order; an instrument outside of the computer.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace dmpc::svm {
 
-/// Repeats of the page kept last are left out: they are page hits in any cache and change no replacement policy's mind. Lies in
-/// memory that is no node's. With a bound, references of ever fewer pages are kept, those of a share of them: what a cache would
-/// do with them is what it would do with all, every() times smaller (C. A. Waldspurger, N. Park, A. Garthwaite, I. Ahmad,
-/// "Efficient MRC Construction with SHARDS", 2015). A page alone takes one place, however often it is referenced, so a share
-/// that is small enough fits, and tells nothing of caches below some multiple of every() pages. If more than one page is in the
-/// least share, which is of 2^31 pages, what does not fit is not kept. Thread safety: none.
+/// Repeats of the last page are left out: they are page hits in any cache and affect no replacement policy. Lies in memory that
+/// is no node's. With a limit, references of ever fewer pages are kept, by sampling pages: a cache that is every() times smaller
+/// behaves on them as the full one on all (C. A. Waldspurger, N. Park, A. Garthwaite, I. Ahmad, "Efficient MRC Construction with
+/// SHARDS", 2015). A single page takes one entry, however often it is referenced, so a share that is small enough fits, and says
+/// nothing about caches below some multiple of every() pages. If more than one page is in the least share, one of 2^31 pages,
+/// what does not fit is dropped. Not thread-safe.
 class ReferenceLog {
  public:
-  /// Keeps all.
+  /// Keeps all references.
   ReferenceLog() = default;
   /// Keeps up to `references_max` > 0.
   explicit ReferenceLog(std::size_t references_max) : references_max_(references_max) {}
@@ -36,21 +36,21 @@ class ReferenceLog {
   }
   /// The references of the pages that are kept, in order.
   std::span<const PageId> pages() const { return pages_; }
-  /// A power of two.
+  /// One page of every() is kept: a power of two.
   std::uint32_t every() const { return share_.every(); }
-  /// Keeps those of one page of `every`, a power of two that is at least every().
+  /// Keeps one page of `every`, a power of two that is at least every().
   void thin_out(std::uint32_t every) {
     share_.shrink_to(every);
     std::erase_if(pages_, [this](PageId page) { return !share_.has(index_of(page)); });
     pages_.erase(std::unique(pages_.begin(), pages_.end()), pages_.end());
   }
 
-  /// For take() of another.
+  /// Serialises it for take() of another.
   void put(nodes::FlatWriter& flat) const {
     flat.put(share_.every());
     flat.put_all(pages_);
   }
-  /// What another has kept, in place of nothing.
+  /// Replaces this, which is empty, by what another has kept.
   void take(nodes::FlatReader& flat) {
     share_.shrink_to(flat.take<std::uint32_t>());
     pages_ = flat.take_all<PageId>();
@@ -73,7 +73,7 @@ class ReferenceLog {
   std::vector<PageId> pages_;
 };
 
-/// Those of the nodes that are here, for take_logs() of another rank.
+/// Serialises the logs of the nodes that are here, for take_logs() of another rank.
 inline void put_logs(nodes::FlatWriter& flat, const std::vector<ReferenceLog>& logs) {
   for (const ReferenceLog& log : logs) {
     const bool is_here = !log.pages().empty();
@@ -83,7 +83,7 @@ inline void put_logs(nodes::FlatWriter& flat, const std::vector<ReferenceLog>& l
     }
   }
 }
-/// As many.
+/// Reads as many logs.
 inline void take_logs(nodes::FlatReader& flat, std::vector<ReferenceLog>& logs) {
   for (ReferenceLog& log : logs) {
     if (flat.take<bool>()) {

@@ -1,4 +1,4 @@
-// Pages that have left a cache and are remembered by name.
+// Names of evicted pages.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace dmpc::svm {
 
-/// Up to a number of pages in two lists. In the node's local memory. Thread safety: none.
+/// Up to a number of pages in two lists. In the node's local memory. Not thread-safe.
 class Ghosts {
  public:
-  static constexpr unsigned only_list = 0;  ///< for who needs but one
+  static constexpr unsigned only_list = 0;  ///< for policies that need only one
 
   Ghosts(nodes::LocalMemory& memory, std::uint32_t capacity) : lists_(memory, capacity), table_(memory, capacity) {
     std::tie(pages_, free_) = own_layout(capacity).in(memory);
@@ -25,12 +25,12 @@ class Ghosts {
       free_[free_count_] = free_count_;
     }
   }
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::MemoryPlan layout(std::uint32_t capacity) {
     return IndexLists::layout(capacity) + PageTable::layout(capacity) + own_layout(capacity);
   }
 
-  /// The list that it was in, if it was remembered; it is no longer.
+  /// Removes a page; returns the list that it was in, if any.
   std::optional<unsigned> take(PageId page) {
     const std::uint32_t index = table_.find(page);
     if (index == PageTable::nowhere) {
@@ -41,7 +41,7 @@ class Ghosts {
     release(index);
     return list;
   }
-  /// There are fewer than capacity, and the page is none of them.
+  /// Requires fewer than capacity pages, and that the page is none of them.
   void remember(unsigned list, PageId page) {
     core::expect(free_count_ > 0, "no more pages are remembered than there is room for");
     const std::uint32_t index = free_[--free_count_];
@@ -49,14 +49,14 @@ class Ghosts {
     table_.insert(page, index);
     lists_.push(list, index);
   }
-  /// Remembers it in place of the page that has been in the list longest, where there is no room.
+  /// Adds the page; if full, drops the one that has been in the list longest.
   void remember_latest(unsigned list, PageId page) {
     if (free_count_ == 0) {
       forget_oldest(list);
     }
     remember(list, page);
   }
-  /// The page that has been in the list longest; there is one.
+  /// Drops the page that has been in the list longest; requires that there is one.
   void forget_oldest(unsigned list) { release(lists_.remove_oldest(list)); }
   std::uint32_t size(unsigned list) const { return lists_.size(list); }
 

@@ -13,17 +13,17 @@
 
 namespace dmpc::svm {
 
-/// Two doubly linked lists of the numbers below a count, each in one of them or in neither. In the node's local memory. Thread
-/// safety: none.
+/// Two doubly linked lists of the numbers below a count, each in one of them or in neither. In the node's local memory. Not
+/// thread-safe.
 class IndexLists {
   struct Link;
 
  public:
   IndexLists(nodes::LocalMemory& memory, std::uint32_t count) : links_(layout(count).in(memory)) {}
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Room<Link> layout(std::uint32_t count) { return {core::MemoryUse::page_table, count}; }
 
-  /// `index` is in neither list.
+  /// Requires that `index` is in neither list.
   void push(unsigned list, std::uint32_t index) {
     core::expect(links_[index].list == 0, "a number is in one list at most");
     Ends& ends = ends_[list];
@@ -42,7 +42,7 @@ class IndexLists {
     links_[index] = {};
     --ends.size;
   }
-  /// Takes out what was pushed first of all that are in the list, which is not empty.
+  /// Removes the oldest of the list, which must not be empty.
   std::uint32_t remove_oldest(unsigned list) {
     const std::uint32_t oldest = ends_[list].oldest;
     core::expect(oldest != none, "there is an oldest of some");
@@ -51,7 +51,7 @@ class IndexLists {
   }
 
   std::uint32_t size(unsigned list) const { return ends_[list].size; }
-  /// `index` is in a list.
+  /// The list of `index`, which must be in one.
   unsigned list_of(std::uint32_t index) const { return links_[index].list - 1; }
 
  private:

@@ -1,4 +1,4 @@
-// Policies that tell pages seen once from pages seen again, by remembering pages that have left.
+// Policies that distinguish pages seen once from pages seen again, by remembering evicted pages.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace dmpc::svm {
 
-/// Frames in two lists, of pages that are new and of those that came back while they were remembered.
+/// Frames in two lists: new pages, and pages that came back while they were remembered.
 class RememberingPolicy : public ReplacementPolicy {
  public:
   void insert(PageId /*page*/, std::uint32_t frame) final {
@@ -37,7 +37,7 @@ class RememberingPolicy : public ReplacementPolicy {
 };
 
 /// T. Johnson, D. Shasha, "2Q: A Low Overhead High Performance Buffer Management Replacement Algorithm" (VLDB 1994), the full
-/// version: new pages leave in the order in which they came, and one that comes back while it is remembered stays until it is the
+/// version: new pages are evicted in the order of arrival, and one that comes back while it is remembered stays until it is the
 /// least recently used of those. A quarter of the frames is for new pages, half as many pages as there are frames are remembered.
 class TwoQueues final : public RememberingPolicy {
  public:
@@ -48,7 +48,7 @@ class TwoQueues final : public RememberingPolicy {
     return RememberingPolicy::layout(frame_count, ghost_capacity(frame_count));
   }
 
-  /// References soon after the first are taken for one: a new page stays where it is in the queue.
+  /// References soon after the first are not counted: a new page keeps its position in the queue.
   void hit(PageId /*page*/, std::uint32_t frame) override {
     if (frames_.list_of(frame) == again) {
       frames_.remove(frame);
@@ -72,8 +72,8 @@ class TwoQueues final : public RememberingPolicy {
   std::uint32_t new_pages_max_;
 };
 
-/// N. Megiddo, D. S. Modha, "ARC: A Self-Tuning, Low Overhead Replacement Cache" (FAST 2003), figure 4; its p is a whole number
-/// here. As many pages that have left are remembered as there are frames.
+/// N. Megiddo, D. S. Modha, "ARC: A Self-Tuning, Low Overhead Replacement Cache" (FAST 2003), figure 4; its p is an integer here.
+/// As many evicted pages are remembered as there are frames.
 class AdaptiveReplacement final : public RememberingPolicy {
  public:
   explicit AdaptiveReplacement(const PolicySite& site)
@@ -97,14 +97,14 @@ class AdaptiveReplacement final : public RememberingPolicy {
       return replace(*ghost_list == again);
     }
     if (frames_.size(once) == frame_count_) {
-      return frames_.remove_oldest(once);  // and nobody remembers it: as many were seen once as are to be known
+      return frames_.remove_oldest(once);  // not remembered: the list of pages seen once is full
     }
     forget_one();
     return replace(false);
   }
 
  private:
-  /// A page that left too early says which list should have been longer.
+  /// A page that was evicted too early shows which list should have been longer.
   void learn(unsigned ghost_list, std::uint32_t once_ghosts, std::uint32_t again_ghosts) {
     if (ghost_list == once) {
       once_target_ = std::min(frame_count_, once_target_ + std::max(again_ghosts / once_ghosts, 1U));
@@ -113,7 +113,7 @@ class AdaptiveReplacement final : public RememberingPolicy {
     }
   }
 
-  /// Where one more would be too many: as many pages seen once are known as there are frames, and twice as many pages in all.
+  /// If one more would be too many: as many pages seen once are known as there are frames, and twice as many pages in all.
   void forget_one() {
     if (frames_.size(once) + ghosts_.size(once) == frame_count_) {
       ghosts_.forget_oldest(once);
@@ -132,7 +132,7 @@ class AdaptiveReplacement final : public RememberingPolicy {
   }
 
   std::uint32_t frame_count_;
-  std::uint32_t once_target_ = 0;  ///< p: frames that pages seen once should have
+  std::uint32_t once_target_ = 0;  ///< p: target number of frames of pages seen once
 };
 
 }  // namespace dmpc::svm

@@ -1,4 +1,4 @@
-// Three queues: a small one that most pages only pass through, a main one, and one of names.
+// Three queues: a small one that most pages only pass through, a main one, and one of remembered names.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace dmpc::svm {
 
 /// J. Yang, Y. Zhang, Z. Qiu, Y. Yue, R. Vinayak, "FIFO Queues are All You Need for Cache Eviction" (SOSP 2023), algorithm 1
-/// (S3-FIFO), for pages, which are of one size: a tenth of the frames is the small queue's, and as many pages are remembered as
-/// the main queue has frames. One page leaves for one that comes.
+/// (S3-FIFO), for pages, which have one size: the small queue has a tenth of the frames, and as many pages are remembered as the
+/// main queue has frames. One page is evicted for each that arrives.
 class SmallAndMain final : public ReplacementPolicy {
  public:
   explicit SmallAndMain(const PolicySite& site)
@@ -55,7 +55,7 @@ class SmallAndMain final : public ReplacementPolicy {
     return frame_count == 0 ? 0 : std::max(frame_count - small_frames(frame_count), 1U);
   }
 
-  /// Pages that were hit more than once go over to the main queue, and out of that if it is full.
+  /// Moves pages that were hit more than once to the main queue, evicting from that if it is full.
   std::uint32_t leave_small() {
     while (true) {
       const std::uint32_t frame = frames_.remove_oldest(small);
@@ -87,7 +87,7 @@ class SmallAndMain final : public ReplacementPolicy {
   std::uint32_t small_max_, main_max_;
   IndexLists frames_;
   Ghosts ghosts_;
-  std::span<std::uint8_t> hits_;  ///< of each frame's page, up to 3
+  std::span<std::uint8_t> hits_;  ///< hits of each frame's page, up to 3
   bool comes_back_ = false;
 };
 

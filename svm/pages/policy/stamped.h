@@ -1,4 +1,4 @@
-// Policies that read the time stamps which the cache writes: a page hit costs them nothing of their own.
+// Policies that read the time stamps of the cache: a page hit has no further cost.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace dmpc::svm {
 
-/// The next one round.
+/// The next frame, cyclically.
 inline std::uint32_t frame_after(std::uint32_t frame, std::size_t frame_count) { return frame + 1 < frame_count ? frame + 1 : 0; }
 
-/// The page that was referenced least recently, exactly. A search yields the oldest few at once, in order: as long as their
-/// stamps have not changed they are the frames with the least stamps of all, for stamps only grow, so a frame that was not among
-/// the oldest cannot become older than one that was.
+/// Evicts the page that was referenced least recently, exactly. A search finds the oldest few at once, in order: as long as their
+/// stamps have not changed they are the frames with the least stamps, since stamps only grow, so a frame that was not among the
+/// oldest cannot become older than one that was.
 class LeastRecentlyUsed final : public ReplacementPolicy {
   struct Candidate;
 
@@ -49,8 +49,8 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
     std::uint32_t frame = 0;
     std::uint32_t padding = 0;
   };
-  /// One pass with a heap whose top is the youngest of the oldest.
-  /// More would make a search dearer, fewer would make searches more frequent.
+  /// One pass with a heap whose top is the youngest of the oldest. More would make a search more expensive, fewer would make
+  /// searches more frequent.
   static constexpr std::uint32_t candidate_count_max = 64;
 
   void seek_candidates() {
@@ -77,8 +77,8 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
   std::size_t candidate_count_ = 0, next_candidate_ = 0;
 };
 
-/// A hand goes round the frames and takes the mark of a reference from each that has one, until it finds one without (F. J.
-/// Corbato, "A Paging Experiment with the Multics System", 1968). A page that has just come has a mark. No memory of its own.
+/// A hand goes round the frames and clears the reference mark of each that has one, until it finds one without (F. J. Corbato, "A
+/// Paging Experiment with the Multics System", 1968). A new page has a mark. No memory of its own.
 class Clock final : public ReplacementPolicy {
  public:
   explicit Clock(const PolicySite& site) : stamps_(site.stamps) {}
@@ -97,7 +97,7 @@ class Clock final : public ReplacementPolicy {
   std::uint32_t hand_ = 0;
 };
 
-/// Frames are filled in their order, so the page that came first is always the next one round. No memory of its own.
+/// Frames are filled in order, so the oldest page is always in the next frame, cyclically. No memory of its own.
 class FirstInFirstOut final : public ReplacementPolicy {
  public:
   explicit FirstInFirstOut(const PolicySite& site) : frame_count_(site.frame_count()) {}
@@ -112,14 +112,14 @@ class FirstInFirstOut final : public ReplacementPolicy {
   std::uint32_t next_ = 0;
 };
 
-/// Draws from a sequence that depends on the seed alone. With n frames the chances differ from 1/n by less than 2^-32. No memory
-/// of its own.
+/// Draws from a sequence that depends on the seed alone. With n frames the probabilities differ from 1/n by less than 2^-32. No
+/// memory of its own.
 class RandomVictim final : public ReplacementPolicy {
  public:
   explicit RandomVictim(const PolicySite& site)
       : frame_count_(site.frame_count()), state_(core::mix(site.seed + std::uint64_t{1})) {}
 
-  /// A counter put through a hash; the upper half of the product is uniform below the count.
+  /// A hashed counter; the upper half of the product is uniform below the count.
   std::uint32_t victim(PageId /*incoming*/) override {
     const std::uint64_t drawn = core::mix(++state_) >> 32U;
     return static_cast<std::uint32_t>((drawn * frame_count_) >> 32U);
