@@ -1,4 +1,4 @@
-// The rays that have come to a node and wait there: whose the places are that they take, and how these go back.
+// The rays that have arrived at a node and wait there, and the return of the slots (credits) that they take.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace dmpc::dataflow {
 
-/// The backlog and its accounts. `Units`: NoUnits or MovingUnits, which has news for those that are sent credits. Thread safety:
-/// belongs to one node.
+/// The backlog and its accounts. `Units`: NoUnits or MovingUnits, which sends news together with credits. Thread safety: belongs
+/// to one node.
 template <class Units>
 class Arrivals {
  public:
@@ -30,12 +30,12 @@ class Arrivals {
         tested_objects_(plan.tested_objects()),
         backlog_(node.memory(), backlog_capacity(plan)),
         slots_(node.memory(), slots_of(plan)) {}
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::MemoryPlan layout(const Plan& plan) {
     return nodes::MemoryPlan(RayQueue::layout(backlog_capacity(plan))) + Slots::layout(slots_of(plan));
   }
 
-  /// A packet of rays, from a node or the host: calls came(message) for each.
+  /// Takes a packet of rays, from a node or the host: calls came(message) for each.
   template <class Came>
   void take_packet(const nodes::Packet& packet, const Came& came) {
     const auto header = packet.front<RayPacketHeader>();
@@ -58,7 +58,7 @@ class Arrivals {
     }
   }
 
-  /// Takes out the deepest ray, as RayQueue does; its place goes back if it is time.
+  /// Removes the deepest ray, as RayQueue does; returns its slot if it is time.
   std::span<const std::byte> take() {
     std::uint32_t account = 0;
     const std::span<const std::byte> message = backlog_.take(account);
@@ -66,7 +66,7 @@ class Arrivals {
     return message;
   }
   bool has_alike() const { return backlog_.has_alike(); }
-  /// Takes out one as deep, and of its kind.
+  /// Removes another ray of the same depth and kind.
   std::span<const std::byte> take_alike() {
     std::uint32_t account = 0;
     const std::span<const std::byte> message = backlog_.take_alike(account);
@@ -74,17 +74,17 @@ class Arrivals {
     return message;
   }
 
-  /// A node waits for a shared place.
+  /// To be called when a node asks for a shared slot.
   void take_ask(nodes::NodeId sender) {
     slots_.ask(sender);
     grant_slots();
   }
-  /// One that was granted comes back unused.
+  /// To be called when a granted slot comes back unused.
   void take_unused() {
     slots_.give_back(1);
     grant_slots();
   }
-  /// A node that rests keeps nobody's place.
+  /// Returns all slots: a resting node keeps none.
   void give_all_back() {
     for (std::uint32_t account = 0; account < backlog_.sender_count(); ++account) {
       give_back(account, true);

@@ -1,4 +1,4 @@
-// Deposits on their way to the host: gathered, and merged where neighbours in time fall on the same pixel.
+// Light that waits to be sent to the host: gathered, and merged where successive deposits fall on the same pixel.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ class FilmGather {
   struct Capacity {
     std::uint32_t node_count = 1;
     std::uint32_t credits = 1;         ///< for packets to the host, node `node_count`
-    std::uint32_t packet_entries = 1;  ///< of a full packet
-    std::uint32_t at_once = 1;         ///< deposits that may come after one look whether the packet waits: 1 .. packet_entries
+    std::uint32_t packet_entries = 1;  ///< per full packet
+    std::uint32_t at_once = 1;  ///< deposits that may follow one test of waits(): 1 .. packet_entries
   };
 
   struct Counters {
@@ -32,43 +32,43 @@ class FilmGather {
 
   /// Takes the credits.
   FilmGather(nodes::Node& node, const Capacity& capacity);
-  /// What the constructor takes for packets of so many entries.
+  /// The memory that the constructor takes for packets of `packet_entries`.
   static nodes::Room<std::byte> layout(std::uint32_t packet_entries) {
     return {core::MemoryUse::film_tiles, film_packet_bytes(packet_entries)};
   }
 
-  /// Requires that the packet did not wait before as many deposits as may come at once. Sends it if it has no room for as many
-  /// more and a credit is left.
+  /// Requires that waits() was false at most `at_once` deposits ago. Sends the packet if it has not enough free entries for as
+  /// many more and a credit is left.
   void add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
-  /// The same for light that is all that the pixel gets on this plane: pixels of a row that follow each other, and have the same,
-  /// share an entry, also where they come square by square (PixelOrder).
+  /// add() for light that is all that the pixel gets on this plane: consecutive pixels of a row with the same light share an
+  /// entry, also if they come square by square (PixelOrder).
   void add_only(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
-  /// Sends what is there, full or not, if a credit is left.
+  /// Sends the packet, full or not, if a credit is left.
   void flush();
-  /// The host has taken a packet. Sends the one that waits.
+  /// To be called when the host has taken a packet. Sends the one that waits.
   void acknowledged();
 
-  /// The packet is full, or has no room for what may come at once, and found no credit.
+  /// Whether the packet is full, or has not enough free entries, and found no credit.
   bool waits() const { return count_ + at_once_ > entries_.size(); }
-  /// Everything that was added has been sent and acknowledged.
+  /// Whether everything that was added has been sent and acknowledged.
   bool settled() const { return count_ == 0 && under_way_ == 0; }
   std::uint32_t gathered() const { return count_; }
   const Counters& counters() const { return counters_; }
 
  private:
-  /// The entry for this plane of a pixel alone, or nullptr: among the newest of the open packet, since a pixel's deposits come
+  /// The entry for only this pixel and plane, or nullptr: among the newest of the open packet, since a pixel's deposits come
   /// together, or with those of the pixels of a bundle.
   FilmEntry* find(std::uint32_t pixel, std::uint32_t plane);
   FilmEntry* entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
   void append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
 
-  /// So many are looked at. Packets have fewer where rays walk alone, so there all are.
+  /// The number of entries that are searched. Packets of single rays have fewer, so there all are.
   static constexpr std::uint32_t newest_entries = 32;
   static_assert(newest_entries >= film_packet_entries);
 
   nodes::Node* node_;
   nodes::NodeId host_;
-  std::span<std::byte> packet_;   ///< as it is sent
+  std::span<std::byte> packet_;  ///< in the form in which it is sent
   std::span<FilmEntry> entries_;  ///< in it
   std::uint32_t at_once_;
   std::uint32_t count_ = 0;

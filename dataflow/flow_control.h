@@ -1,28 +1,25 @@
-// The rules that keep rays moving with bounded queues: what a node does next, which way a packet of rays takes, and
-// when credits go back. Pure functions: the node program and the exhaustive model in tests/dataflow decide by the
-// same ones.
+// The rules that keep rays moving with bounded queues: a node's next task, the way of a packet of rays, and the return of
+// credits. Pure functions, shared by the node program and the exhaustive model in tests/dataflow.
 //
-// Why nothing can stand still for ever:
-// (1) A credit of (sender, target) is a place for one packet of rays in the target's backlog. So whatever is under
-//     way can be received by a node that is stuck, and nobody ever waits for a reception.
-// (2) A full packet that finds no credit for its owner is queued, and the node goes on. When the queue is full the
-//     packet goes to the host. The host has room for every ray, depends on nobody, and so gives a credit for itself
-//     back as soon as the packet is there: a node waits for the host's credit for a bounded time.
-// (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is
-//     busy, all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that
-//     it keeps goes on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
-// (4) New primary rays start only when nothing received is left and, unless it is done without backpressure
-//     (backpressure.h), few packets are queued here and no other node asks to hold them back. No work is taken up while a packet
-//     waits: one work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
-//     (host, target), with places of their own.
-// (5) Where nodes are few, every sender has credits of its own, which come back to it. Where they are many, an owner's places are
-//     shared: a sender asks for one as soon as it has a ray for that owner, and has no second request or unused credit there.
-//     A credit so granted is for rays that are there, so it is used when their packet is full or its node has nothing else
-//     to do, by (3); if they have gone by way of the host meanwhile, it goes back unused, in the place that it stands for. So
-//     every place becomes free again, and goes to who has waited longest: nobody who asks waits for ever.
-//     A node asks no more owners at once than it has packets: more could only be those whose rays have gone by way of the host.
-//     Every answer lets it ask another.
-// (6) A node that fills as many packets as it has room for closes one before the next ray, so (2) is the way out here, too.
+// Why there is no deadlock:
+// (1) A credit of (sender, target) is a slot for one packet of rays in the target's backlog. So everything in flight can be
+// received even by a node that is stuck, and nobody ever waits for a reception.
+// (2) A full packet that finds no credit for its owner is queued, and the node goes on. When the queue is full the packet goes to
+// the host. The host has memory for every ray, depends on nobody, and so returns a credit for itself as soon as the packet
+// arrives: a node waits for the host's credit for a bounded time.
+// (3) Hence a node with anything to do will do it, its backlog empties, and its credits are returned, batched while it is busy,
+// all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that it buffers goes on. A
+// node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
+// (4) New primary rays start only when nothing received is left and, unless backpressure (backpressure.h) is off, few packets are
+// queued here and no other node asks to throttle. No work is taken up while a packet waits: one work() adds at most one ray to a
+// gather, which had a free slot. The packets that the host forwards take the credits of (host, target), with slots of their own.
+// (5) With few nodes, every sender has its own credits, which return to it. With many, an owner's slots are shared: a sender asks
+// for one as soon as it has a ray for that owner, and has no second request or unused credit there. A granted credit is for rays
+// that are there, so it is used when their packet is full or its node has nothing else to do, by (3); if they have gone through
+// the host meanwhile, it is returned unused, in the slot that it stands for. So every slot becomes free again, and goes to the
+// longest waiting node: no requester waits for ever. A node asks no more owners at once than it has packets: more could only be
+// those whose rays have gone through the host. Every answer lets it ask another.
+// (6) A node that fills as many packets as it has slots for closes one before the next ray, so (2) applies here, too.
 #pragma once
 
 #include <algorithm>
@@ -32,30 +29,30 @@
 
 namespace dmpc::dataflow {
 
-/// What a node has to do, as far as the choice of the next task asks.
+/// The state of a node, for the choice of the next task.
 struct NodeState {
-  bool must_announce = false;      ///< the queue got long or short, and the other nodes do not know it yet
-  bool packet_waits = false;       ///< a packet is closed and has found neither credit nor room in the queue
+  bool must_announce = false;  ///< the queue got long or short, and the other nodes have not been informed yet
+  bool packet_waits = false;  ///< a packet is closed and has found neither credit nor a slot in the queue
   bool is_tracing = false;         ///< a ray is being traced, or a hit has children to be made
   bool has_backlog = false;        ///< received rays
   bool has_primaries = false;      ///< own primary rays that have not started
-  bool admits_primaries = false;   ///< few packets are queued, and no other node asks to hold primary rays back
+  bool admits_primaries = false;  ///< few packets are queued, and no other node asks to throttle primary rays
   bool can_flush = false;          ///< an open packet has rays and may leave
   bool has_gathered = false;       ///< rays in open or queued packets
-  bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
-  bool is_unanswered = false;      ///< some owner has been asked for a place and has not granted it yet
+  bool is_unacknowledged = false;  ///< an announcement is to be revoked or acknowledged
+  bool is_unanswered = false;  ///< some owner has been asked for a slot and has not granted it yet
   bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/migration.h)
 };
 
-/// In the order of precedence.
+/// In order of priority.
 enum class Task : std::uint8_t {
-  announce,       ///< ask the other nodes to hold their primary rays back, or no longer
+  announce,  ///< ask the other nodes to throttle their primary rays, or no longer
   send_waiting,   ///< try the waiting packet again, and nothing else
-  go_on,          ///< with the ray or hit under way: depth first
+  go_on,  ///< with the current ray or hit: depth first
   take_received,  ///< the deepest ray of the backlog
   start_primary,
   flush,  ///< send a packet that is not full: there is no other work
-  rest    ///< return all credits owed, hand on the token if passive, wait for a packet
+  rest  ///< return all credits owed, pass on the token if passive, wait for a packet
 };
 
 /// The next quantum's task.
@@ -78,22 +75,22 @@ constexpr Task next_task(const NodeState& state) {
   return state.can_flush ? Task::flush : Task::rest;
 }
 
-/// Passive in the sense of termination: it will not send a ray packet unless it receives one. A node that rests with rays that
-/// wait for a credit, or for leave to start, is not.
+/// Passive in the sense of termination detection: it will not send a ray packet unless it receives one. A node that rests with
+/// rays that wait for a credit, or for permission to start, is not.
 constexpr bool is_passive(const NodeState& state) {
   return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged &&
          !state.is_unanswered && !state.is_moving_units;
 }
 
-/// Where a packet of rays goes.
+/// The destination of a packet of rays.
 enum class Way : std::uint8_t {
   to_owner,
-  to_queue,  ///< at the sender, until the owner gives a credit back
-  to_host,   ///< overflow: the host keeps it and forwards it when it has a credit for the owner
+  to_queue,  ///< at the sender, until the owner returns a credit
+  to_host,  ///< overflow: the host buffers it and forwards it when it has a credit for the owner
   wait       ///< until a packet brings any credit
 };
 
-/// By the sender's own credits and queue alone, so the answer is the same under every runner.
+/// Depends only on the sender's own credits and queue, so the answer is the same under every runner.
 constexpr Way way_of(bool has_owner_credit, bool has_queue_room, bool has_host_credit) {
   if (has_owner_credit) {
     return Way::to_owner;
@@ -104,40 +101,41 @@ constexpr Way way_of(bool has_owner_credit, bool has_queue_room, bool has_host_c
   return has_host_credit ? Way::to_host : Way::wait;
 }
 
-/// How many credits a busy node collects for one sender before it gives them back: half, so that the sender can go on meanwhile.
+/// The number of credits that a busy node collects for one sender before it returns them: half, so that the sender can go on
+/// meanwhile.
 constexpr std::uint32_t return_batch(std::uint32_t credits_each) { return std::max(1U, credits_each / 2); }
 
-/// Whether a node that owes a sender `owed` credits gives them all back now. A node that rests keeps none: the host may be
-/// waiting for them with rays for it.
+/// Whether a node that owes a sender `owed` credits returns them all now. A resting node keeps none: the host may be waiting for
+/// them with rays for it.
 constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
   return owed > 0 && (rests || owed >= batch);
 }
 
-/// Whether a node closes a packet that is not full: as many are being filled as there is room for, and the next ray may need one
+/// Whether a node closes a packet that is not full: as many are being filled as there are slots, and the next ray may need one
 /// more.
 constexpr bool must_close(std::uint32_t open_packets, std::uint32_t open_packets_max) { return open_packets == open_packets_max; }
 
-/// Whether a node asks an owner whose places are shared for one: there are rays for it, being gathered or in a closed packet.
+/// Whether a node asks an owner for a shared slot: there are rays for it, being gathered or in a closed packet.
 constexpr bool asks(bool has_rays, bool has_credit, bool has_asked) { return has_rays && !has_credit && !has_asked; }
 
-/// Whether it may ask one more, with so many that have not answered: their answers have room in its mailbox.
+/// Whether it may ask one more, with `asked` unanswered requests: their answers have slots in its mailbox.
 constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return asked < asks_max; }
 
-/// Whether a shared place that was granted goes back unused: all rays for that owner have gone by way of the host.
+/// Whether a granted shared slot is returned unused: all rays for that owner have gone through the host.
 constexpr bool declines(bool has_rays, bool has_credit) { return has_credit && !has_rays; }
 
-/// Whether an owner grants one of its shared places to the node that has waited longest.
+/// Whether an owner grants one of its shared slots to the longest waiting node.
 constexpr bool grants(std::uint32_t free_slots, bool is_asked) { return free_slots > 0 && is_asked; }
 
-/// How many of the places in which `packets` packets came are free again, with `rays` of their rays still here.
+/// The number of slots, of those in which `packets` packets came, that are free again, with `rays` of their rays still here.
 constexpr std::uint32_t slots_freed(std::uint32_t packets, std::uint32_t rays, std::uint32_t ray_batch) {
   return packets - core::ceil_divide(rays, ray_batch);
 }
 
-/// Whether the host forwards a packet of the `kept` rays that it keeps for one owner: only into a place that is free.
+/// Whether the host forwards a packet of the `kept` rays that it buffers for one owner: only into a free slot.
 constexpr bool forwards(std::uint64_t kept, bool has_owner_credit) { return kept > 0 && has_owner_credit; }
 
-/// The host is passive in the sense of termination while it keeps no ray, for whatever owner, and has taken back what it relayed.
+/// The host is passive in the sense of termination detection while it buffers no ray, and has revoked what it relayed.
 constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) { return kept == 0 && is_relay_settled; }
 
 }  // namespace dmpc::dataflow

@@ -1,4 +1,4 @@
-// Frames: pictures of one scene from one place after another, on nodes that keep their regions.
+// Frames: pictures of one scene from several viewpoints, on nodes that keep their regions.
 #pragma once
 
 #include <optional>
@@ -14,25 +14,25 @@
 
 namespace dmpc::dataflow {
 
-/// A run of one frame, or of many. The film of each is that of a run of it alone. Regions are those that were prepared, or where
-/// they have moved since; what else there is of a frame nodes do not keep. The camera comes to the nodes as their regions did,
-/// before the start, in no virtual time. Thread safety: none.
+/// A run of one frame, or of many. The film of each is that of a single run. Regions are those that were prepared, or where they
+/// have moved since; nodes keep nothing else of a frame. The camera comes to the nodes as their regions did, before the start, in
+/// no virtual time. Not thread-safe.
 class Frames {
  public:
-  /// Makes nodes and host for what prepare() has prepared with these settings, those of the first frame, and options; all of
-  /// these but options outlive it. On ranks it hands out. `stop` is that of the run.
+  /// Makes nodes and host for the result of prepare() with these settings, those of the first frame, and options; all of these
+  /// except options outlive it. On ranks it hands out. `stop`: the run's.
   Frames(const Prepared& prepared, const core::RenderSettings& first, const RunOptions& options, const std::stop_token& stop);
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
-  /// The first frame. Throws core::InternalError if a law of conservation is broken.
+  /// The first frame. Throws core::InternalError if a conservation law is broken.
   Report render(std::stop_token stop);
-  /// The next, after one that has finished, where the options say that there are several: `settings` differ from the first ones
-  /// in the camera, and what follows from it, alone. `detail` is its picture's.
+  /// The next frame, after one that has finished, if the options say that there are several: `settings` differ from the first
+  /// ones only in the camera, and what follows from it. `detail`: its picture's.
   Report render(const core::RenderSettings& settings, const core::FineDetail& detail, std::stop_token stop);
 
  private:
-  /// What programs and host had counted when the frame began.
+  /// Counters of programs and host at the start of the frame.
   struct Before {
     std::vector<ProgramReport> nodes;
     HostCounters host;
@@ -42,7 +42,7 @@ class Frames {
 
   const Prepared& prepared_;
   RunOptions options_;
-  core::RenderSettings settings_;  ///< of the frame under way
+  core::RenderSettings settings_;  ///< of the current frame
   core::FineDetail detail_;
   Plan plan_;
   std::optional<pictures::Computer> computer_;

@@ -1,4 +1,4 @@
-// The host's program: takes the film, keeps and forwards the rays that overflow, proves the end and stops the run.
+// The host's program: takes the film, buffers and forwards overflowing rays, detects termination and stops the run.
 #pragma once
 
 #include <cstdint>
@@ -24,38 +24,38 @@
 
 namespace dmpc::dataflow {
 
-/// The primary rays of a pass, except for those of pixels that are done, by node: all of them, or nothing if a stop of the run was
+/// The primary rays of a pass, without those of pixels that are done, by node: all of them, or nothing if a stop of the run was
 /// requested meanwhile.
 using AssignPrimaries =
     std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::Pass& pass, const core::PixelMask& done)>;
 
-/// What the host counts beside the packets.
+/// The host's counters in addition to the packets.
 struct HostCounters {
   std::uint64_t rays_in = 0;             ///< overflowed
-  std::uint64_t rays_out = 0;            ///< forwarded: at the end the same
+  std::uint64_t rays_out = 0;  ///< forwarded: at the end as many
   std::uint64_t rays_buffered_max = 0;   ///< at once
-  std::size_t buffered_bytes_max = 0;    ///< of the host's heap, beyond its plan: the places of buffered rays
-  std::uint64_t token_rounds = 0;        ///< of the proof of the end (termination.h)
+  std::size_t buffered_bytes_max = 0;  ///< of the host's heap, beyond its plan: for buffered rays
+  std::uint64_t token_rounds = 0;  ///< rounds of termination detection (termination.h)
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
 
-/// Depends on nobody: film, overflow and what is to be throttled are taken and acknowledged at once. When the end of a pass is
-/// proved and its film complete, it assigns the primary rays of the next, if there is one, packet by packet as nodes have room.
-/// Where the plan says so it assigns those of the first pass, too. If then the picture is to be kept, it holds rays back until no
-/// other is left anywhere, which the same proof tells: then the pixels that have begun are done. A pass that could not be
-/// assigned whole never ends: the host then waits for the runner to end the run.
+/// Depends on nobody: film, overflow and throttling are taken and acknowledged at once. When the end of a pass is detected and
+/// its film complete, it assigns the primary rays of the next, if there is one, packet by packet as nodes have free slots. If the
+/// plan says so it assigns those of the first pass, too. If then the picture is to be saved, it throttles rays until no other is
+/// left anywhere, by the same detection: then the pixels that have begun are done. A pass that could not be assigned completely
+/// never ends: the host then waits for the runner to end the run.
 class HostProgram final : public pictures::Host {
  public:
-  /// As pictures::Host. `deal` finds whose the primary rays are that are assigned after the start; nothing is kept unless the
-  /// plan says that all are.
+  /// As pictures::Host. `assign` finds the owners of primary rays that are assigned after the start; it is kept only if the plan
+  /// says that all are.
   HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, AssignPrimaries assign,
               const core::Continuation& continuation = {}, const core::FineDetail* detail = nullptr);
-  /// What the constructor takes of the local memory.
+  /// The local memory that the constructor takes.
   static nodes::MemoryPlan layout(const Plan& plan);
 
-  /// Whose the picture's primary rays are `deal` tells. What is counted goes on, except for what saturates. Where the plan says that
-  /// the host assigns all primary rays.
+  /// `assign` finds the owners of the picture's primary rays. Counters go on, except those of saturation. Only if the plan says
+  /// that the host assigns all primary rays.
   void begin_frame(const core::FineDetail* detail) override;
 
   void receive(const nodes::Packet& packet) override;
@@ -87,8 +87,8 @@ class HostProgram final : public pictures::Host {
   PendingPrimaries pending_primaries_;
   BufferedRays kept_;
   Termination termination_;
-  Backpressure relay_;           ///< of what nodes tell the host alone
-  std::span<std::byte> packet_;  ///< where a packet is put together
+  Backpressure relay_;  ///< for announcements of nodes to the host alone
+  std::span<std::byte> packet_;  ///< buffer in which a packet is put together
   std::uint32_t node_count_;
   std::uint32_t ray_batch_;
   std::uint32_t tested_objects_;
@@ -96,7 +96,7 @@ class HostProgram final : public pictures::Host {
   HostCounters counters_;
   bool finishing_ = false;
   bool stopped_ = false;
-  bool is_cut_short_ = false;  ///< the rays of the pass are not known, as a stop was requested
+  bool is_cut_short_ = false;  ///< the rays of the pass are unknown, as a stop was requested
 };
 
 }  // namespace dmpc::dataflow

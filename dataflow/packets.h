@@ -1,6 +1,6 @@
-// What the nodes of dataflow and the host tell each other: values, without pointers.
+// Messages between the nodes of dataflow and the host: values, without pointers.
 //
-//   kind                   from -> to            channel   size   its place in the target's mailbox is reserved by
+// kind                   from -> to            channel   size   its slot in the target's mailbox is reserved by
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
@@ -26,12 +26,12 @@
 //   unit_acknowledgement   recipient -> donor        control   small  the page, or the primary rays
 //   unit_moved             receiver -> sender    control   small  the ray packets whose credits are given back with it
 //
-// Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
-// rays for the proof of the end, so none is under way then. Packets of units exist only where regions move.
+// Requests and unused credits exist only if owners' slots are shared (flow_control.h). An unused credit counts as a packet of
+// rays for termination detection, so none is in flight then. Packets of units exist only if regions move.
 //
-// Primaries exist only where the host assigns primary rays after the start (PlanRequest::is_assigned()): those of later passes,
-// and those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end.
-// Finish and done then come once a pass.
+// Primaries exist only if the host assigns primary rays after the start (PlanRequest::is_assigned()): those of later passes, and
+// those of the first in a run that is saved or resumed. A packet of them counts as one of rays for termination detection. Finish
+// and done then come once per pass.
 #pragma once
 
 #include <array>
@@ -114,30 +114,29 @@ inline constexpr nodes::Channel control_channel = 2;
 inline constexpr nodes::Channel unit_channel = 3;
 static_assert(unit_channel < nodes::channel_count);
 
-/// What fits so many bytes is the length of a packet of film where rays walk alone, and by default of one of rays on a modelled
-/// machine; on threads that is more.
+/// The length of a packet of film for single rays, and the default of one of rays on a modelled machine; on threads it is more.
 inline constexpr std::size_t packet_bytes = 1_KiB;
 /// No packet is longer.
 inline constexpr std::size_t packet_bytes_max = 64_KiB;
 
-/// A ray on its way from region to region.
+/// A ray that goes from region to region.
 struct RayMessage {
   core::Ray ray;
   double t_enter = 0;
   core::Corner cell{};  ///< the finest cell that it enters; its owner is the target
   std::uint8_t entry_axis = 3;
-  /// 1: `best` is the hit, known to be the nearest; the target is its finder, which alone has its block and shades it.
+  /// 1: `best` is the hit, known to be the nearest; the target is its finder, which alone has its leaf and shades it.
   std::uint8_t is_confirmed = 0;
-  /// Index of the node in whose memory best.block is; without meaning if there is no candidate.
+  /// Index of the node in whose memory best.leaf is; meaningless if there is no candidate.
   std::uint16_t finder = 0;
   core::Hit best;
-  TestedNames tested{};  ///< of which as many travel as the run has asked for: none, as a rule
+  TestedNames tested{};  ///< as many are sent as the run has asked for: usually none
 
   core::Passage passage() const { return {t_enter, cell, entry_axis, best}; }
 };
 static_assert(sizeof(RayMessage) == 152 && std::is_trivially_copyable_v<RayMessage>);
 
-/// What a message takes on its way, and where it waits: the first bytes of a RayMessage.
+/// The size of a message in packets and queues: the first bytes of a RayMessage.
 constexpr std::size_t ray_message_bytes(std::uint32_t tested_objects) {
   return offsetof(RayMessage, tested) + tested_objects * sizeof(std::uint32_t);
 }
@@ -154,20 +153,20 @@ inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage,
           .best = passage.best};
 }
 
-/// Stands before `count` rays.
+/// Precedes `count` rays.
 struct RayPacketHeader {
   std::uint16_t count = 0;
-  std::uint16_t owner = 0;      ///< for whom they are, by whatever way
-  std::uint32_t rays_left = 0;  ///< where regions move: primary rays of the sender's units that have not started
+  std::uint16_t owner = 0;  ///< of the rays, by either way
+  std::uint32_t rays_left = 0;  ///< if regions move: primary rays of the sender's units that have not started
 };
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
 
-/// What a packet of so many rays takes, in bytes.
+/// The size of a packet of `ray_count` rays, in bytes.
 constexpr std::size_t ray_packet_bytes(std::size_t ray_count, std::uint32_t tested_objects = 0) {
   return sizeof(RayPacketHeader) + ray_count * ray_message_bytes(tested_objects);
 }
 static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
-/// Copies a message, as it travels. Mostly rays have no names with them, and then the compiler knows how long that is.
+/// Copies a message, as it is sent. Mostly rays have no names with them, and then the compiler knows the length.
 inline void copy_message(void* to, const void* from, std::size_t message_bytes) {
   if (message_bytes == ray_message_bytes(0)) {
     std::memcpy(to, from, ray_message_bytes(0));
@@ -175,12 +174,12 @@ inline void copy_message(void* to, const void* from, std::size_t message_bytes) 
     std::memcpy(to, from, message_bytes);
   }
 }
-/// Where the ray at `place` of such a packet is, whose rays take along `tested_objects` names.
+/// The bytes of the ray at `place` of such a packet, whose rays have `tested_objects` names.
 inline std::span<const std::byte> ray_bytes_in(std::span<const std::byte> packet, std::size_t place,
                                                std::uint32_t tested_objects) {
   return packet.subspan(ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
 }
-/// A message from where it lies.
+/// Reads a message.
 inline RayMessage message_in(std::span<const std::byte> bytes) {
   RayMessage message;
   copy_message(&message, bytes.data(), bytes.size());
@@ -192,11 +191,11 @@ inline RayMessage ray_in(std::span<const std::byte> packet, std::size_t place, s
 inline std::span<std::byte> ray_bytes_in(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects) {
   return packet.subspan(ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
 }
-/// Puts it there.
+/// Stores it there.
 inline void put_ray(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects, const RayMessage& message) {
   copy_message(ray_bytes_in(packet, place, tested_objects).data(), &message, ray_message_bytes(tested_objects));
 }
-/// What lies `offset` bytes behind the beginning of a message; and the way back.
+/// Reads the value at `offset` bytes from the beginning of a message; and writes it.
 template <class T>
 void get_field(std::span<const std::byte> message, std::size_t offset, T& field) {
   std::memcpy(&field, message.subspan(offset, sizeof(T)).data(), sizeof(T));
@@ -205,7 +204,7 @@ template <class T>
 void put_field(std::span<std::byte> message, std::size_t offset, const T& field) {
   std::memcpy(message.subspan(offset, sizeof(T)).data(), &field, sizeof(T));
 }
-/// What is asked of a message where it lies.
+/// Members of a message, read in place.
 inline core::RayKind kind_in(std::span<const std::byte> message) {
   return static_cast<core::RayKind>(message[offsetof(RayMessage, ray) + offsetof(core::Ray, kind)]);
 }
@@ -220,33 +219,32 @@ inline std::uint32_t pixel_in(std::span<const std::byte> message) {
 inline bool is_confirmed_in(std::span<const std::byte> message) {
   return message[offsetof(RayMessage, is_confirmed)] != std::byte{0};
 }
-/// How many rays fit so many bytes.
+/// The number of rays that fit `bytes`.
 constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {
   return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / ray_message_bytes(tested_objects));
 }
 inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 
-/// A packet of which the kind says all.
+/// A packet whose only content is its kind.
 struct Word {
   std::uint32_t padding = 0;
 };
 
-/// The receiver has taken up the rays of so many packets.
+/// The receiver has taken the rays of some packets.
 struct Credits {
   std::uint32_t count = 0;
 };
 
-/// Asks an owner for one of its shared places; the answer is a credit.
+/// Asks an owner for one of its shared slots; the answer is a credit.
 using Ask = Word;
 
-/// Gives a credit back that is not needed any more, in the place that it stands for: so long that it takes a slot of packets of
-/// rays.
+/// Returns a credit that is no longer needed, in the slot that it stands for: so long that it takes a slot of packets of rays.
 struct Unused {
   std::array<std::byte, nodes::small_payload_bytes + 8> padding{};
 };
 static_assert(sizeof(Unused) > nodes::small_payload_bytes && sizeof(Unused) <= ray_packet_bytes(1));
 
-/// What a node asks of all others (backpressure.h).
+/// A node's request to all others (backpressure.h).
 struct Throttle {
   std::uint32_t holds = 0;  ///< 1: start no primary rays for the time being; 0: this node no longer asks for it
 };
@@ -254,18 +252,18 @@ struct Throttle {
 using ThrottleAcknowledgement = Word;
 
 /// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes. Or for each of several
-/// pixels of the background.
+/// background pixels.
 struct FilmEntry {
   std::uint32_t pixel = 0;  ///< the first
   std::uint16_t plane = 0;
-  std::uint16_t more = 0;  ///< pixels that follow it, by their numbers
-  core::FixedColor light;  ///< of each
+  std::uint16_t more = 0;  ///< number of pixels that follow it, by index
+  core::FixedColor light;  ///< of each pixel
 };
-/// As many pixels an entry has at most.
+/// The maximum number of pixels of an entry.
 inline constexpr std::uint32_t film_entry_pixels_max = 0x10000;
 static_assert(sizeof(FilmEntry) == 32 && std::is_trivially_copyable_v<FilmEntry>);
 
-/// Stands before `count` entries.
+/// Precedes `count` entries.
 struct FilmHeader {
   std::uint32_t count = 0;
   std::uint32_t padding = 0;
@@ -273,11 +271,11 @@ struct FilmHeader {
 static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
 
 constexpr std::size_t film_packet_bytes(std::size_t entry_count) { return sizeof(FilmHeader) + entry_count * sizeof(FilmEntry); }
-/// How many entries fit so many bytes.
+/// The number of entries that fit `bytes`.
 constexpr std::uint32_t film_entries_in(std::size_t bytes) {
   return static_cast<std::uint32_t>((bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
 }
-/// No packet of film has room for fewer.
+/// The minimum capacity of a packet of film.
 inline constexpr std::uint32_t film_packet_entries = film_entries_in(packet_bytes);
 
 struct FilmAcknowledgement {
@@ -287,12 +285,12 @@ struct FilmAcknowledgement {
 /// No ray is left anywhere: send the rest of the film.
 using Finish = Word;
 
-/// All that the sender, and those below it in the tree, put on the film has been acknowledged.
+/// Everything that the sender, and those below it in the tree, put on the film has been acknowledged.
 struct Done {
   std::uint64_t entries = 0;  ///< since the start
 };
 
-/// What a member's children in the tree have said since the end was proved.
+/// The reports of a member's children in the tree since the end was detected.
 struct DoneBelow {
   std::uint32_t reported = 0;
   std::uint64_t entries = 0;
@@ -306,46 +304,46 @@ struct DoneBelow {
 /// Primary rays of a pass that enter the grid in the target's region.
 struct AssignedPrimaries {
   core::SampleRange samples;
-  std::uint32_t count = 0;  ///< of runs
+  std::uint32_t count = 0;  ///< number of runs
   std::uint32_t padding = 0;
   std::array<PrimaryRun, 60> runs{};  ///< numbered by `samples`
 };
 static_assert(std::is_trivially_copyable_v<AssignedPrimaries> && sizeof(AssignedPrimaries) > nodes::small_payload_bytes);
-/// So many of them a node can keep: one is worked off while the next is under way.
+/// The maximum number of such packets at a node: one is processed while the next is in flight.
 inline constexpr std::uint32_t assigned_packets = 2;
 
-/// The sender has room for so many more packets of primaries.
+/// The sender has slots for some more packets of primaries.
 struct PrimariesTaken {
   std::uint32_t count = 0;
 };
 
-/// The sender is idle, and has room for so many pages, and runs of primary rays.
+/// The sender is idle, and has memory for this number of pages, and of runs of primary rays.
 struct UnitAsk {
   std::uint32_t free_frames = 0, free_runs = 0;
 };
 
 using UnitRefusal = Word;
 
-/// Stands before a page that a unit's rays need.
+/// Precedes a page that a unit's rays need.
 struct UnitPageHeader {
   std::uint32_t unit = 0, version = 0;
   std::uint32_t page = 0;     ///< its number in the database
-  std::uint32_t is_last = 0;  ///< 1: the receiver answers for the unit from now on
+  std::uint32_t is_last = 0;  ///< 1: the receiver is responsible for the unit from now on
 };
 static_assert(std::is_trivially_copyable_v<UnitPageHeader>);
 
-/// Primary rays that enter the grid in a unit that the receiver answers for.
+/// Primary rays that enter the grid in a unit for which the receiver is responsible.
 struct UnitPrimaryRays {
   std::uint32_t unit = 0;
-  std::uint32_t is_last = 0;  ///< 1: nothing more comes of the unit
+  std::uint32_t is_last = 0;  ///< 1: nothing more of the unit follows
   AssignedPrimaries assigned;
 };
 static_assert(std::is_trivially_copyable_v<UnitPrimaryRays> && sizeof(UnitPrimaryRays) > nodes::small_payload_bytes);
 
-/// The page, or the primary rays, have come.
+/// The page, or the primary rays, have arrived.
 using UnitAcknowledgement = Word;
 
-/// Who took a unit for which rays came to one that no longer answers for it.
+/// The new owner of a unit for which rays came to a node that is no longer responsible.
 struct UnitMoved {
   std::uint32_t unit = 0, version = 0, owner = 0;
 };
@@ -360,7 +358,7 @@ static_assert(is_small_packet<UnitAsk> && is_small_packet<UnitRefusal> && is_sma
 static_assert(is_small_packet<UnitMoved>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 
-/// Sends a small packet for which the protocol keeps a place in the target's mailbox (the table above).
+/// Sends a small packet for which the protocol reserves a slot in the target's mailbox (the table above).
 template <class T>
 void send_control(nodes::Node& node, nodes::NodeId target, Kind kind, const T& value) {
   static_assert(is_small_packet<T>);
@@ -376,12 +374,12 @@ void send_control_to(nodes::Node& node, nodes::NodeId first, std::uint32_t count
   }
 }
 
-/// Hands a token on.
+/// Passes a token on.
 inline void send_tokens(nodes::Node& node, const TokenHandover& handover) {
   send_control_to(node, handover.first, handover.count, Kind::token, handover.token);
 }
 
-/// Tells the children in the tree.
+/// Sends it to the children in the tree.
 template <class T>
 void notify_children(nodes::Node& node, const TreePlace& place, Kind kind, const T& value) {
   send_control_to(node, nodes::NodeId{place.first_child}, place.child_count, kind, value);

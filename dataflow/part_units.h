@@ -1,5 +1,5 @@
-// What a node's program has of the scene: where regions move units, with their pages, their primary rays and their way from node
-// to node; else a part that stays.
+// A node's part of the scene: if regions move, units with their pages, their primary rays and their migration from node to node;
+// otherwise a fixed part.
 #pragma once
 
 #include <cstddef>
@@ -38,47 +38,47 @@ class MovingUnits {
   }
   MovingUnits(const MovingUnits&) = delete;
   MovingUnits& operator=(const MovingUnits&) = delete;
-  /// What the constructor takes at node `index`.
+  /// The memory that the constructor takes at node `index`.
   static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) {
     return UnitPages::layout(plan.pages_of_node(index)) + UnitPrimaries::layout(plan.primaries_of_node(index)) +
            Movement::layout(plan);
   }
 
   PartRecords records() const { return {{}, &pages_}; }
-  /// Those of the primary rays assigned before the start that are of no unit.
+  /// The primary rays assigned before the start that belong to no unit.
   static std::span<const PrimaryRun> others_of(std::span<const PrimaryRun> /*primaries*/) { return {}; }
 
-  /// How many primary rays of units are left.
+  /// The number of primary rays of units that are left.
   std::uint64_t primaries_left() const { return primaries_.left(); }
   /// The next primary ray to start: one of the others, or of a unit if there is none. Requires that one is left.
   PrimaryStart take_primary(Primaries& others) {
     return others.empty() ? PrimaryStart{primaries_.take(), primaries_.samples()} : PrimaryStart{others.take(), others.samples()};
   }
 
-  /// From any node or the host.
+  /// To be called when rays have come from any node or the host.
   void rays_came() { movement_.rays_came(); }
-  /// A packet of rays from a node; its rays are next.
+  /// To be called for a packet of rays from a node, before its rays.
   void packet_came(nodes::NodeId sender, const RayPacketHeader& header) { movement_.take_rays_left(sender, header.rays_left); }
   void ray_came(nodes::NodeId sender, std::span<const std::byte> bytes) {
     if (is_others(bytes)) {
       movement_.is_behind(sender, unit_of(bytes));
     }
   }
-  /// The unit that the ray enters has moved on, and the sender did not know.
+  /// Whether the unit that the ray enters has migrated, and the sender did not know.
   bool is_others(std::span<const std::byte> message) const {
     return !is_confirmed_in(message) && !movement_.answers_for(unit_of(message));
   }
-  /// Such a ray goes to another node.
+  /// To be called when such a ray is forwarded to another node.
   void sent_on() { movement_.sent_on(); }
-  /// Ahead of credits for a node, so that there is room for it: it has been taken before the credits let more of it arise.
+  /// Sends news before credits for a node, so that there is a slot for it: it has been taken before the credits allow more of it.
   void report_news(nodes::NodeId sender) { movement_.report_news(sender); }
-  /// Packets of rays say how many primary rays could be migrated.
+  /// Packets of rays report how many primary rays could be migrated.
   void report_left(Gather& gather) const { gather.report(movement_.rays_left()); }
 
   bool is_settled() const { return movement_.is_settled(); }
   bool wants_to_ask() const { return movement_.wants_to_ask(); }
   void ask() { movement_.ask(); }
-  /// What may set this node going counts as a packet of rays for the proof of the end.
+  /// Packets that may set this node going count as packets of rays for termination detection.
   void receive(const nodes::Packet& packet, Termination& termination) {
     if (Kind{packet.kind} == Kind::unit_moved) {
       return movement_.take_news(packet.as<UnitMoved>());
@@ -105,7 +105,7 @@ class MovingUnits {
   Movement movement_;
 };
 
-/// Where regions stay whose they are: its part in one piece. Has the functions of MovingUnits, which do nothing here.
+/// For regions that do not move: the node's part in one piece. Has the functions of MovingUnits, which do nothing here.
 class NoUnits {
  public:
   NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeAssignment& assign, const core::DatabaseHeader& /*header*/,

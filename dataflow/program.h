@@ -1,17 +1,16 @@
-// The node program of dataflow: rays that come in, go on, hit, and leave for other regions.
+// The node program of dataflow: rays that arrive, are traced and shaded, and leave for other regions.
 //
-// A quantum follows the table of flow_control.h: one ray, or one bundle of rays of a kind, is traced, from where it starts or
-// enters until it ends or leaves the region; then rays go out one by one, as long as none of them has made a packet wait: the
-// others stay in the bundle. What keeps the last node moving, and why every queue is bounded, is said there; the sums are in
-// plan.cpp.
+// A quantum follows the table of flow_control.h: one ray, or one bundle of rays of a kind, is traced, from its start or entry
+// until it ends or leaves the region; then rays go out one by one, as long as none of them has made a packet wait: the others
+// stay in the bundle. The reasons for progress and bounded queues are given there; the sums are in plan.cpp.
 //
-// Primary rays are started by credit: while a packet of this node's waits for one, or another node's queue is long, none is. A
-// node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it
-// keeps nobody's credit. So when all have come to rest or throttle, every credit comes home, and one of them goes on.
+// Primary rays are started by credit: while a packet of this node waits for one, or another node's queue is long, none is. A node
+// that throttles its primary rays has no other work. It is not passive, so it keeps the token; but like a resting node it keeps
+// nobody's credit. So when all nodes have come to rest or throttle, all credits are returned, and one of the nodes goes on.
 //
-// Who claims a hit: the owner of the cell in which the traversal proves it the nearest. If that owner has met the same (t,
-// primitive) itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows
-// where the record is. Either way one node shades it.
+// Which node shades a hit: the owner of the cell in which the traversal proves it the nearest. If that owner has found the same
+// (t, primitive) itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows
+// where the record is. In either case exactly one node shades it.
 #pragma once
 
 #include <array>
@@ -40,14 +39,14 @@
 
 namespace dmpc::dataflow {
 
-/// What a node counts beside core's operations and the packets.
+/// A node's counters in addition to core's operations and the packets.
 struct RayCounters {
   std::array<std::uint64_t, core::ray_kind_count> in{}, out{};  ///< rays received and sent, by kind; confirmed hits included
-  std::uint64_t ended = 0;                                      ///< hit or miss; over all nodes as many as were shot
+  std::uint64_t ended = 0;  ///< hits or misses; over all nodes as many as were shot
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
-  std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
-  std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
+  std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested on other nodes (RayOptions::tested_objects)
+  std::uint64_t holds = 0;  ///< times that it asked the others to throttle primary rays
 
   std::uint64_t received() const { return std::accumulate(in.begin(), in.end(), std::uint64_t{0}); }
   std::uint64_t sent() const { return std::accumulate(out.begin(), out.end(), std::uint64_t{0}); }
@@ -66,28 +65,28 @@ static_assert(std::is_trivially_copyable_v<ProgramCounts>, "it travels as bytes 
 
 /// All that a program counted.
 struct ProgramReport : ProgramCounts {
-  std::vector<SentToOwner> pairs;  ///< by owner, ascending; of whom there was a ray
+  std::vector<SentToOwner> pairs;  ///< by owner, ascending; owners without rays are left out
 };
 
-/// What all node programs of dataflow are, whatever their rays share.
+/// The base of all node programs of dataflow, with any kind of regions.
 class NodeProgram : public nodes::Program, public pictures::PictureProgram {
  public:
-  /// What the program of the plan takes at node `index`.
+  /// The memory of the plan's program at node `index`.
   static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
   /// Call it only while the program is not running.
   virtual ProgramReport report() const = 0;
 };
 
-/// What a node is given before the start, read in the constructor of its program and never again.
+/// A node's assignment, read in the constructor of its program only.
 struct NodeAssignment {
   const core::DatabaseHeader& header;  ///< of its part of the database
-  nodes::ByteSource records;           ///< which are these
+  nodes::ByteSource records;  ///< the records of the part
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& proxy;                   ///< of the whole database
-  std::span<const std::uint32_t> pages = {};         ///< where regions move: the numbers of those that the part consists of
-  std::span<const std::uint32_t> runs_of_unit = {};  ///< where regions move: how many of the runs are each unit's, in turn
+  const core::DatabasePart& proxy;  ///< of the whole database
+  std::span<const std::uint32_t> pages = {};  ///< if regions move: the numbers of the part's pages
+  std::span<const std::uint32_t> runs_of_unit = {};  ///< if regions move: the number of runs of each unit, in turn
 };
 
 /// The program of the plan.

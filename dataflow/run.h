@@ -1,4 +1,4 @@
-// Renders a picture on N nodes between which rays travel: assigns the scene, plans the memory, runs, and reports.
+// Renders a picture on N nodes with travelling rays: assigns the scene, plans the memory, runs, and reports.
 #pragma once
 
 #include <cstddef>
@@ -28,13 +28,13 @@
 
 namespace dmpc::dataflow {
 
-/// A run, except for the database and the picture.
+/// Options of a run, without the database and the picture.
 struct RunOptions {
   nodes::ComputerRequest computer = {};
   RayOptions rays = {};
-  MakeRegions make_regions = {};  ///< regions of one's own, in place of those that `rays` asks for
+  MakeRegions make_regions = {};  ///< user-defined regions, in place of those given by `rays`
   nodes::Watching watching = {};  ///< rays look up no pages: those kinds of a heat map stay zero
-  /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
+  /// Where the picture is begun, and what of it is saved during the run: in states that the host reaches by assigning no more
   /// primary rays until none is left. So with any of it the host assigns all of them after the start.
   core::Continuation continuation = {};
   /// Several pictures follow each other (dataflow/frames.h): then, too, the host assigns all primary rays after the start.
@@ -45,17 +45,17 @@ struct NodeReport : nodes::NodeFigures {
   ProgramReport program;
   core::Region region;  ///< the box around its regions, in finest cells
   std::uint32_t region_count = 1;
-  double region_share = 0;             ///< of the grid's volume that is in them
+  double region_share = 0;  ///< share of the grid's volume in them
   std::size_t part_bytes = 0;          ///< the records of its regions
-  std::uint64_t primitive_copies = 0;  ///< in them
+  std::uint64_t primitive_copies = 0;  ///< in these records
   std::uint64_t primary_rays = 0;      ///< assigned before the start
 };
 
 struct Report : pictures::Report<NodeReport> {
-  std::uint64_t samples_found_done = 0;  ///< of all pixels, before the start
+  std::uint64_t samples_found_done = 0;  ///< of all pixels, done before the start
   Plan plan;
   Regions regions;
-  std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty unless that was made
+  std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty without one
   double duplication = 1;         ///< copies of primitives over those in the database
   HostCounters host_rays = {};
 
@@ -63,11 +63,11 @@ struct Report : pictures::Report<NodeReport> {
   RayCounters rays() const { return summed(&ProgramReport::rays); }
   MovementCounters movement() const { return summed(&ProgramReport::movement); }
   Gather::Counters gathers() const;
-  /// The work that each node has done, in picoseconds by measured_prices: to be held against `predicted`.
+  /// The work that each node has done, in picoseconds by measured_prices: to be compared with `predicted`.
   std::vector<double> work() const;
-  /// Rays from a node (row) to an owner (column), whichever way they took, row by row.
+  /// Rays from a node (row) to an owner (column), by either way, row by row.
   std::vector<std::uint64_t> ray_matrix() const;
-  /// The same of those pairs alone that have any, in this order: few, where nodes are many.
+  /// The pairs with rays only, in the same order: few, if there are many nodes.
   std::vector<Flow> ray_flows() const;
   /// Ray messages per ray: how often a ray changes its node, on average.
   double messages_per_ray() const;
@@ -75,28 +75,28 @@ struct Report : pictures::Report<NodeReport> {
   double mean_fill() const;
 };
 
-/// What of this traffic is packets with rays, by whatever way: those by way of the host count twice, as they come and as they go.
+/// The part of this traffic that is packets with rays, by either way: those through the host count twice.
 nodes::Traffic ray_traffic(const nodes::TrafficByKind& by_kind);
 
-/// All that is settled before a run.
+/// The result of the preparations for a run.
 struct Prepared {
-  Distribution distribution;      ///< regions on their nodes, and what these are assigned
+  Distribution distribution;  ///< regions on their nodes, and the assignments
   std::vector<double> predicted;  ///< as in Report
   double duplication = 1;         ///< as in Report
-  core::FineDetail detail;        ///< of the picture, if it is refined
+  core::FineDetail detail;  ///< the picture's, if it is refined
   Plan plan;
 };
 
-/// Balances, assigns and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After
-/// a stop is requested it makes haste, and what it returns is good for nothing but a run that the same stop ends at once.
+/// Balances, assigns and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After a stop
+/// is requested it ends early, and its result is only good for a run that the same stop ends at once.
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop = {});
 
-/// What prepare() asks make_plan() for, where the nodes are assigned these shares.
+/// The arguments of make_plan() for nodes with these shares.
 PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders what prepare() has prepared with the same settings and options. On ranks rank 0 calls it, and the others follow()
-/// (dataflow/ranks.h). Throws core::InternalError if a law of conservation is broken. Several calls at one time are independent.
+/// Renders the result of prepare() with the same settings and options. On ranks rank 0 calls it, and the others follow()
+/// (dataflow/ranks.h). Throws core::InternalError if a conservation law is broken. Concurrent calls are independent.
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
@@ -107,22 +107,22 @@ Report run_dataflow(const core::Database& database, const core::RenderSettings& 
 /// Makes the program of node `index`; called before the start, in order, on the calling thread.
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
 
-/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
-/// the runner. Of `options` it reads what meters are for. `stop` is that of the run.
+/// The specifications for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive the runner. Of
+/// `options` it uses those for meters. `stop`: the run's.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
                                                         const RunOptions& options, const std::stop_token& stop = {},
                                                         const core::FineDetail* detail = nullptr);
 
-/// What a runner needs where the host is elsewhere.
+/// The specifications if the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
-/// What is told after a run.
+/// The reports after a run.
 struct GatheredReports {
   std::vector<NodeReport> nodes;  ///< as far as their programs know
-  bool are_credits_back = true;   ///< to where they started
+  bool are_credits_back = true;  ///< where they started
 };
-/// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.
+/// To be called after a run, on all ranks: the reports of all nodes on the host's rank; on others those of their own nodes.
 GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan);
 
 }  // namespace dmpc::dataflow

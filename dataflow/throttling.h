@@ -1,4 +1,4 @@
-// A node's part in holding primary rays back: what it announces, to whom, and what it hands on of others' announcements.
+// A node's part in throttling primary rays: its announcements, their recipients, and what it forwards of others' announcements.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Throttling : public Backpressure {
         tells_host_alone_(plan.shares_slots()),
         place_(TerminationTree{plan.node_count()}.place_of(node.id())) {}
 
-  /// With so many packets in the queue. Requires is_due().
+  /// Announces with `queued` packets in the queue. Requires is_due().
   void announce(std::uint32_t queued) {
     const Throttle throttle{Backpressure::announce(queued) ? 1U : 0U};
     if (tells_host_alone_) {
@@ -36,7 +36,7 @@ class Throttling : public Backpressure {
     }
   }
 
-  /// Where the host relays it, those below are told before the one above gets its answer.
+  /// If the host relays it, those below are informed before the parent gets its answer.
   void take(nodes::NodeId teller, const Throttle& throttle) {
     Backpressure::take(throttle.holds != 0);
     untold_below_ = tells_host_alone_ ? place_.child_count : 0;
@@ -61,7 +61,7 @@ class Throttling : public Backpressure {
   nodes::NodeId host_;
   bool tells_host_alone_;
   TreePlace place_;
-  std::uint32_t untold_below_ = 0;  ///< members below that have not acknowledged what they were told to throttle
+  std::uint32_t untold_below_ = 0;  ///< members below that have not acknowledged the request to throttle
 };
 
 }  // namespace dmpc::dataflow

@@ -1,4 +1,4 @@
-// The rays that found no credit: kept in the host's large memory until their owners have room.
+// Rays that found no credit: buffered in the host's large memory until their owners have free slots.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace dmpc::dataflow {
 
-/// Rays by owner, of each owner the newest first: a ray's children go before the rays that came earlier, so fewer rays are kept
-/// at once. Grows as rays come: the host refuses none. Thread safety: belongs to the host.
+/// Rays by owner, for each owner the newest first: a ray's children go before the rays that came earlier, so fewer rays are
+/// buffered at once. Grows as rays arrive: the host refuses none. Thread safety: belongs to the host.
 class BufferedRays {
  public:
   explicit BufferedRays(std::uint32_t node_count, std::uint32_t tested_objects = 0)
@@ -35,7 +35,7 @@ class BufferedRays {
     high_water_ = std::max(high_water_, ++size_);
   }
 
-  /// Takes out the newest ray for `owner`. Requires that there is one.
+  /// Removes the newest ray for `owner`. Requires that there is one.
   RayMessage take(std::uint32_t owner) {
     core::expect(counts_.at(owner) > 0, "a ray is forwarded that is kept");
     const std::uint32_t place = newest_[owner];
@@ -51,18 +51,18 @@ class BufferedRays {
 
   std::uint64_t count(std::uint32_t owner) const { return counts_.at(owner); }
   std::uint64_t size() const { return size_; }
-  /// The most rays that were kept at once.
+  /// The maximum number of rays that were buffered at once.
   std::uint64_t high_water() const { return high_water_; }
-  /// Bytes of the heap that the rays' places take, buffered rays or not: they never get fewer. While their number grows, their
-  /// old memory is there beside the new one for a moment.
+  /// Bytes of the heap for slots of rays, used or not: they never shrink. While their number grows, the old memory exists beside
+  /// the new one for a moment.
   std::size_t store_bytes() const { return messages_.capacity() + older_.capacity() * sizeof(older_[0]); }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
 
   std::size_t message_bytes_;
-  std::vector<std::byte> messages_;    ///< by place
-  std::vector<std::uint32_t> older_;   ///< by place: the next of the same owner, or of the free ones
+  std::vector<std::byte> messages_;  ///< by slot
+  std::vector<std::uint32_t> older_;  ///< by slot: the next of the same owner, or of the free list
   std::vector<std::uint32_t> newest_;  ///< by owner
   std::vector<std::uint64_t> counts_;
   std::uint32_t free_ = none;

@@ -1,4 +1,4 @@
-// The rays of one kind that walk together on a node, with the hits that they descend from on this node.
+// A bundle of rays of one kind on a node, with the hits from which they descend on this node.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace dmpc::dataflow {
 
-/// RayTask for up to 16 rays: they are traced together, then seen to one by one. The hits among them are shaded side by side, one
-/// bundle of children at a time, each of which is traced to its end in the region before the next is made, and hits leave for
-/// those of their last one; so the stack holds at most the hits of one bundle a depth, by paths of one. A ray that has been seen
-/// to may go on in this region, and is then traced again with others. Thread safety: belongs to one node.
+/// RayTask for up to 16 rays: they are traced together, then handled one by one. The hits among them are shaded side by side, one
+/// bundle of children at a time, each of which is traced to its end in the region before the next is made, and hits are popped
+/// for their last one; so the stack holds at most the hits of one bundle per depth, with paths of one. A ray that has been
+/// handled may go on in this region, and is then traced again with others. Thread safety: belongs to one node.
 class BundleTask {
   struct Flights;
   template <class Bundle>
@@ -29,21 +29,21 @@ class BundleTask {
  public:
   static constexpr std::uint32_t rays_max = core::bundle_rays_max;
 
-  /// Nothing under way. A stack of `waiting_max` bundles of hits: core::waiting_hits_max().
-  /// `has_instances`: the database has, and bundles are longer.
+  /// Idle. A stack of `waiting_max` bundles of hits: core::waiting_hits_max(). `has_instances`: the database has instances, and
+  /// bundles are longer.
   BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, bool has_instances = false);
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<FlightsWith<core::RayBundle>, FlightsWith<core::InstanceBundle>, core::BundleHit> layout(
       std::uint32_t waiting_max, bool has_instances = false);
 
-  /// Rays are to be traced, once those that have ended are seen to.
+  /// Whether rays are to be traced, once those that have ended are handled.
   bool has_rays() const { return count_ + waiting_ > 0; }
-  /// Rays have been traced, and the caller has not seen to them.
+  /// Whether rays have been traced that the caller has not handled.
   bool has_ended() const { return ended_ < traced_; }
-  /// No ray, and no hit that has children to be made.
+  /// Whether there is no ray, and no hit with further children.
   bool is_idle() const { return !has_rays() && !has_ended() && fresh_hits_ == 0 && depth_ == 0; }
 
-  // See RayTask. As many rays and hits as rays_max since trace() or next_children(), except for rays that go on in this region:
+  // See RayTask. At most rays_max rays and hits since trace() or next_children(), not counting rays that go on in this region:
   void shoot(const core::Ray& ray);
   template <class Make>
   const core::Ray* shoot_made(const Make& make);
@@ -51,14 +51,15 @@ class BundleTask {
   void enter(std::span<const std::byte> message);
   void resume_hit(const RayMessage& message);
 
-  /// Traces rays until each ends here or leaves its region, or does not start in that: those that enter other regions of the
-  /// node's than the first of them wait for the next call. Requires that none has ended before.
+  /// Traces rays until each ends here or leaves its region, or does not start in it: rays that enter other regions of the node
+  /// than the first one's wait for the next call. Requires that none has ended before.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
-  /// Where those that have left their region, and have not been seen to, go next: their ways may end, too. Once after trace().
+  /// Finds the next stops of those that have left their region and have not been handled: their ways may end, too. Once after
+  /// trace().
   void find_stops(const Surroundings& surroundings, core::Operations& operations);
 
-  // These speak of the first of those that have ended:
+  // For the first of those that have ended:
   core::Traced traced() const;
   const core::Ray& ray() const { return bundle_->rays[ended_]; }
   bool found_here() const { return bundle_->hit(ended_).leaf != core::no_address; }
@@ -70,23 +71,23 @@ class BundleTask {
   void drop_ended() { ++ended_; }
 
   /// Shades the newest hits until they make children (true), for each of which shoot(make) is called, or no hit is left (false):
-  /// that may call make(ray) once, which says whether there is one. Requires that no ray is under way.
+  /// shoot may call make(ray) once, which returns whether there is a child. Requires that no ray is in progress.
   template <class Shoot, class Shine>
   bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
                      const Shine& shine);
 
  private:
-  /// How a ray came into the region, if it did not start in it, and where its candidate's leaf is if that is not here.
+  /// How a ray entered the region, if it did not start in it, and the address of its candidate's leaf if that is on another node.
   struct Entry {
     core::Passage passage;
     nodes::NodeId finder{};
   };
-  /// Where rays come from and go to.
+  /// Origins and destinations of rays.
   struct Flights {
     std::array<Entry, rays_max> entry;
-    core::Row<std::uint32_t> stop;  ///< the regions that rays go to, by number
+    core::Row<std::uint32_t> stop;  ///< the numbers of the regions to which rays go
   };
-  /// And the rays, and where they are.
+  /// And the rays with their traversal.
   template <class Bundle>
   struct FlightsWith : Flights {
     Bundle bundle;
@@ -103,19 +104,19 @@ class BundleTask {
   nodes::NodeId self_;
   bool has_instances_;
   Flights* flights_;
-  core::RayBundle* bundle_;  ///< an InstanceBundle where the database has instances
+  core::RayBundle* bundle_;  ///< an InstanceBundle if the database has instances
   std::span<core::BundleHit> stack_;
-  std::uint32_t depth_ = 0;       ///< bundles of hits on the stack, all of whose rays have ended
+  std::uint32_t depth_ = 0;  ///< bundles of hits on the stack, all of whose rays have ended
   std::uint32_t fresh_hits_ = 0;  ///< in the next one
-  std::uint32_t count_ = 0;       ///< rays to be traced: the first
-  core::RayMask entered_ = 0;     ///< of them, those that have not started here
-  std::uint32_t waiting_ = 0;     ///< rays behind those that were traced, to be traced in another region
-  std::uint32_t ended_ = 0;       ///< rays that were traced and seen to
-  std::uint32_t traced_ = 0;      ///< rays that were traced
-  bool knows_stops_ = false;      ///< of those that have left
+  std::uint32_t count_ = 0;  ///< number of rays to be traced: the first ones
+  core::RayMask entered_ = 0;  ///< those of them that did not start here
+  std::uint32_t waiting_ = 0;  ///< number of rays after the traced ones, to be traced in another region
+  std::uint32_t ended_ = 0;  ///< number of rays that were traced and handled
+  std::uint32_t traced_ = 0;  ///< number of rays that were traced
+  bool knows_stops_ = false;  ///< for those that have left
 };
 
-/// In the place where it is traced.
+/// Makes it in the slot where it is traced.
 template <class Make>
 const core::Ray* BundleTask::shoot_made(const Make& make) {
   core::expect(!has_ended() && count_ < rays_max, "a bundle has room for its rays");

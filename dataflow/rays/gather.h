@@ -1,4 +1,4 @@
-// Rays on their way out: gathered by owner, in packets that leave when they are full or when the node has no other work.
+// Outgoing rays: gathered by owner, in packets that are sent when they are full or when the node has no other work.
 #pragma once
 
 #include <algorithm>
@@ -17,23 +17,23 @@
 
 namespace dmpc::dataflow {
 
-/// What one node has sent another, by whatever way.
+/// Counters of what one node has sent another, by either way.
 struct PairCounters {
   std::array<std::uint64_t, core::ray_kind_count> rays{};  ///< by kind; confirmed hits included
   std::uint64_t packets = 0;                               ///< with rays; their bytes follow from both
-  std::uint64_t rays_overflowed = 0;                       ///< of them, by way of the host
+  std::uint64_t rays_overflowed = 0;  ///< with rays; their bytes follow from both
 
   std::uint64_t rays_total() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 };
 
-/// What a node has sent one owner, which has got something from it.
+/// Counters of what a node has sent one owner, if there is anything.
 struct SentToOwner : PairCounters {
   std::uint32_t owner = 0;  ///< its index
 };
 
-/// Open packets for as many owners as there is room for, and a queue of closed ones that found no credit, one room for all
-/// owners. At most one closed packet finds no room there either, and while it waits nothing may be added. Keeps account of the
-/// node's credits for rays, and asks for them where owners share their places. Thread safety: belongs to one node.
+/// Open packets for a limited number of owners, and a queue of closed ones that found no credit, with shared slots for all
+/// owners. At most one closed packet finds no slot there either, and while it waits nothing may be added. Keeps account of the
+/// node's credits for rays, and asks for them where owners share their slots. Thread safety: belongs to one node.
 class Gather {
   struct Slot;
   struct Owner;
@@ -43,31 +43,31 @@ class Gather {
     std::uint32_t node_count = 1;
     std::uint32_t ray_batch = 1;       ///< rays in a full packet
     std::uint32_t ray_credits = 1;     ///< for each other node
-    bool shares_slots = false;         ///< owners are asked for credits; without that and without credits all go by the host
-    std::uint32_t open_packets = 0;    ///< that are being filled at one time; 0: one for each node
+    bool shares_slots = false;  ///< owners are asked for credits; if not, and without credits, all go through the host
+    std::uint32_t open_packets = 0;  ///< maximum number that is filled at a time; 0: one for each node
     std::uint32_t host_credits = 1;    ///< for the host, node `node_count`; at least 1
     std::uint32_t queue_packets = 0;   ///< full packets that may wait for their owners' credits
-    std::uint32_t tested_objects = 0;  ///< that a ray has with it
+    std::uint32_t tested_objects = 0;  ///< names per ray
 
-    /// Open and queued ones.
+    /// Number of open and queued packets.
     std::uint32_t packets() const { return open_packets_max() + queue_packets; }
     std::uint32_t open_packets_max() const { return open_packets == 0 ? node_count : open_packets; }
-    /// Where places are shared: owners that may be asked at once and have not answered. More than there are packets for could
-    /// only be those whose rays have gone by way of the host.
+    /// With shared slots: the maximum number of unanswered requests to owners. More owners than packets could only be those whose
+    /// rays have gone through the host.
     std::uint32_t asks_max() const { return std::min(node_count - 1, packets()); }
   };
 
   /// What the gather has sent.
   struct Counters {
-    std::uint64_t packets = 0;             ///< by either way
+    std::uint64_t packets = 0;  ///< by either way
     std::uint64_t rays = 0;                ///< in them
-    std::uint64_t packets_overflowed = 0;  ///< of them, by way of the host
+    std::uint64_t packets_overflowed = 0;  ///< packets sent through the host
     std::uint64_t rays_overflowed = 0;
-    std::uint64_t packets_flushed = 0;   ///< of them, closed before they were full
-    std::uint64_t packets_queued = 0;    ///< of them, after a time in the queue
+    std::uint64_t packets_flushed = 0;  ///< packets closed before they were full
+    std::uint64_t packets_queued = 0;  ///< packets sent after a time in the queue
     std::uint64_t queue_high_water = 0;  ///< the most packets in the queue at once
 
-    /// Sums, except for the high water, of which the higher one stays.
+    /// Sums; the maximum for the high water.
     Counters& operator+=(const Counters& more);
     /// Mean rays in a packet over `ray_batch`, those in a full one, in (0, 1]; 1 without packets.
     double mean_fill(std::uint32_t ray_batch) const {
@@ -77,19 +77,19 @@ class Gather {
 
   /// Takes the credits.
   Gather(nodes::Node& node, const Capacity& capacity);
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<std::byte, Slot, Owner> layout(const Capacity& capacity);
 
-  /// The receiver has taken up `count` packets, or grants a place. Sends it the queued ones that these credits allow, or a
-  /// granted one back, and says how many packets on the channel of rays that made.
+  /// To be called when the receiver has taken `count` packets, or grants a slot. Sends it the queued ones that these credits
+  /// allow, or returns a granted one, and returns the number of packets sent on the channel of rays.
   std::uint32_t credits_returned(nodes::NodeId receiver, std::uint32_t count);
 
-  /// Requires that no packet waits. If the packet for `owner` is full now, it is closed; or the fullest, preferably one that may
-  /// leave, if as many are open as there is room for.
+  /// Requires that no packet waits. If the packet for `owner` is full now, it is closed; or, if as many are open as there are
+  /// slots, the fullest, preferably one that may be sent.
   void add(nodes::NodeId owner, const RayMessage& message) {
     add(owner, message.ray.kind, [&message](std::span<std::byte> place) { copy_message(place.data(), &message, place.size()); });
   }
-  /// The same for a ray of a kind that put(place) puts into the bytes of its message: where it is to lie in the packet.
+  /// add() for a ray of a kind that put(place) writes into the bytes of its message in the packet.
   template <class Put>
   void add(nodes::NodeId owner, core::RayKind kind, const Put& put) {
     put(place_for(owner));
@@ -97,41 +97,42 @@ class Gather {
   }
   /// Closes the fullest packet that can be sent. Requires can_flush().
   void flush();
-  /// Takes the closed packet to its owner, to the queue or to the host, whichever flow_control.h says; says which way it took.
+  /// Sends the closed packet to its owner, to the queue or to the host, by the rules of flow_control.h; returns which.
   Way send();
 
-  /// A packet is closed and has not found its way: call send().
+  /// Whether a packet is closed and not sent: call send().
   bool waits() const { return closed_.has_value(); }
-  /// Some open packet has rays and its owner's credit.
+  /// Whether some open packet has rays and its owner's credit.
   bool can_flush() const;
   /// Packets in the queue.
   std::uint32_t queued() const { return queued_; }
-  /// No ray is here.
+  /// Whether no ray is here.
   bool empty() const { return size_ == 0; }
-  /// Some owner has been asked for a place and has not granted it.
+  /// Whether some owner has been asked for a slot and has not granted it.
   bool is_unanswered() const { return asked_ > 0; }
-  /// Rays here, queued ones included.
+  /// Number of rays here, including queued ones.
   std::uint32_t size() const { return size_; }
   const Counters& counters() const { return counters_; }
-  /// Packets tell from now on that so many rays are left.
+  /// Packets report from now on that this number of rays is left.
   void report(std::uint32_t rays_left) { rays_left_ = rays_left; }
-  /// By owner, of whom there has been a ray here; of rays gathered, the packets of those sent.
+  /// By owner, of those for which there has been a ray here; counts rays gathered, and packets sent.
   std::vector<SentToOwner> pairs() const;
 
  private:
   /// Slots are numbered from 1 on.
   static constexpr std::uint16_t none = 0;
 
-  /// A packet's place.
+  /// A packet's slot.
   struct Slot {
     std::uint16_t next = none;  ///< of the same owner's queued packets, or of the free slots
     std::uint16_t count = 0;    ///< rays
   };
-  /// Begins as zeros, so that nothing is set aside for owners that no ray of this node's goes to: most, among many.
+  /// Begins as zeros, so that no memory is committed for owners to which no ray of this node goes: most of them, if there are
+  /// many.
   struct Owner {
     std::uint16_t open = none;                ///< the slot that is being filled
     std::uint16_t first = none, last = none;  ///< queued, in the order of closing
-    std::uint16_t has_asked = 0;              ///< 1: for a place that is not granted yet
+    std::uint16_t has_asked = 0;  ///< 1: for a slot that is not granted yet
     PairCounters pair;
   };
   static std::size_t stride_bytes(std::size_t bytes);
@@ -178,10 +179,10 @@ class Gather {
   std::uint32_t queued_ = 0;
   std::uint32_t open_count_ = 0;
   std::uint32_t asked_ = 0;              ///< owners
-  bool has_put_off_asking_ = false;      ///< some owner, since as many as may be were asked
-  std::optional<nodes::NodeId> closed_;  ///< whose open packet is closed
+  bool has_put_off_asking_ = false;  ///< some owner was not asked, since the maximum number was
+  std::optional<nodes::NodeId> closed_;  ///< owner whose open packet is closed
   Counters counters_;
-  std::uint32_t rays_left_ = 0;  ///< to be told
+  std::uint32_t rays_left_ = 0;  ///< to be reported
 };
 
 }  // namespace dmpc::dataflow

@@ -1,4 +1,4 @@
-// How a node finds what a ray hits.
+// A node's tracer.
 #pragma once
 
 #include "core/picture/pixel_task.h"
@@ -9,11 +9,11 @@
 
 namespace dmpc::dataflow {
 
-/// Our grid over a node's part of the database, in one of the node's regions at a time: rays walk in region(). All of them share
-/// the part's records, so where a hit was found is the node's to say, not the region's.
+/// Our grid over a node's part of the database, in one of the node's regions at a time: rays traverse region(). All regions share
+/// the part's records, so a hit's address is valid for the node, not the region.
 class PartTracer : public core::GridTracer<PartRecords> {
  public:
-  /// For a node that has no other region than the header's.
+  /// For a node that has only the header's region.
   PartTracer(PartRecords& records, const core::DatabaseHeader& header, const core::Skips& skips)
       : GridTracer(records, header, skips) {}
   /// For node `self`; `regions` outlive it, and the header's is one of the node's.
@@ -21,11 +21,11 @@ class PartTracer : public core::GridTracer<PartRecords> {
              nodes::NodeId self)
       : GridTracer(records, header, skips), regions_(&regions), self_(self) {}
 
-  /// Rays may be in others than region().
+  /// Whether rays may be in other regions than region().
   bool has_several_regions() const { return regions_ != nullptr && regions_->region_count() > regions_->node_count(); }
 
-  /// Goes to the node's region that holds a finest cell; where regions move, to the largest leaf of the node's around it, so
-  /// that rays walk as they would if the leaf had not been cut. False, and nothing done, if it has none there.
+  /// Moves to the node's region that holds a finest cell; if regions move, to the largest leaf of the node's around it, so that
+  /// rays traverse it as if the leaf had not been cut. Returns false, without moving, if the node has no region there.
   bool enter(const core::Corner& cell) {
     if (regions_ == nullptr || (region().contains(cell) && is_leaf_whole())) {
       return region().contains(cell);
@@ -37,8 +37,8 @@ class PartTracer : public core::GridTracer<PartRecords> {
     go_to(index);
     return true;
   }
-  /// Goes there for a ray that was taken up when the region was the node's. Where regions move it may have been migrated
-  /// since, but all its records are still here.
+  /// Moves there for a ray that was taken up when the region was the node's. If regions move it may have been migrated since, but
+  /// all its records are still here.
   bool enter_taken_up(const core::Corner& cell) {
     const bool is_here = enter(cell);
     if (is_here || regions_ == nullptr || !regions_->are_moving()) {
@@ -50,7 +50,7 @@ class PartTracer : public core::GridTracer<PartRecords> {
   }
 
  private:
-  /// No unit of the leaf in which rays walk has been migrated since.
+  /// Whether no unit of the leaf that rays traverse has been migrated since.
   bool is_leaf_whole() const { return !regions_->are_moving() || (leaf_.count > 0 && regions_->bsp()->owns(self_, leaf_)); }
   void go_to(std::uint32_t index) {
     if (regions_->are_moving()) {
@@ -63,7 +63,7 @@ class PartTracer : public core::GridTracer<PartRecords> {
 
   const Regions* regions_ = nullptr;
   nodes::NodeId self_{};
-  Bsp::Leaf leaf_;  ///< where regions move; without regions until rays walk in one
+  Bsp::Leaf leaf_;  ///< if regions move; without regions until rays traverse one
 };
 
 }  // namespace dmpc::dataflow

@@ -1,4 +1,4 @@
-// The primary rays of a pass that the host deals, packet by packet, and how it comes to a point where whole pixels are done.
+// The primary rays of a pass that the host assigns, packet by packet, and how it reaches a state in which whole pixels are done.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,18 @@
 namespace dmpc::dataflow {
 
 /// A pixel has begun when one of its rays was assigned. Rays of a pixel may be assigned to several nodes, so at any time some
-/// pixels have begun whose other rays are here. throttle() leaves only these to be assigned: when they are, and no ray is left
+/// pixels have begun of which other rays are here. throttle() leaves only these to be assigned: when they are, and no ray is left
 /// anywhere, the pixels that have begun are done, all others untouched. Belongs to the host.
 class PendingPrimaries {
  public:
-  /// `run_rays_max`: no run that is assigned has more rays, which bounds those that a node has room for; at least 1.
+  /// `run_rays_max`: the maximum number of rays in an assigned run, which bounds a node's memory for them; at least 1.
   PendingPrimaries(std::uint32_t node_count, std::uint64_t run_rays_max, const PixelOrder& order = {})
       : runs_(node_count), held_back_(node_count), run_rays_max_(run_rays_max), order_(order), begun_(0) {
     core::expect(run_rays_max > 0, "a run of primary rays has some");
   }
 
-  /// Takes the rays of a pass, ascending for each node, of pixels that are not among `done`. Requires is_empty(), and that none
-  /// is throttled.
+  /// Takes the rays of a pass, ascending for each node, of pixels that are not among `done`. Requires is_empty(), and that it is
+  /// not throttled.
   void begin_pass(std::vector<std::vector<PrimaryRun>> runs, const core::SampleRange& samples, const core::PixelMask& done) {
     core::expect(is_empty() && !holds_back_ && runs.size() == runs_.size(), "a pass begins when the one before is assigned");
     runs_ = std::move(runs);
@@ -37,9 +37,9 @@ class PendingPrimaries {
     begun_ = done;
   }
 
-  /// Some ray of this node's may be assigned now.
+  /// Whether some ray of this node may be assigned now.
   bool has(std::uint32_t node) const { return !runs_[node].empty(); }
-  /// No ray may be assigned now.
+  /// Whether no ray may be assigned now.
   bool is_empty() const {
     return std::all_of(runs_.begin(), runs_.end(), [](const Runs& runs) { return runs.empty(); });
   }
@@ -61,7 +61,7 @@ class PendingPrimaries {
     return packet;
   }
 
-  /// From now on only rays of pixels that have begun may be assigned, unless there are no others. Requires that none is
+  /// From now on only rays of pixels that have begun may be assigned, unless there are no others. Requires that it is not
   /// throttled.
   void throttle() {
     core::expect(!holds_back_, "rays are throttled once");
@@ -81,9 +81,9 @@ class PendingPrimaries {
     }
   }
 
-  /// There are rays of pixels that have not begun, and they must not be assigned.
+  /// Whether there are rays of pixels that have not begun, and they must not be assigned.
   bool holds_back() const { return holds_back_; }
-  /// All may be assigned again. Requires is_empty().
+  /// All rays may be assigned again. Requires is_empty().
   void release() {
     core::expect(is_empty() && holds_back_, "what was throttled follows what has begun");
     holds_back_ = false;
@@ -96,7 +96,8 @@ class PendingPrimaries {
   /// The runs of one node, the next one last.
   using Runs = std::vector<PrimaryRun>;
 
-  /// Where the rays from `first` on, before `end`, stop to be all of pixels that have begun, or all of others.
+  /// The end of the stretch of rays, from `first` on and before `end`, that all belong to pixels that have begun, or all to
+  /// others.
   std::uint64_t end_of_stretch(std::uint64_t first, std::uint64_t end) const {
     const bool has_begun = begun_.has(pixel_of(first));
     std::uint64_t number = first;

@@ -1,4 +1,4 @@
-// In which order the pixels of a picture start their primary rays.
+// The order in which the pixels of a picture start their primary rays.
 #pragma once
 
 #include <algorithm>
@@ -6,20 +6,20 @@
 
 namespace dmpc::dataflow {
 
-/// The pixels of a picture, one behind the other; a pixel's primary rays are numbered by its place. A value of two numbers, that
-/// all nodes have.
+/// A permutation of the pixels of a picture; a pixel's primary rays are numbered by its place. A value of two numbers, known to
+/// all nodes.
 class PixelOrder {
  public:
-  /// Of the squares, in pixels: one holds as many as a bundle has rays (core::bundle_rays_max).
+  /// The side of the squares, in pixels: a square has as many as a bundle has rays (core::bundle_rays_max).
   static constexpr std::uint32_t side = 4;
 
-  /// Row by row: a place is a pixel's number.
+  /// Row by row: a place is a pixel's index.
   constexpr PixelOrder() = default;
-  /// In squares of 4x4 pixels, each row by row, at the right and the bottom what is left of one: 16 rays that start together are
-  /// neighbours, and meet the same.
+  /// In squares of 4x4 pixels, each row by row, clipped at the right and the bottom: 16 rays that start together are neighbours,
+  /// and hit the same primitives.
   static constexpr PixelOrder squares(std::uint32_t width, std::uint32_t height) { return {width, height}; }
 
-  /// The number of the pixel at `place`, which is less than their count.
+  /// The index of the pixel at `place`, which is less than their count.
   constexpr std::uint32_t pixel_at(std::uint32_t place) const {
     if (width_ == 0) {
       return place;
@@ -35,7 +35,7 @@ class PixelOrder {
  private:
   constexpr PixelOrder(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {}
 
-  std::uint32_t width_ = 0, height_ = 0;  ///< of the picture, if it is in squares
+  std::uint32_t width_ = 0, height_ = 0;  ///< of the picture, if in squares
 };
 
 }  // namespace dmpc::dataflow

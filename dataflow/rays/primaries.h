@@ -1,5 +1,5 @@
-// Which node starts which primary rays: assigned by the host before the start and before every later pass, kept by each node as
-// runs.
+// The node that starts each primary ray: assigned by the host before the start and before every later pass, stored by each node
+// as runs.
 #pragma once
 
 #include <cstdint>
@@ -17,47 +17,47 @@
 
 namespace dmpc::dataflow {
 
-/// For each node, the rays of a pass, except for those of pixels that are done, that enter the grid in a region of its own, or reach
-/// one before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background,
-/// only leaves that on the film: these are spread by their places in `order`, an equal share of the picture a node, so that no
-/// node has all of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with
-/// what it has.
+/// For each node, the rays of a pass, without those of pixels that are done, that enter the grid in a region of its own, or reach
+/// one before any other that is not empty, ascending. A ray that meets no such region, or whose pixel shows the background, only
+/// adds the background to the film: these are distributed by their places in `order`, an equal share of the picture for each
+/// node, so that no node has all of the sky. Nodes whose regions are empty get no rays. After a stop is requested it ends early,
+/// with what it has.
 std::vector<std::vector<PrimaryRun>> assign_primaries(const core::RenderSettings& settings, const Regions& partition,
                                                       const core::Pass& pass, const core::PixelMask& done,
                                                       const std::stop_token& stop = {}, const PixelOrder& order = {});
 
-/// How many runs assign_primaries() would assign to each node, for each of `partitions`, which share out one grid. Takes hardly
+/// The number of runs that assign_primaries() would assign to each node, for each of `partitions` of one grid. Takes hardly
 /// longer for many partitions than for one.
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
                                                          std::span<const Regions> partitions, const core::Pass& pass,
                                                          const core::PixelMask& done, const std::stop_token& stop = {},
                                                          const PixelOrder& order = {});
 
-/// A primary ray that is to start: its number, and that by which it is numbered.
+/// The next primary ray to start: its number, and the samples by which it is numbered.
 struct PrimaryStart {
   std::uint64_t number = 0;
   core::SampleRange samples;
 };
 
 /// A node's own primary rays, in its local memory: those assigned before the start, then packets of those that the host assigns
-/// on the way. Thread safety: belongs to one node.
+/// during the run. Thread safety: belongs to one node.
 class Primaries {
  public:
-  /// Copies `runs`, which are of the first pass. With `is_assigned` there is room for assigned_packets afterwards.
+  /// Copies `runs`, which are of the first pass. With `is_assigned` there is memory for assigned_packets afterwards.
   Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_assigned);
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Room<PrimaryRun> layout(std::size_t run_count, bool is_assigned);
 
   bool empty() const { return left_ == 0; }
-  /// Rays that have not started.
+  /// Number of rays that have not started.
   std::uint64_t left() const { return left_; }
-  /// By which the rays of this pass are numbered.
+  /// The samples by which the rays of this pass are numbered.
   const core::SampleRange& samples() const { return samples_; }
   /// The number of the next ray to start. Requires that one is left.
   std::uint64_t take();
-  /// Takes in a packet. Requires that none is left of an earlier pass.
+  /// Adds a packet. Requires that none is left of an earlier pass.
   void put(const AssignedPrimaries& assigned);
-  /// Packets taken in whose room has become free since the last call: so many more may come.
+  /// The number of packets whose memory has become free since the last call: as many more may come.
   std::uint32_t packets_worked_off();
 
  private:
@@ -66,7 +66,7 @@ class Primaries {
   std::uint64_t started_of_run_ = 0;
   std::uint64_t left_ = 0;
   core::SampleRange samples_;
-  std::uint32_t packets_ = 0;  ///< taken in, and not yet told of as worked off
+  std::uint32_t packets_ = 0;  ///< added, and not yet reported as worked off
 };
 
 }  // namespace dmpc::dataflow

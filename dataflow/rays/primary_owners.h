@@ -1,4 +1,4 @@
-// Whose a primary ray is, in every one of several ways to share space out.
+// The owner of a primary ray, in each of several partitions of space.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace dmpc::dataflow {
 
-/// The nodes that share the sky of one partition: all but those whose regions hold nothing, unless that is all. Asked for pixels
-/// by their places, in ascending order.
+/// The nodes that share the sky of one partition: all except those whose regions are empty, unless that is all. To be called for
+/// pixels by their places, in ascending order.
 class SkyOwners {
  public:
   SkyOwners(const Regions& partition, std::uint32_t pixel_count) : pixel_count_(pixel_count) {
@@ -37,14 +37,14 @@ class SkyOwners {
     }
   }
 
-  /// Whose a pixel of the sky is.
+  /// The owner of a sky pixel.
   std::uint16_t owner_of(std::uint32_t place) {
     if (place >= end_) {
       take(place);
     }
     return owner_;
   }
-  /// The first place behind the last one asked for that may have another owner.
+  /// The first place after the last requested one that may have another owner.
   std::uint32_t end() const { return end_; }
 
  private:
@@ -60,9 +60,9 @@ class SkyOwners {
   std::uint32_t end_ = 0;
 };
 
-/// Goes through the primary rays of a picture, in ascending order, and knows the owner of each by partition: who has the first
-/// region on its way that holds something, or its share of the sky. Most rays have the owners of the ray before them. Not
-/// thread-safe.
+/// Iterates over the primary rays of a picture, in ascending order, and finds the owner of each by partition: the node of the
+/// first region on its way that is not empty, or that of its share of the sky. Most rays have the owners of the ray before them.
+/// Not thread-safe.
 class PrimaryOwners {
  public:
   /// `settings` outlive it. Requires 1 to JointLattice::partitions_max partitions of one grid.
@@ -73,8 +73,8 @@ class PrimaryOwners {
     }
   }
 
-  /// Goes to a ray, of the pixel at a place. Returns the partitions in which its owner is not that of the ray before, a bit each:
-  /// at first, where it is not node 0.
+  /// Moves to a ray, of the pixel at a place. Returns the partitions in which its owner differs from that of the ray before, a
+  /// bit each: for the first ray, those where it is not node 0.
   std::uint64_t find(std::uint32_t place, std::uint32_t pixel, std::uint32_t sample) {
     const bool was_sky = is_sky_;
     is_sky_ = settings_.shows_background(pixel) || !walk_.enter(settings_.camera.primary_ray(pixel, sample));
@@ -87,16 +87,16 @@ class PrimaryOwners {
 
   /// A bit for each.
   std::uint64_t all_partitions() const { return lattice_.all_partitions(); }
-  /// Who has the ray found last, by partition.
+  /// The owner of the current ray, by partition.
   std::span<const std::uint16_t> owners() const { return owners_; }
 
  private:
-  /// Gives each partition the owner of the first cell on the way that is occupied there, or that of the sky. Returns those that
-  /// change.
+  /// Sets the owner in each partition from the first cell on the way that is occupied there, or from the sky. Returns the
+  /// partitions that change.
   std::uint64_t follow(std::uint32_t place) {
     std::uint64_t left = lattice_.all_partitions(), changed = 0;
     std::size_t count = 0;
-    bool is_as_before = true;  // the cells that decide are those that did for the ray before, and so are the owners
+    bool is_as_before = true;  // the cells that decide are those of the ray before, and so are the owners
     do {
       const std::size_t cell = walk_.cell();
       const std::uint64_t decided = left & lattice_.occupied(cell);
@@ -132,7 +132,7 @@ class PrimaryOwners {
     return changed;
   }
 
-  /// The partition's bit if that changes its owner.
+  /// Returns the partition's bit if that changes its owner.
   std::uint64_t take(std::size_t partition, std::uint16_t owner) {
     const bool is_other = std::exchange(owners_[partition], owner) != owner;
     return std::uint64_t{is_other ? 1U : 0U} << partition;
@@ -144,10 +144,10 @@ class PrimaryOwners {
   std::vector<SkyOwners> sky_;
   std::vector<std::uint16_t> owners_;
   std::array<std::size_t, JointLattice::partitions_max>
-      deciding_{};  ///< the cells that gave the ray found last its owners, in order
+      deciding_{};  ///< the cells that determined the owners of the current ray, in order
   std::size_t deciding_count_ = 0;
-  bool is_sky_ = false;        ///< the ray found last has owners of the sky alone
-  std::uint32_t sky_end_ = 0;  ///< if so: the first place where one of them is another
+  bool is_sky_ = false;  ///< the current ray has only owners of the sky
+  std::uint32_t sky_end_ = 0;  ///< if so: the first place where one of them differs
 };
 
 }  // namespace dmpc::dataflow

@@ -15,12 +15,13 @@
 
 namespace dmpc::dataflow {
 
-/// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
+/// A bounded set of rays in order of depth, and the account of the credits for their slots.
 ///
-/// Rays that are taken together lie together, so that neither their places nor their bytes are found one after the other.
+/// Rays that are taken together are stored together, so that their slots and bytes are found with few accesses.
 ///
-/// Senders whose places are shared count as one. A sender's credit is a place for one full packet. So of the packets that have
-/// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
+/// Senders that share slots count as one. A sender's credit is a slot for one full packet. So of the packets that have come from
+/// a sender, as many credits are withheld as the rays of it that are still here would fill; the others are owed to it. Thread
+/// safety: belongs to one node.
 /// safety: belongs to one node.
 class RayQueue {
   struct List;
@@ -29,18 +30,18 @@ class RayQueue {
  public:
   struct Capacity {
     std::uint32_t sender_count = 0;    ///< senders have indices below this
-    std::uint32_t packets_each = 0;    ///< that one sender's credits allow, at most
-    std::uint32_t packets = 0;         ///< that all credits together allow
+    std::uint32_t packets_each = 0;  ///< maximum by one sender's credits
+    std::uint32_t packets = 0;  ///< maximum by all credits together
     std::uint32_t ray_batch = 1;       ///< rays in a full packet
     std::uint32_t depth_max = 1;       ///< rays have depths 1 .. depth_max
-    bool are_kinds_apart = false;      ///< shadow rays of a depth are not among its other rays
-    std::uint32_t tested_objects = 0;  ///< that a ray has with it
+    bool are_kinds_apart = false;  ///< shadow rays of a depth are separate from its other rays
+    std::uint32_t tested_objects = 0;  ///< names per ray
 
     std::uint32_t rays() const { return packets * ray_batch; }
     std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
-    /// Those that are taken together lie side by side.
+    /// Number of rays that are stored together.
     std::uint32_t group_rays() const { return are_kinds_apart ? static_cast<std::uint32_t>(core::bundle_rays_max) : 1; }
-    /// Of each list that is used one may not be full; none has less than a ray.
+    /// In each list that is used one group may not be full; none is empty.
     std::uint32_t groups() const {
       const std::uint32_t used = lists() - (are_kinds_apart ? 2 : 1);  // no ray has depth 0
       return std::min(rays(), (rays() + used * (group_rays() - 1)) / group_rays());
@@ -60,7 +61,7 @@ class RayQueue {
       release(group - 1);
     }
   }
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<std::byte, std::uint32_t, std::uint32_t, List, Sender> layout(const Capacity& capacity) {
     using nodes::Category;
     return {{Category::queues, capacity.slots() * ray_message_bytes(capacity.tested_objects)},
@@ -70,7 +71,7 @@ class RayQueue {
             {Category::queues, capacity.sender_count}};
   }
 
-  /// A packet with `ray_count` rays from `sender` has come; put() them next.
+  /// Takes a packet with `ray_count` rays from `sender`; put() them next.
   void accept_packet(std::uint32_t sender, std::uint32_t ray_count) {
     Sender& from = senders_[sender];
     core::expect(ray_count >= 1 && ray_count <= ray_batch_, "a packet of rays has rays, no more than a full one");
@@ -81,7 +82,7 @@ class RayQueue {
   void put(std::uint32_t sender, const RayMessage& message) {
     put(sender, std::as_bytes(std::span(&message, 1)).first(message_bytes_));
   }
-  /// From where it lies in a packet.
+  /// Copies a ray from a packet.
   void put(std::uint32_t sender, std::span<const std::byte> message) {
     const std::uint32_t list =
         lists_a_depth_ * depth_in(message) + (lists_a_depth_ > 1 && kind_in(message) == core::RayKind::shadow ? 1 : 0);
@@ -94,8 +95,8 @@ class RayQueue {
     high_water_ = std::max(high_water_, ++size_);
   }
 
-  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it; its bytes lie there until the next put().
-  /// With kinds apart it is a shadow ray if one is as deep. Requires that there is one.
+  /// Removes the deepest ray, of equally deep ones the newest, and returns its sender; its bytes stay until the next put(). With
+  /// kinds apart it is a shadow ray if there is one of that depth. Requires that there is a ray.
   std::span<const std::byte> take(std::uint32_t& sender) {
     core::expect(size_ > 0, "a ray is taken from a backlog that has one");
     while (lists_[last_].newest == none) {
@@ -103,9 +104,9 @@ class RayQueue {
     }
     return take_alike(sender);
   }
-  /// Whether there is another as deep as the one that take() has taken out, and of its kind. Requires no put() since.
+  /// Whether there is another ray of the same depth and kind as the last from take(). Requires no put() since.
   bool has_alike() const { return lists_[last_].newest != none; }
-  /// Takes out the newest of these.
+  /// Removes the newest of these.
   std::span<const std::byte> take_alike(std::uint32_t& sender) {
     core::expect(has_alike(), "a ray is taken from a backlog that has one");
     const std::uint32_t place = leave_newest_place(lists_[last_]);
@@ -114,11 +115,11 @@ class RayQueue {
     --senders_[sender].rays;
     return rays_.subspan(place * message_bytes_, message_bytes_);
   }
-  /// The credits that `sender` can have back: its packets that its rays still here would not fill.
+  /// The credits that `sender` can get back: of packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
     return slots_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
   }
-  /// `count` of them, at most owed(), have been given back.
+  /// To be called when `count` of them, at most owed(), have been returned.
   void gave_back(std::uint32_t sender, std::uint32_t count) {
     core::expect(count <= owed(sender), "only credits that are owed are given back");
     senders_[sender].packets -= count;
@@ -127,13 +128,13 @@ class RayQueue {
   bool empty() const { return size_ == 0; }
   std::uint32_t size() const { return size_; }
   std::uint32_t sender_count() const { return static_cast<std::uint32_t>(senders_.size()); }
-  /// The most rays that were here at once.
+  /// The maximum number of rays that were here at once.
   std::uint32_t high_water() const { return high_water_; }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
 
-  /// Rays of one depth, and kind if they are apart. Only the newest group may have room.
+  /// Rays of one depth, and kind if they are apart. Only the newest group may have free slots.
   struct List {
     std::uint32_t newest = none;
     std::uint32_t count = 0;  ///< rays in it
@@ -163,19 +164,19 @@ class RayQueue {
   }
 
   struct Sender {
-    std::uint32_t packets = 0;  ///< received whose credits have not been given back
+    std::uint32_t packets = 0;  ///< received ones whose credits have not been returned
     std::uint32_t rays = 0;     ///< here
   };
 
   std::uint32_t packets_each_, ray_batch_, lists_a_depth_, group_rays_;
   std::size_t message_bytes_;
   std::span<std::byte> rays_;       ///< group by group
-  std::span<std::uint32_t> from_;   ///< who sent each
-  std::span<std::uint32_t> older_;  ///< by group: the next of the same list, or of the free ones
+  std::span<std::uint32_t> from_;  ///< sender of each
+  std::span<std::uint32_t> older_;  ///< by group: the next of the same list, or of the free list
   std::span<List> lists_;           ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;
-  std::uint32_t free_ = none;  ///< a group
-  std::uint32_t last_ = 0;     ///< no list behind it has a ray
+  std::uint32_t free_ = none;  ///< first free group
+  std::uint32_t last_ = 0;  ///< no list after it has a ray
   std::uint32_t size_ = 0, high_water_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The one ray or hit under way on a node, with the hits that it descends from on this node.
+// The current ray or hit on a node, with the hits from which it descends on this node.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 namespace dmpc::dataflow {
 
 /// Depth first: a hit is shaded one child at a time. A child that stays in the region is traced to its end, its own hit shaded
-/// and so on, before the next is made, and a hit leaves for that of its last one; so the stack holds at most one hit a depth, by
-/// paths one, whatever the number of lights. A child that leaves is the caller's to send on; it leaves nothing behind. Thread
-/// safety: belongs to one node.
+/// and so on, before the next is made, and a hit is popped for its last one; so the stack holds at most one hit per depth, with
+/// paths one, for any number of lights. A child that leaves is sent on by the caller; nothing of it stays here. Thread safety:
+/// belongs to one node.
 class RayTask {
   struct Flight;
   template <class RayCursor>
@@ -27,26 +27,25 @@ class RayTask {
  public:
   static constexpr std::uint32_t rays_max = 1;
 
-  /// Nothing under way. A stack of `waiting_max` hits: core::waiting_hits_max().
-  /// With `tested_objects` rays remember so many leaves that they have tested; `has_instances`: the database has, and rays have
-  /// longer cursors. Not both.
+  /// Idle. A stack of `waiting_max` hits: core::waiting_hits_max(). With `tested_objects` rays remember that number of tested
+  /// leaves; `has_instances`: the database has instances, and rays have longer cursors. Not both.
   RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects = 0,
           bool has_instances = false);
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<FlightWith<core::Cursor>, FlightWith<core::InstanceCursor>, core::HitState> layout(
       std::uint32_t waiting_max, bool has_instances = false);
 
-  /// A ray is to be traced.
+  /// Whether a ray is to be traced.
   bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }
-  /// A ray has been traced, and the caller has not seen to it.
+  /// Whether a ray has been traced that the caller has not handled.
   bool has_ended() const { return stage_ == Stage::ended; }
-  /// No ray, and no hit that has children to be made.
+  /// Whether there is no ray, and no hit with further children.
   bool is_idle() const { return stage_ == Stage::none && depth_ == 0; }
 
-  // Requires that no ray is under way:
-  /// Takes up a ray that starts, wherever that is.
+  // Requires that no ray is in progress:
+  /// Takes up a ray that starts anywhere.
   void shoot(const core::Ray& ray);
-  /// The same of the ray that make(ray) makes of any, which is returned, or says that there is none (nullptr).
+  /// shoot() with the ray that make(ray) builds in any given ray and returns; nullptr if there is none.
   template <class Make>
   const core::Ray* shoot_made(const Make& make) {
     core::Ray ray;
@@ -56,46 +55,46 @@ class RayTask {
     shoot(ray);
     return &flight_->ray;
   }
-  /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the leaf's address is
-  /// forgotten here, and kept for that node.
+  /// Takes up a ray that enters a region of the node. If its candidate was found on another node the leaf's address is cleared
+  /// here, and kept for that node.
   void enter(const RayMessage& message);
   void enter(std::span<const std::byte> message) { enter(message_in(message)); }
-  /// Takes up a hit of this node's that another has confirmed.
+  /// Takes up a hit of this node that another has confirmed.
   void resume_hit(const RayMessage& message);
 
-  /// Traces the ray until it ends here or leaves its region, or does not start in one of the node's. Never absent.
+  /// Traces the ray until it ends here or leaves its region, or does not start in one of the node's. No record is absent.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
-  /// After trace(): where the ray goes next, if it has left its region: its way may end, too. Once a ray.
+  /// After trace(): finds where the ray goes next, if it has left its region: its way may end, too. Once per ray.
   void find_stops(const Surroundings& surroundings, core::Operations& operations);
 
   // After that:
   core::Traced traced() const { return traced_; }
   const core::Ray& ray() const { return flight_->ray; }
-  /// The hit's leaf was read on this node.
+  /// Whether the hit's leaf was read on this node.
   bool found_here() const { return cursor_->best.leaf != core::no_address; }
   /// Takes up the hit that was found here.
   void shade_hit();
-  /// The region that it goes to, by number.
+  /// The number of the region to which it goes.
   std::uint32_t stop() const { return stop_; }
-  /// The ray as it goes on to that region's owner.
+  /// The message of the ray to that region's owner.
   RayMessage leaving() const;
-  /// Puts it into the bytes of a message.
+  /// Writes it into the bytes of a message.
   void put_leaving(std::span<std::byte> place) const {
     const RayMessage message = leaving();
     copy_message(place.data(), &message, place.size());
   }
-  /// The hit as it goes to its finder.
+  /// The message of the hit to its finder.
   RayMessage confirmed_hit() const;
   nodes::NodeId finder() const { return flight_->finder; }
-  /// Lanes of leaves that were not tested here, since their ray had them on its list.
+  /// Lanes of leaves that were not tested here, since they were on the ray's list.
   std::uint64_t tests_avoided() const { return tests_avoided_; }
-  /// The caller has seen to the ray: it is no longer under way.
+  /// To be called when the caller has handled the ray.
   void drop_ended() { stage_ = Stage::none; }
 
-  /// Shades the newest hit until it makes a child (true), for which shoot(make) is called, make as shoot_made() has it, or no hit
-  /// is left (false). If that hit glows, shine(ray, light) is called with the ray that met it, at most once. Requires that no ray
-  /// is under way.
+  /// Shades the newest hit until it makes a child (true), for which shoot(make) is called, with make as in shoot_made(), or no
+  /// hit is left (false). If that hit glows, shine(ray, light) is called with its ray, at most once. Requires that no ray is in
+  /// progress.
   template <class Shoot, class Shine>
   bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
                      const Shine& shine) {
@@ -111,22 +110,22 @@ class RayTask {
   }
 
  private:
-  /// How far the ray under way is.
+  /// The progress of the current ray.
   enum class Stage : std::uint8_t { none, shot, entered, ended };
 
-  /// A ray, and where its candidate's leaf is if that is not here.
+  /// A ray, and the address of its candidate's leaf if that is on another node.
   struct Flight {
     core::Ray ray;
     nodes::NodeId finder{};
     core::Address block_at_finder = core::no_address;
   };
-  /// And where the ray is.
+  /// And its traversal.
   template <class RayCursor>
   struct FlightWith : Flight {
     RayCursor cursor;
   };
 
-  /// The candidate as another node may know it, with the finder's address.
+  /// The candidate for other nodes, with the finder's address.
   core::Hit travelling_candidate() const;
   nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
   void push(const core::Ray& ray, const core::Hit& hit);
@@ -138,11 +137,11 @@ class RayTask {
   bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
 
   nodes::NodeId self_;
-  TestedObjects tested_;  ///< by the ray under way
+  TestedObjects tested_;  ///< by the current ray
   std::uint64_t tests_avoided_ = 0;
   bool has_instances_;
   Flight* flight_;
-  core::Cursor* cursor_;  ///< an InstanceCursor where the database has instances
+  core::Cursor* cursor_;  ///< an InstanceCursor if the database has instances
   std::span<core::HitState> stack_;
   std::uint32_t depth_ = 0;      ///< hits on the stack
   core::Corner entered_cell_{};  ///< with Stage::entered: the finest cell

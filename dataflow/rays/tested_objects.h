@@ -1,4 +1,4 @@
-// The list of tested objects that a ray takes along, after the article.
+// The list of tested objects that a ray carries, after the article.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace dmpc::dataflow {
 
 inline constexpr std::uint32_t tested_objects_max = 8;
 
-/// Names of leaves that a ray has tested where it comes from and may meet again where it goes: those whose boxes reach beyond a
-/// region or a voxel (core::LeafHeader::shared_name), the newest first; 0 where there is none. A leaf is tested for all of a
-/// ray, wherever its box is met, so a second test finds nothing new.
+/// Names of leaves that a ray has tested and may meet again: those whose boxes reach beyond a region or a voxel
+/// (core::LeafHeader::shared_name), the newest first; 0: none. A leaf is tested for the whole ray, wherever its box is met, so a
+/// second test finds nothing new.
 using TestedNames = std::array<std::uint32_t, tested_objects_max>;
 
-/// The list while its ray is traced, with room for a number of names: when it is full the oldest is forgotten.
+/// The list while its ray is traced, with a maximum number of names: when it is full the oldest is dropped.
 class TestedObjects {
  public:
   explicit TestedObjects(std::uint32_t capacity) : capacity_(capacity) {}
@@ -28,7 +28,7 @@ class TestedObjects {
   bool has(std::uint32_t name) const {
     return name != 0 && std::find(names_.begin(), names_.begin() + capacity_, name) != names_.begin() + capacity_;
   }
-  /// It is tested now. Nothing for one that has no name.
+  /// Adds the leaf, unless it has no name.
   void add(std::uint32_t name) {
     if (name != 0 && capacity_ > 0) {
       std::copy_backward(names_.begin(), names_.begin() + capacity_ - 1, names_.begin() + capacity_);

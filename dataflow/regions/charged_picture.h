@@ -1,4 +1,4 @@
-// Renders pixels without a film, to see where in space the work is: every step of every ray is charged to the finest cell in
+// Renders pixels without a film, to find where in space the work is: every step of every ray is charged to the finest cell in
 // which it is done.
 #pragma once
 
@@ -16,11 +16,11 @@
 
 namespace dmpc::dataflow {
 
-/// What is told of each piece of work: in which finest cell it was done, and how much, in picoseconds (not 0).
+/// Called for each piece of work: its finest cell, and its amount, in picoseconds (not 0).
 template <class T>
 concept Charge = std::invocable<T&, const core::Corner&, std::uint64_t>;
 
-/// The finest cell in which the ray is at `t`, or the one in `within` (not empty) that is nearest to it.
+/// The finest cell in which the ray is at `t`, or the nearest one in `within` (not empty).
 inline core::Corner finest_cell_at(const core::Ray& ray, double t, const core::Region& within, const core::GridFrame& frame) {
   core::Corner finest;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -39,8 +39,8 @@ class ChargedPicture {
   ChargedPicture(const core::Database& database, const core::RenderSettings& settings, C charge)
       : records_(database.bytes()), settings_(settings), charge_(std::move(charge)) {}
 
-  /// Traces the pixel's first sample with everything that it spawns. A primary ray that misses the grid or shows the background
-  /// costs nothing here: it is in no region.
+  /// Traces the pixel's first sample with all descendants. A primary ray that misses the grid or shows the background costs
+  /// nothing here: it is in no region.
   void render(std::uint32_t pixel) {
     if (!settings_.shows_background(pixel)) {
       shoot(settings_.camera.primary_ray(pixel, 0));
@@ -50,7 +50,7 @@ class ChargedPicture {
   const core::Operations& operations() const { return operations_; }
 
  private:
-  /// The whole database as records; each look-up ends the step before, which is charged where it was done.
+  /// The whole database as records; each look-up ends the step before, which is charged to its place.
   template <class RayCursor>
   struct Watch {
     ChargedPicture& picture;
@@ -71,7 +71,7 @@ class ChargedPicture {
       return picture.records_.find(address);
     }
 
-    /// Where the ray enters the box of what is looked at.
+    /// Where the ray enters the box of the current child.
     float t_taken() const {
       if constexpr (std::is_same_v<RayCursor, core::InstanceCursor>) {
         return cursor.is_inside ? cursor.waiting_in_mesh.t_taken : cursor.waiting.t_taken;
@@ -81,7 +81,7 @@ class ChargedPicture {
     }
   };
 
-  /// Charges what has been done since the last call to the place where it was done.
+  /// Charges the work since the last call to its place.
   void settle() {
     const std::uint64_t now = work_of(operations_);
     if (now > settled_) {
@@ -90,7 +90,7 @@ class ChargedPicture {
     }
   }
 
-  /// Not deeper than core::ray_depth_max(), 255 at most.
+  /// At most as deep as core::ray_depth_max(), which is at most 255.
   void shoot(const core::Ray& ray) {
     const auto start = core::first_passage(ray, settings_.header.frame);
     if (!start) {
@@ -116,7 +116,7 @@ class ChargedPicture {
     return cursor.best;
   }
 
-  /// Shading and making the children is done where the hit is.
+  /// Shading and making the children is charged to the hit's place.
   void shade(core::HitState state, const core::Corner& place) {
     while (state.stage != core::HitState::Stage::finished) {
       place_ = place;

@@ -1,4 +1,4 @@
-// The columns of the scene: a 2D lattice over two of the grid's axes, and the work that rays do in each of its cells.
+// The columns of the scene: a 2D lattice over two of the grid's axes, and the work of rays in each of its cells.
 #pragma once
 
 #include <algorithm>
@@ -12,20 +12,20 @@
 
 namespace dmpc::dataflow {
 
-/// The region that a finest cell lies in: its number, and its box in finest cells.
+/// The region of a finest cell: its number, and its box in finest cells.
 struct FoundRegion {
   std::uint32_t index = 0;
   core::Region box;
 };
 
-/// Which two of the grid's axes the cuts are perpendicular to; along the third every region spans the grid. Different, below 3.
+/// The two grid axes to which the cuts are perpendicular; along the third every region spans the grid. Different, below 3.
 using CutAxes = std::array<std::uint8_t, 2>;
 
 /// Lattice lines at finest indices, as evenly as integers allow, over the grid's extent in the two cut axes. "Along 0" and "along
 /// 1" are the first and second of the cut axes. An immutable value.
 class ColumnLattice {
  public:
-  /// `grid_size` in finest cells. At most `cells_per_side` columns along each cut axis, and at most one a finest cell. Requires
+  /// `grid_size` in finest cells. At most `cells_per_side` columns along each cut axis, and at most one per finest cell. Requires
   /// sizes above 0.
   ColumnLattice(const core::Corner& grid_size, const CutAxes& axes, std::int32_t cells_per_side)
       : grid_size_(grid_size), axes_(axes) {
@@ -54,7 +54,7 @@ class ColumnLattice {
   std::size_t column_of(const core::Corner& cell) const {
     return number(column_at(0, cell[axes_[0]]), column_at(1, cell[axes_[1]]));
   }
-  /// The number of the column at (along 0, along 1): neighbours along 0 follow each other.
+  /// The number of the column at (along 0, along 1): neighbours along 0 are consecutive.
   std::size_t number(std::int32_t at0, std::int32_t at1) const {
     return static_cast<std::size_t>(at1) * static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(at0);
   }
@@ -65,7 +65,7 @@ class ColumnLattice {
   std::array<std::int32_t, 2> count_{};
 };
 
-/// The work of every column, in any one unit: integers, so that a sum does not depend on the order.
+/// The work of every column, in any unit: integers, so that a sum does not depend on the order.
 struct ColumnLoads {
   ColumnLattice lattice;
   std::vector<std::uint64_t> load;  ///< by column number

@@ -1,4 +1,4 @@
-// Several partitions of one grid laid over each other: the cells between all their cuts, and who owns each in every partition.
+// Several partitions of one grid overlaid: the cells between all their cuts, and the owner of each in every partition.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace dmpc::dataflow {
 
-/// A lattice on which a ray's way through the regions of all partitions can be found at once (LatticeTraversal). Immutable.
+/// A lattice for finding a ray's way through the regions of all partitions at once (LatticeTraversal). Immutable.
 class JointLattice {
  public:
   static constexpr std::size_t partitions_max = 64;
 
   /// Requires 1 to partitions_max partitions of one grid.
   explicit JointLattice(std::span<const Regions> partitions);
-  /// What it would hold: an owner for each partition in each cell.
+  /// Its size: an owner for each partition in each cell.
   static std::size_t owner_count(std::span<const Regions> partitions);
 
   /// A bit for each partition.
@@ -27,7 +27,7 @@ class JointLattice {
   /// The planes between cells along an axis, in finest cells, ascending: the cuts, between the grid's two ends.
   std::span<const std::int32_t> planes(std::size_t axis) const { return planes_[axis]; }
 
-  /// A cell by its place along each axis: between planes i and i + 1.
+  /// A cell by its index along each axis: between planes i and i + 1.
   using Place = std::array<std::size_t, 3>;
   std::size_t cell_at(const Place& place) const { return place[0] * stride_[0] + place[1] * stride_[1] + place[2] * stride_[2]; }
   /// From a cell to the next along an axis.
@@ -36,7 +36,7 @@ class JointLattice {
   std::span<const std::uint16_t> owners(std::size_t cell) const {
     return std::span(owners_).subspan(cell * partition_count_, partition_count_);
   }
-  /// The partitions whose region there is not known to hold nothing, a bit each.
+  /// The partitions whose region there is not known to be empty, a bit each.
   std::uint64_t occupied(std::size_t cell) const { return occupied_[cell]; }
 
  private:

@@ -9,9 +9,8 @@
 
 namespace dmpc::dataflow {
 
-/// The cells of a lattice that one ray after the other comes to, in the order in which core::Walk crosses the planes between
-/// them: so a ray comes to a partition's regions in the order in which next_stop() leads it from one to the next. Not
-/// thread-safe.
+/// The cells of a lattice along one ray after the other, in the order in which core::CellTraversal crosses the planes between
+/// them: so a ray visits a partition's regions in the order of next_stop(). Not thread-safe.
 class LatticeTraversal {
  public:
   /// `lattice` outlives it; its grid is that of `frame`.
@@ -30,7 +29,7 @@ class LatticeTraversal {
     return t_enter.has_value();
   }
 
-  /// Goes on to the next cell; false if the ray leaves the grid. Requires that enter() has found a cell, and every call since.
+  /// Goes on to the next cell; false if the ray leaves the grid. Requires that enter() and every call since returned true.
   bool advance() {
     // Planes that are crossed at one t are crossed in the order x, y, z.
     std::size_t through = t_ahead_[1] < t_ahead_[0] ? 1 : 0;
@@ -42,17 +41,17 @@ class LatticeTraversal {
       --place_[through];
       cell_ -= lattice_.stride(through);
     } else {
-      return false;  // a ray without a step runs nowhere
+      return false;  // a ray without a step goes nowhere
     }
     note_plane_ahead(through);
     return true;
   }
 
-  /// Where the ray is.
+  /// The current cell.
   std::size_t cell() const { return cell_; }
 
  private:
-  /// Sought from where the ray before was: neighbours in a picture enter by the same cell.
+  /// Searched from the entry of the ray before: neighbours in a picture enter by the same cell.
   std::size_t place_at(std::size_t axis, double t_enter) const {
     const std::span<const std::int32_t> planes = lattice_.planes(axis);
     std::size_t place = place_[axis];

@@ -1,5 +1,5 @@
-// Which node takes which region: neighbours in space should be neighbours in the machine, for most rays go from a region to the
-// one beside it.
+// The mapping of regions to nodes: neighbours in space should be neighbours in the machine, since most rays go to an adjacent
+// region.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dmpc::dataflow {
 
-/// How much passes between two regions: the length of their boundary, or counted rays. Regions by number, first != second.
+/// The traffic between two regions: the length of their boundary, or counted rays. Regions by number, first != second.
 struct Flow {
   std::uint32_t first = 0, second = 0;
   std::uint64_t amount = 0;
@@ -29,13 +29,13 @@ double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const node
 /// The mean of mean_hops() over random_mapping() with seeds 0 to mapping_count - 1; at least one.
 double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& topology, std::uint32_t mapping_count = 32);
 
-/// Few hops for the given flows: the best of several beginnings (gray_mapping(), region i on node i and, up to 128 regions, a few
-/// random ones), each improved by exchanging two regions' nodes as long as an exchange helps. Deterministic; a local optimum.
-/// Takes about regions^2 * neighbours steps a round, a few rounds a beginning; no further beginning is tried once every flow goes
-/// by one hop. Requires as many nodes as regions.
+/// A mapping with few hops for the given flows: the best of several starting points (gray_mapping(), region i on node i and, up
+/// to 128 regions, a few random ones), each improved by exchanging two regions' nodes as long as an exchange helps.
+/// Deterministic; a local optimum. Takes about regions^2 * neighbours steps per round, a few rounds per starting point; stops
+/// once every flow takes one hop. Requires as many nodes as regions.
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology);
 
-/// Puts the regions on the nodes of such a machine by map_regions(), with boundaries across `axes` as flows.
+/// Assigns the regions to the nodes of such a machine by map_regions(), with boundaries across `axes` as flows.
 void map_onto(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes);
 
 /// For 2^n regions the node whose bits are the sides of the n cuts above the region, each cut's bit reversed on the high side of
@@ -46,7 +46,7 @@ Mapping gray_mapping(const Bsp& bsp);
 
 /// Region i on node i.
 Mapping identity_mapping(std::uint32_t region_count);
-/// Any permutation with equal probability, determined by `seed`: what a mapping is compared with.
+/// Any permutation with equal probability, determined by `seed`: a baseline for mappings.
 Mapping random_mapping(std::uint32_t region_count, std::uint64_t seed);
 
 }  // namespace dmpc::dataflow

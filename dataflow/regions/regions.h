@@ -1,4 +1,4 @@
-// Who owns which part of space, however it was cut: one small value that every node holds.
+// The owners of all parts of space, with any partition: one small value that every node holds.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace dmpc::dataflow {
 
-/// The regions of a run and their owners: every finest cell of the grid lies in exactly one region, and every region is of one
-/// node, which may have several. As plain bytes copyable to every node.
+/// The regions of a run and their owners: every finest cell of the grid lies in exactly one region, and every region belongs to
+/// one node, which may have several. As plain bytes copyable to every node.
 class Regions {
   template <class Of>
   decltype(auto) ask(const Of& of) const {
@@ -21,7 +21,7 @@ class Regions {
   }
 
  public:
-  /// One a node.
+  /// One per node.
   Regions(const Bsp& bsp) : how_(bsp) {}
   Regions(const Scattered& scattered) : how_(scattered) {}
 
@@ -35,11 +35,11 @@ class Regions {
   const core::Corner& grid_size() const {
     return ask([](const auto& how) -> const core::Corner& { return how.grid_size(); });
   }
-  /// Which region holds a finest cell of the grid.
+  /// The region of a finest cell of the grid.
   std::uint32_t region_index_of(const core::Corner& cell) const {
     return ask([&](const auto& how) { return how.region_index_of(cell); });
   }
-  /// The same with its box.
+  /// The region with its box.
   FoundRegion find(const core::Corner& cell) const {
     return ask([&](const auto& how) { return how.find(cell); });
   }
@@ -47,36 +47,36 @@ class Regions {
   core::Region region_at(std::uint32_t index) const {
     return ask([&](const auto& how) { return how.region_at(index); });
   }
-  /// The node that answers for region `index`.
+  /// The owner of region `index`.
   nodes::NodeId owner_at(std::uint32_t index) const {
     return ask([&](const auto& how) { return how.owner_at(index); });
   }
-  /// The node that answers for a finest cell of the grid.
+  /// The owner of a finest cell of the grid.
   nodes::NodeId owner_of(const core::Corner& cell) const { return owner_at(region_index_of(cell)); }
   /// The numbers of the regions that each node has, by node, ascending.
   std::vector<std::vector<std::uint32_t>> by_node() const;
 
-  /// Whether region `index` is known to hold nothing.
+  /// Whether region `index` is known to be empty.
   bool is_empty(std::uint32_t index) const {
     return ask([&](const auto& how) { return how.is_empty(index); });
   }
-  /// Region `index` holds nothing: rays need not go to its owner.
+  /// Marks region `index` as empty: rays need not go to its owner.
   void mark_empty(std::uint32_t index) {
     std::visit([&](auto& how) { how.mark_empty(index); }, how_);
   }
 
-  /// Calls visit(axis, at) for the planes that regions end at, in finest cells; some more than once, some ends of the grid.
+  /// Calls visit(axis, at) for the planes that bound regions, in finest cells; some more than once, some at the ends of the grid.
   template <class Visit>
   void for_each_plane(const Visit& visit) const;
 
-  /// Regions are units that nodes migrate while rays travel.
+  /// Whether regions are units that nodes migrate during the run.
   bool are_moving() const { return bsp() != nullptr && bsp()->is_of_units(); }
   /// These units, as if each were the region of a node of its number. Requires that regions move.
   Regions by_unit() const { return std::get<Bsp>(how_).by_unit(); }
-  /// From now on region `index`, which moves, is `node`'s.
+  /// Changes the owner of region `index`, which moves.
   void give_to(std::uint32_t index, nodes::NodeId node) { std::get<Bsp>(how_).give_to(index, node); }
 
-  /// What map_onto() puts on nodes; null where the owners are known by arithmetic.
+  /// The regions for map_onto(); nullptr if the owners are given by arithmetic.
   Bsp* bsp() { return std::get_if<Bsp>(&how_); }
   const Bsp* bsp() const { return std::get_if<Bsp>(&how_); }
 

@@ -1,8 +1,8 @@
-// Space cut into a regular lattice of many regions, so assigned to the nodes that each has as many, far from each other.
+// A regular lattice of many regions, assigned to the nodes so that each has as many, far from each other.
 //
-// Source of the idea: H. Kobayashi and others, 1988, as D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for
-// Ray Tracing in Parallel", 1994, have it: load concentrates locally, so it is split into several regions, and neighbours go to
-// processors that are not adjacent on a 2D torus, by a mapping function. The function here is of ours.
+// Source of the idea: H. Kobayashi and others, 1988, as described by D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and
+// Control for Ray Tracing in Parallel", 1994: load concentrates locally, so it is split into several regions, and neighbours go
+// to processors that are not adjacent on a 2D torus, by a mapping function. The function here is our own.
 #pragma once
 
 #include <array>
@@ -18,32 +18,32 @@
 
 namespace dmpc::dataflow {
 
-/// How many regions a lattice has along the two cut axes, and how they are assigned: the region at (x, y) is node
-/// (step[0] x + step[1] y) mod node_count's.
+/// The number of regions of a lattice along the two cut axes, and their assignment: the region at (x, y) belongs to node (step[0]
+/// x + step[1] y) mod node_count.
 struct ScatteredShape {
   std::array<std::uint32_t, 2> count = {1, 1};
   std::array<std::uint32_t, 2> step = {0, 0};
   constexpr bool operator==(const ScatteredShape&) const = default;
 };
 
-/// The shape of a lattice over so many finest cells along the two cut axes, with cells as near to squares as may be; nothing if
-/// no lattice of `regions_a_node` times `node_count` regions has a finest cell for each row and column.
+/// The shape of a lattice over this number of finest cells along the two cut axes, with cells as near to squares as possible;
+/// nothing if no lattice of `regions_a_node` times `node_count` regions has a finest cell for each row and column.
 ///
-/// Every node has exactly regions_a_node regions, since a window of p q = node_count cells has each node once, wherever it lies.
-/// With more than one, neighbours along either axis belong to different nodes; among the steps that do so the first is chosen
-/// that keeps one node's regions farthest apart, and then puts the fewest neighbours on nodes that are adjacent on a torus
+/// Every node has exactly regions_a_node regions, since each window of p q = node_count cells has each node once. With more than
+/// one, neighbours along either axis belong to different nodes; among the steps that achieve this the first is chosen that keeps
+/// one node's regions farthest apart, and then puts the fewest neighbours on nodes that are adjacent on a torus
 /// (nodes/topology.h): none on 64, 100 or 128 nodes, some on 16 or 36.
 std::optional<ScatteredShape> scattered_shape(const std::array<std::int32_t, 2>& size, std::uint32_t node_count,
                                               std::uint32_t regions_a_node);
 
-/// The regions of a run and their owners, by arithmetic. Regions are numbered row by row, along the first cut axis. Immutable but
-/// for mark_empty(); as plain bytes copyable to every node.
+/// The regions of a run and their owners, by arithmetic. Regions are numbered row by row, along the first cut axis. Immutable
+/// except for mark_empty(); as plain bytes copyable to every node.
 class Scattered {
  public:
-  /// All nodes together have at most so many.
+  /// The maximum number of regions of all nodes together.
   static constexpr std::uint32_t regions_max = 65536;
 
-  /// Requires a shape that is scattered_shape()'s for the grid's extent along `axes`, whose regions are regions_max at most.
+  /// Requires a shape of scattered_shape() for the grid's extent along `axes`, with at most regions_max regions.
   Scattered(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t node_count, const ScatteredShape& shape)
       : grid_size_(grid_size), axes_(axes), node_count_(node_count), shape_(shape) {
     core::expect(region_count() >= 1 && region_count() <= regions_max, "a lattice has from 1 to 65536 regions");
@@ -55,22 +55,22 @@ class Scattered {
   const CutAxes& axes() const { return axes_; }
   const ScatteredShape& shape() const { return shape_; }
 
-  /// Which region holds a finest cell of the grid.
+  /// The region of a finest cell of the grid.
   std::uint32_t region_index_of(const core::Corner& cell) const {
     return column_at(1, cell) * shape_.count[0] + column_at(0, cell);
   }
-  /// The same with its box.
+  /// The region with its box.
   FoundRegion find(const core::Corner& cell) const {
     const std::uint32_t index = region_index_of(cell);
     return {index, region_at(index)};
   }
   /// The box of region `index`, in finest cells.
   core::Region region_at(std::uint32_t index) const;
-  /// The first finest cell of row or column `at` of the lattice, along cut axis `along`; that behind the last ends the grid.
+  /// The first finest cell of row or column `at` of the lattice, along cut axis `along`; one past the last is the grid's end.
   std::int32_t line(std::size_t along, std::uint32_t at) const {
     return static_cast<std::int32_t>(std::int64_t{at} * grid_size_[axes_[along]] / shape_.count[along]);
   }
-  /// The node that answers for region `index`.
+  /// The owner of region `index`.
   nodes::NodeId owner_at(std::uint32_t index) const {
     const std::uint64_t x = index % shape_.count[0], y = index / shape_.count[0];
     return nodes::NodeId{static_cast<std::uint32_t>((shape_.step[0] * x + shape_.step[1] * y) % node_count_)};

@@ -1,4 +1,4 @@
-// The primary rays of a node whose region moves, unit by unit, so that those which have not started go along when a unit does.
+// The primary rays of a node whose region moves, by unit, so that those that have not started migrate with it.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,18 @@
 
 namespace dmpc::dataflow {
 
-/// They start in the order of the picture, whatever their unit, as those of all other nodes do: so neighbours, whose rays meet,
-/// are as far. Thread safety: belongs to one node.
+/// They start in the order of the picture, for all units, as on all other nodes: so nodes have progressed equally far in
+/// neighbouring rays, which meet. Thread safety: belongs to one node.
 class UnitPrimaries {
   struct List;
 
  public:
   struct Capacity {
-    std::size_t units = 0;  ///< with rays at one time; 0: regions do not move, nothing is held
+    std::size_t units = 0;  ///< maximum with rays at one time; 0: regions do not move, no rays
     std::size_t runs = 0;
   };
 
-  /// Copies `runs`, those of one unit after the other, of which unit u has runs_of_unit[u].
+  /// Copies `runs`, unit by unit; unit u has runs_of_unit[u].
   UnitPrimaries(nodes::LocalMemory& memory, const Capacity& capacity, std::span<const PrimaryRun> runs,
                 std::span<const std::uint32_t> runs_of_unit, const core::SampleRange& samples)
       : samples_(samples) {
@@ -49,13 +49,13 @@ class UnitPrimaries {
     core::expect(first == runs.size(), "every run is a unit's");
   }
 
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Layout<PrimaryRun, List> layout(const Capacity& capacity) {
     return {{nodes::Category::queues, capacity.runs}, {nodes::Category::queues, capacity.units}};
   }
 
   bool empty() const { return left_ == 0; }
-  /// Rays.
+  /// Number of rays.
   std::uint64_t left() const { return left_; }
   std::uint64_t left_of(std::uint32_t unit) const {
     const List* const list = find(unit);
@@ -67,7 +67,7 @@ class UnitPrimaries {
     return list == nullptr ? 0 : list->count;
   }
 
-  /// So many may be put here of one unit: none unless all rays that were here have started.
+  /// The number of runs that may be put here for one unit: 0 unless all rays that were here have started.
   std::size_t free_runs() const { return empty() ? runs_.size() : 0; }
   const core::SampleRange& samples() const { return samples_; }
 
@@ -94,7 +94,7 @@ class UnitPrimaries {
     return std::max_element(lists_.begin(), lists_.end(), [](const List& a, const List& b) { return a.rays < b.rays; })->unit;
   }
 
-  /// Some of a unit's runs, as many as a packet holds, or none if there is none; they are here no longer.
+  /// Removes and returns some of a unit's runs, as many as a packet holds, or none if there is none.
   AssignedPrimaries give(std::uint32_t unit) {
     AssignedPrimaries assigned{.samples = samples_};
     if (List* const list = find(unit)) {
@@ -110,7 +110,7 @@ class UnitPrimaries {
     return assigned;
   }
 
-  /// Some of a unit's runs have come, for all of which there was room before the first.
+  /// Adds some of a unit's runs; there was memory for all of them before the first.
   void put(std::uint32_t unit, const AssignedPrimaries& assigned) {
     core::expect(assigned.count == 0 || assigned.samples == samples_, "primary rays go along in the pass that they are of");
     List& list = lists_.front();
@@ -133,7 +133,7 @@ class UnitPrimaries {
     std::uint32_t first = 0, count = 0;  ///< of runs
     std::uint64_t rays = 0;
   };
-  /// Its rays; nullptr if it has none.
+  /// Its list of rays; nullptr if it has none.
   List* find(std::uint32_t unit) const {
     const auto found =
         std::find_if(lists_.begin(), lists_.end(), [unit](const List& list) { return list.count > 0 && list.unit == unit; });
