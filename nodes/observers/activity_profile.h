@@ -1,4 +1,5 @@
-// What every node was busy with over time, in a bounded number of steps: an instrument beside the computer, whose memory is no
+// The activity of every node over time, in a bounded number of steps; an instrument outside of the computer, whose memory is no
+// node's.
 // node's.
 #pragma once
 
@@ -14,15 +15,15 @@
 
 namespace dmpc::nodes {
 
-/// How many kinds of work there are. Who makes a profile says which a span counts as.
+/// The number of kinds of work. The maker of a profile classifies spans.
 inline constexpr std::size_t work_count = 6;
-/// The number of a kind. Called by several threads at a time.
+/// The kind of work of a span. Called by several threads at a time.
 using WorkOf = std::function<std::size_t(const Span& span)>;
 
 /// Nanoseconds by kind of work.
 using WorkTimes = std::array<std::uint64_t, work_count>;
 
-/// How many kinds of waits there are, and of which kind a wait is for a packet.
+/// The number of kinds of waits, by the packet that ends them.
 inline constexpr std::size_t wait_count = 7;
 using WaitOf = std::array<std::uint8_t, packet_kind_count>;
 /// Nanoseconds by kind of wait.
@@ -32,12 +33,12 @@ using WaitTimes = std::array<std::uint64_t, wait_count>;
 struct ActivitySteps {
   std::uint64_t step_ns = 0;
   std::vector<std::vector<WorkTimes>>
-      nodes;  ///< by number, the host last; each of all steps up to the last in which any was busy, or waited
+      nodes;  ///< by number, the host last; each with all steps up to the last in which any was busy, or waited
   std::vector<std::vector<WaitTimes>> waits = {};  ///< likewise
 };
 
-/// Adds up the spans and waits of each node by time: what one takes by itself is spread evenly over its length. Thread safety: as
-/// an Observer; take() when the run is over.
+/// Adds up the spans and waits of each node by time: a span's own duration is spread evenly over its length. Thread safety: as an
+/// Observer; take() when the run is over.
 class ActivityProfile final : public Observer {
  public:
   /// `peer_count` = nodes + host. A run has up to `step_count_max` steps, which is even, of a length that doubles as it goes on.
@@ -47,18 +48,18 @@ class ActivityProfile final : public Observer {
   void ended(const Span& span, const Program& program) override;
   void waited(const Waited& wait) override;
 
-  /// What was seen of nodes, for add() of the profile of another rank.
+  /// What was observed, for add() of the profile of another rank.
   std::string bytes() const;
-  /// Takes over what was seen of nodes that are on another rank; its clock is near enough to this one's for steps.
+  /// Adds what was observed on another rank; its clock is near enough to this one's for steps.
   void add(std::string_view bytes);
 
-  /// What was seen, all nodes in steps of the same length. Call it once.
+  /// The result, all nodes in steps of the same length. Call it once.
   ActivitySteps take();
 
  private:
   struct Log;
 
-  /// Of the node, with steps so long that there are few enough until then.
+  /// The node's log, with steps long enough for the time `end_ns`.
   Log& log_until(NodeId node, std::uint64_t end_ns);
 
   WorkOf work_of_;

@@ -1,8 +1,8 @@
-// When each item of a program's work was last worked on, onto a heat map: an instrument beside the computer, whose memory is no
+// Records on a heat map when each item of a program's work was last processed; an instrument outside of the computer, whose
+// memory is no node's.
 // node's.
-//
-// A Meter cannot know it: programs have no clock. What a call has worked on is told before its span, which alone knows when
-// the call ends; so the items of a call wait for it.
+// A Meter cannot do this: programs have no clock. What a call has worked on is reported before its span, which alone has the end
+// of the call; so the items of a call wait for it.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 namespace dmpc::nodes {
 
 /// Raises each item's number of the map's kind done() to the end, in nanoseconds since the start of the run, of the last call
-/// that has worked on it, at whichever node; 0 of an item on which nobody has worked. Thread safety: as an Observer; the map is
-/// read when the run is over.
+/// that has worked on it, on any node; 0 for an item on which no call has worked. Thread safety: as an Observer; the map is read
+/// when the run is over.
 class DoneObserver final : public Observer {
  public:
   /// `peer_count` = nodes + host. The map outlives this.
@@ -35,13 +35,13 @@ class DoneObserver final : public Observer {
   void worked(const Worked& worked) override { calls_[index_of(worked.node)].items.push_back(worked.item); }
 
  private:
-  /// On cache lines of its own. It has no more items than one call works on.
+  /// On its own cache lines. It has no more items than one call works on.
   struct alignas(cache_line_bytes) Call {
     std::vector<std::uint32_t> items;
   };
 
   HeatMap* map_;
-  std::vector<Call> calls_;  ///< under way, by node
+  std::vector<Call> calls_;  ///< in progress, by node
 };
 
 }  // namespace dmpc::nodes

@@ -1,5 +1,5 @@
-// What passed between the nodes of a modelled machine over time, and how full they were: an instrument beside the computer, whose
-// memory is no node's.
+// The traffic between the nodes of a modelled machine over time, and their fill levels; an instrument outside of the computer,
+// whose memory is no node's.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@
 
 namespace dmpc::nodes {
 
-/// What an ExchangeProfile looks at.
+/// What an ExchangeProfile records.
 struct ExchangeChoice {
   std::uint32_t node_count = 1;
   TopologyKind topology = TopologyKind::crossbar;
   std::uint32_t uplinks = 1;
   std::uint32_t pair_kinds = 0;    ///< a bit for each kind of packet that counts between pairs
-  std::uint32_t number_count = 0;  ///< these begin with a number below it, by which they are counted, too; 0: they do not
+  std::uint32_t number_count = 0;  ///< these packets begin with a number below it, by which they are counted, too; 0: they do not
 };
 
 /// For one run on a modelled machine, which is on one thread: not thread-safe. Memory: at most 24 MB, and 4 bytes a pair of
@@ -35,17 +35,17 @@ class ExchangeProfile final : public Observer {
   void ended(const Span& span, const Program& program) override;
   void received(const Passing& packet) override;
 
-  /// Packets that count: of the receiver, with the host as the last, from a sender at receiver * (node_count + 1) + sender.
+  /// Packets that count: for each receiver, the host being the last, from a sender at receiver * (node_count + 1) + sender.
   const StepCounts& pairs() const { return pairs_; }
-  /// The same packets by the number with which they begin.
+  /// The same packets by their first number.
   const StepCounts& numbers() const { return numbers_; }
-  /// Bytes that a link has carried, headers included, by when they arrived at their target. `from` and `to` are named as a
-  /// LinkUse's; empty of a link that carried nothing, and of a memory port.
+  /// Bytes that a link has carried, including headers, by arrival time. `from` and `to` are named as in LinkUse; empty for a link
+  /// that carried nothing, and for a memory port.
   std::span<const std::uint64_t> link_bytes(std::string_view from, std::string_view to) const;
   const StepCounts& links() const { return links_; }
 
   const std::vector<std::string>& level_names() const { return level_names_; }
-  /// The largest that a level of each node was in each step, summed over nodes.
+  /// The maximum of each node's level in each step, summed over nodes.
   std::vector<std::uint64_t> level_sums(std::size_t level) const;
   const StepCounts& levels() const { return levels_; }
 
@@ -54,7 +54,7 @@ class ExchangeProfile final : public Observer {
   struct LinkTo {
     std::uint32_t to = 0, number = 0;
   };
-  /// A node's levels as they were told last.
+  /// A node's levels as reported last.
   struct LevelsNow {
     std::uint64_t time_ns = 0;
     std::array<std::uint64_t, Levels::count_max> values{};

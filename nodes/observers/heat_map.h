@@ -1,4 +1,4 @@
-// What each item of a program's work cost, of each kind that is asked for: an instrument beside the computer, whose memory is no
+// The costs of each item of a program's work, for the requested kinds; an instrument outside of the computer, whose memory is no
 // node's.
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace dmpc::nodes {
 
-/// How many kinds of numbers a map can have.
+/// The number of kinds of numbers of a map.
 inline constexpr std::size_t heat_kind_count = 9;
 
-/// A kind, by the numbering of whoever makes the map.
+/// A kind, in the numbering of the map's maker.
 class HeatNumber {
  public:
   explicit constexpr HeatNumber(std::size_t value) : value_(value) {}
-  // Implicit: whoever names a kind has named its number.
+  // Implicit: the name of a kind is its number.
   template <class Kind>
   requires std::is_enum_v<Kind>
   constexpr HeatNumber(Kind kind) : value_(static_cast<std::size_t>(kind)) {}
@@ -32,20 +32,20 @@ class HeatNumber {
   std::size_t value_;
 };
 
-/// Kinds that can be recorded. The computer knows what four of them mean, and the program counts the others.
+/// Kinds that can be recorded. The computer defines four of them, and the program counts the others.
 template <class Kind>
 concept HeatKinds = std::is_enum_v<Kind> && requires {
   Kind::time;   // picoseconds of computing
   Kind::node;   // number of the node that the item belongs to
-  Kind::depth;  // of the deepest Worked
-  Kind::done;   // nanoseconds from the start until it was last worked on (DoneObserver)
+  Kind::depth;  // depth of the deepest Worked
+  Kind::done;  // nanoseconds from the start until it was last processed (DoneObserver)
 };
 
-/// A number for each item and kind recorded; of other kinds nothing is kept. Thread safety: several nodes may write at a time,
-/// even to one item; read when none does.
+/// A number for each item and recorded kind; other kinds are dropped. Thread safety: several nodes may write at a time, even to
+/// one item; read when none does.
 class HeatMap {
  public:
-  /// All zero. A kind may stand twice.
+  /// All zero. A kind may occur twice.
   template <class Kinds>
   requires HeatKinds<typename Kinds::value_type> HeatMap(std::uint32_t item_count, const Kinds& kinds)
       : item_count_(item_count),
@@ -68,9 +68,9 @@ class HeatMap {
   /// All zero again.
   void clear();
 
-  // These do nothing with a kind that is not recorded. They require item < item_count().
+  // These ignore a kind that is not recorded. They require item < item_count().
   void add(HeatNumber kind, std::uint32_t item, std::uint64_t amount);
-  /// To `value` at least.
+  /// Raises it to at least `value`.
   void raise(HeatNumber kind, std::uint32_t item, std::uint64_t value);
   void set(HeatNumber kind, std::uint32_t item, std::uint64_t value);
 
@@ -78,14 +78,13 @@ class HeatMap {
   std::span<const std::uint64_t> values(HeatNumber kind) const { return values_.at(kind.value()); }
   std::uint64_t sum(HeatNumber kind) const;
 
-  /// All numbers, for add() of a map of the same items and kinds.
+  /// All numbers, for add() of a map with the same items and kinds.
   std::string bytes() const;
-  /// Adds what others, on another rank, have written to theirs; of depth, node and done the larger number stays, of done by this
-  /// rank's clock.
+  /// Adds the numbers of another rank's map; for depth, node and done the larger number remains, for done by this rank's clock.
   void add(std::string_view bytes, const ClockDrift& clock = {});
 
  private:
-  /// Where the item's number stands; nullptr if the kind is not recorded.
+  /// The item's number; nullptr if the kind is not recorded.
   std::uint64_t* place(HeatNumber kind, std::uint32_t item);
 
   std::uint32_t item_count_;

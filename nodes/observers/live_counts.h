@@ -1,4 +1,4 @@
-// What each node has done so far, for who looks while it does: an instrument beside the computer, whose memory is no node's.
+// What each node has done so far, readable during the run; an instrument outside of the computer, whose memory is no node's.
 #pragma once
 
 #include <array>
@@ -11,14 +11,13 @@
 namespace dmpc::nodes {
 
 struct LiveNode {
-  std::uint64_t now_ns = 0;  ///< when the last thing that it did was over
+  std::uint64_t now_ns = 0;  ///< the end of the last thing that it did
   WorkTimes busy_ns{};
   std::uint64_t packets_sent = 0, bytes_sent = 0;  ///< bytes of payloads
 };
 
-/// Each number is written by one thread at a time, its node's, and read by any: nobody waits for anybody, and numbers of one node
-/// that are read together may be of moments that lie a call apart. Thread safety: as an Observer; read() from any thread at any
-/// time.
+/// Each number is written by one thread at a time, its node's, and read by any, without waiting; numbers of one node that are
+/// read together may be of moments that are a call apart. Thread safety: as an Observer; read() from any thread at any time.
 class LiveCounts final : public Observer {
  public:
   /// `peer_count` = nodes + host.
@@ -30,7 +29,7 @@ class LiveCounts final : public Observer {
 
   /// By number, the host last.
   std::vector<LiveNode> read() const;
-  /// Another run begins: all is 0. Requires that nobody tells anything meanwhile.
+  /// To be called before another run: all is 0. Requires that nothing is reported meanwhile.
   void clear();
 
  private:

@@ -1,5 +1,5 @@
-// What programs tell of the items that they work on, asked for twice a quantum: for observers, and for heat maps, onto whose item
-// it puts what a node counts meanwhile.
+// Reports the items on which programs work, twice a quantum: to observers, and to heat maps, to whose items it adds what a node
+// counts meanwhile.
 #pragma once
 
 #include <array>
@@ -16,29 +16,29 @@
 
 namespace dmpc::nodes {
 
-/// What a node has counted since the start, as far as heat maps show it.
+/// A node's counts since the start, for heat maps.
 struct HeatTotals {
-  std::array<std::uint64_t, heat_kind_count> counts{};  ///< by kind; 0 of those that the computer knows
+  std::array<std::uint64_t, heat_kind_count> counts{};  ///< by kind; 0 for those that the computer defines
   Charges charges = {};
 
   std::uint64_t& operator[](HeatNumber kind) { return counts.at(kind.value()); }
 };
 
-/// One node's. Time is what a machine's model asks for the operations charged, or without one the processor's time of the calling
-/// thread, read twice a quantum. Thread safety: belongs to one node.
+/// One node's meter. Time is the price of the charged operations by a machine's model, or without one the processor time of the
+/// calling thread, read twice a quantum. Thread safety: belongs to one node.
 class Meter {
  public:
-  /// For whoever of `watching` wants one. `machine`, whose prices are time, outlives the meter, and so does the map; without a
-  /// machine nodes are threads.
+  /// For the members of `watching` that need one. `machine`, whose prices are time, outlives the meter, and so does the map;
+  /// without a machine nodes are threads.
   Meter(const Watching& watching, const Machine* machine, NodeId self)
       : map_(watching.heat), observer_(watching.observer), self_(self), machine_(machine) {}
 
   /// What is counted and computed from now on is for one item.
   void begin(const HeatTotals& totals);
-  /// It was for this one, and the call got so deep in it last. What follows, up to the next begin() if there is one, is for
-  /// the item of the next end().
+  /// Ends the item `item`, with the last depth in it. What follows, up to the next begin() if there is one, is for the item of
+  /// the next end().
   void end(std::uint32_t item, std::uint32_t depth, const HeatTotals& totals);
-  /// The item belongs to this node.
+  /// Records that the item belongs to this node.
   void claim(std::uint32_t item);
 
  private:

@@ -1,4 +1,4 @@
-// Several who look on at one run.
+// Several observers of one run.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace dmpc::nodes {
 
-/// Tells all of them, in order. Thread safety: as theirs.
+/// Reports to all of them, in order. Thread safety: as theirs.
 class ObserverGroup final : public Observer {
  public:
-  /// They outlive it.
+  /// The members outlive it.
   explicit ObserverGroup(std::vector<Observer*> members) : members_(std::move(members)) {}
 
   void ended(const Span& span, const Program& program) override {

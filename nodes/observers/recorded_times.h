@@ -1,4 +1,4 @@
-// Which times of a run a trace has that had no room for all of them.
+// The times of a run that a trace has if there was not enough memory for all of them.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 namespace dmpc::nodes {
 
 /// All before a time and all from another on; in between the same part of each period, or nothing. Parts and periods are powers
-/// of two of nanoseconds since the start of the run, so that what is thinned again keeps a part of what it had, and everybody has
-/// the same without asking.
+/// of two of nanoseconds since the start of the run, so that repeated thinning keeps a part of what was there, and all nodes have
+/// the same without communication.
 struct RecordedTimes {
   std::uint64_t whole_until_ns = 0;  ///< not included
   std::uint64_t whole_from_ns = 0;
@@ -21,21 +21,21 @@ struct RecordedTimes {
   bool has(std::uint64_t time_ns) const {
     return time_ns < whole_until_ns || time_ns >= whole_from_ns || (has_parts && time_ns % period_ns() < part_ns());
   }
-  /// When what begins at a time that it has is over, at the earliest: all until then was recorded.
+  /// The earliest end of the recorded stretch that contains `time_ns`.
   std::uint64_t end_of_stretch(std::uint64_t time_ns) const;
-  /// The first time that it has after one that it has not.
+  /// The first recorded time after one that is not recorded.
   std::uint64_t next(std::uint64_t time_ns) const;
-  /// Halves how much of the time between it has, `now_ns` being about the end of the run as far as it has come: by longer periods
-  /// as long as there are at least `periods_min` of them, else by shorter parts.
+  /// Halves the recorded share of the time in between; `now_ns` is about the end of the run so far: by longer periods as long as
+  /// there are at least `periods_min` of them, otherwise by shorter parts.
   void thin(std::uint64_t now_ns);
-  /// Leaves what the other has, too.
+  /// Intersects it with the other.
   void meet(const RecordedTimes& other);
 
-  /// A percent of any run has at least a part.
+  /// So that a percent of any run has at least one part.
   static constexpr std::uint64_t periods_min = 128;
-  /// Beginning to be thinned then: all that is between in parts that are as long as their period.
+  /// The state before the first thinning: everything in between, in parts as long as their period.
   static RecordedTimes begin(std::uint64_t whole_until_ns, std::uint32_t period_bits);
-  /// For begin() at this time.
+  /// The argument of begin() at this time.
   static std::uint32_t period_bits_at(std::uint64_t now_ns);
 };
 

@@ -1,4 +1,4 @@
-// How much of what came when, by number: rows of steps of equal length that double as a run goes on.
+// Counts by number over time: rows of steps of equal length that doubles as a run goes on.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class StepCounts {
     core::expect(step_count_max >= 2 && step_count_max % 2 == 0, "steps can be joined in pairs");
   }
 
-  /// Adds to the step in which `time_ns` is, or raises it.
+  /// Adds to the step of `time_ns`, or raises it.
   void add(std::uint32_t number, std::uint64_t time_ns, std::uint64_t amount) { at(number, time_ns) += amount; }
   void raise(std::uint32_t number, std::uint64_t time_ns, std::uint64_t amount) {
     raises_ = true;
@@ -30,9 +30,9 @@ class StepCounts {
 
   std::uint64_t step_ns() const { return step_ns_; }
   std::size_t step_count_max() const { return step_count_max_; }
-  /// False where there were more numbers than rows: then those of the last are not here.
+  /// False if there were more numbers than rows: then the last numbers are missing.
   bool is_complete() const { return is_complete_; }
-  /// Of all steps; empty of a number that never came.
+  /// All steps; empty for a number that never occurred.
   std::span<const std::uint64_t> row(std::uint32_t number) const {
     const std::uint32_t row = row_of_.at(number);
     return row == 0 ? std::span<const std::uint64_t>() : std::span(counts_.data() + row * step_count_max_, step_count_max_);
@@ -72,7 +72,7 @@ class StepCounts {
   bool is_complete_ = true;
   bool raises_ = false;                ///< two steps become the larger, not the sum
   std::vector<std::uint32_t> row_of_;  ///< by number, from 1 on; 0: none
-  std::vector<std::uint64_t> counts_;  ///< row by row, the first for what has none
+  std::vector<std::uint64_t> counts_;  ///< row by row, the first for numbers without one
 };
 
 }  // namespace dmpc::nodes

@@ -1,5 +1,4 @@
-// What happened in a run and when, as far as somebody wants to look at it: an instrument beside the computer, whose memory is no
-// node's.
+// What happened in a run and when, for inspection; an instrument outside of the computer, whose memory is no node's.
 #pragma once
 
 #include <atomic>
@@ -17,12 +16,12 @@
 
 namespace dmpc::nodes {
 
-/// What of a run is recorded: a window of time, what begins or ends in it, and of more events than there is room for how the
-/// window begins and ends, and in between the same part of each period, at all nodes.
+/// What of a run is recorded: a window of time, everything that begins or ends in it, and if there are more events than memory,
+/// the begin and end of the window, and in between the same part of each period, at all nodes.
 struct TraceChoice {
   std::uint64_t from_ns = 0;
   std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
-  std::uint64_t events_max = 1'000'000;                             ///< spans, ends of messages and levels, of 110 bytes or so
+  std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels, each of about 110 bytes
 };
 
 /// A Span, cut where the window ends.
@@ -30,9 +29,9 @@ struct TraceSpan {
   static constexpr std::uint32_t no_item = 0xffffffffU;
 
   std::uint64_t begin_ns = 0, end_ns = 0;
-  std::uint64_t own_ns = 0;  ///< as a Span's, of the whole
+  std::uint64_t own_ns = 0;  ///< as a Span's, of the whole span
   std::uint64_t call = 0;
-  std::uint32_t item = no_item;  ///< that was worked on, of several the first
+  std::uint32_t item = no_item;  ///< the item worked on, the first of several
   std::uint32_t depth = 0;       ///< of a Worked
   Activity activity = Activity::work;
   PacketKind packet = 0;
@@ -40,17 +39,17 @@ struct TraceSpan {
   bool is_cut = false;  ///< it began before the window, or ends after it
 };
 
-/// A packet from node to node, both of whose ends were recorded.
+/// A packet from node to node, with both ends recorded.
 struct TraceMessage {
   NodeId source{}, target{};
   PacketKind kind = 0;
   std::uint32_t bytes = 0;       ///< of the payload
-  std::uint32_t first_word = 0;  ///< of the payload: what many protocols say first, a number
+  std::uint32_t first_word = 0;  ///< of the payload: a number in many protocols
   std::uint64_t sent_call = 0, received_call = 0;
   std::uint64_t sent_ns = 0, received_ns = 0;
 };
 
-/// A level that a program has had since a time.
+/// A level of a program and its begin.
 struct TraceLevel {
   std::uint64_t time_ns = 0;
   std::uint64_t value = 0;
@@ -59,7 +58,7 @@ struct TraceLevel {
 
 /// What one node did, in order of time.
 struct TraceNode {
-  std::vector<TraceSpan> spans;  ///< what begins first comes first, and what lies within it behind it
+  std::vector<TraceSpan> spans;  ///< ordered by begin, enclosing spans before those within
   std::vector<std::string> level_names;
   std::vector<TraceLevel> levels;  ///< only where they change
 };
@@ -69,14 +68,14 @@ struct Trace {
   std::vector<TraceMessage> messages;
   std::uint64_t events_lost = 0;       ///< beyond TraceChoice::events_max
   std::optional<RecordedTimes> times;  ///< when nothing was lost, if something was
-  /// On ranks, whose clocks are not quite alike: messages that seemed to be received before they were sent, and by how much at
-  /// most. They are received when they are sent.
+  /// On ranks, whose clocks differ slightly: messages that seemed to be received before they were sent, and the maximum
+  /// difference. They are shown as received when they were sent.
   std::uint64_t messages_moved = 0, moved_ns_max = 0;
 };
 
-/// Records. Half of the room for events is shared out evenly among the nodes, the other half is theirs who need it first. A node
-/// whose room is full forgets some of what it has itself, so nobody waits for anybody.
-/// Thread safety: as an Observer; take() when the run is over.
+/// Recorder. Half of the memory for events is distributed evenly over the nodes, the other half goes to those that need it first.
+/// A node whose memory is full drops some of its own events, so nodes never wait for each other. Thread safety: as an Observer;
+/// take() when the run is over.
 class TraceRecorder final : public Observer {
  public:
   /// `peer_count` = nodes + host.
@@ -88,9 +87,9 @@ class TraceRecorder final : public Observer {
   void received(const Passing& packet) override;
   void worked(const Worked& worked) override;
 
-  /// What the nodes have told, for add() of the recorder of another rank, which has the same choice.
+  /// What the nodes have reported, for add() of another rank's recorder, which has the same choice.
   std::string bytes() const;
-  /// Takes over what nodes have told that are on another rank, in times of this one.
+  /// Adds what nodes on another rank have reported, in times of this one.
   void add(std::string_view bytes, const ClockDrift& clock);
 
   /// What was recorded; call it once.
@@ -116,9 +115,9 @@ class TraceRecorder final : public Observer {
 
   TraceChoice choice_;
   std::vector<Log> logs_;
-  std::uint64_t shared_room_ = 0;         ///< events, for whoever comes first
-  std::atomic<std::uint64_t> taken_{0};   ///< of them, and what was asked for in vain
-  std::atomic<std::uint32_t> period_{0};  ///< bits of the first to be thinned, and 1
+  std::uint64_t shared_room_ = 0;  ///< events, for the first that need it
+  std::atomic<std::uint64_t> taken_{0};  ///< of them, including requests in vain
+  std::atomic<std::uint32_t> period_{0};  ///< bits of the first one to be thinned, plus 1
 };
 
 }  // namespace dmpc::nodes

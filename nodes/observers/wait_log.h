@@ -1,4 +1,4 @@
-// The waits of a run and what led to the end of each, of all the longest: an instrument beside the computer, whose memory is no
+// The longest waits of a run, with the cause of the end of each; an instrument outside of the computer, whose memory is no
 // node's.
 #pragma once
 
@@ -14,13 +14,13 @@ struct WaitRecord {
   /// By node, then in order of time.
   std::vector<Waited> waits;
   std::uint64_t count = 0;            ///< of all waits
-  std::uint64_t left_out_ns_max = 0;  ///< the longest that is not among them; all that are longer are
+  std::uint64_t left_out_ns_max = 0;  ///< the longest that is not included; all longer ones are
 };
 
 /// Keeps waits where paths are followed. Thread safety: as an Observer; take() when the run is over.
 class WaitLog final : public Observer {
  public:
-  /// `peer_count` = nodes + host. `node_waits_max`, at least 2, of a node are kept on the way.
+  /// `peer_count` = nodes + host. `node_waits_max`, at least 2, is the number kept per node during the run.
   WaitLog(std::uint32_t peer_count, std::size_t node_waits_max);
   ~WaitLog() override;
 

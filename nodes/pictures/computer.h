@@ -1,4 +1,4 @@
-// The emulated computer as it renders pictures of one scene, one after another, by whatever strategy.
+// The emulated computer rendering pictures of one scene, one after another, by any strategy.
 #pragma once
 
 #include <cstddef>
@@ -27,37 +27,37 @@
 
 namespace dmpc::pictures {
 
-/// What node programs of pictures are beside programs.
+/// The interface of node programs for pictures, in addition to Program.
 class PictureProgram {
  public:
-  /// The run of the picture before has ended: another one follows, of the same size and samples, from another place. What the
-  /// node has of the scene it keeps, and what it counts goes on. `settings` outlive the picture; their header is the whole
-  /// database's. Call it only while the program is not running.
+  /// To be called when the run of a picture has ended and another one follows, of the same size and samples, from another
+  /// viewpoint. The node keeps its part of the scene, and its counters go on. `settings` outlive the picture; their header is the
+  /// whole database's. Call it only while the program is not running.
   virtual void begin_frame(const core::RenderSettings& settings) = 0;
 
  protected:
   ~PictureProgram() = default;
 };
 
-/// The same for those of the nodes that are here.
+/// Calls it for the nodes that are here.
 void begin_frame(nodes::Runner& runner, std::uint32_t node_count, const core::RenderSettings& settings);
 
-/// What came of a run, whatever its strategy.
+/// The outcome of a run by any strategy.
 struct Outcome {
   core::Film film;
   nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
   nodes::NodeCounters host = {};
   core::RefinementResult refinement = {};
-  std::vector<nodes::RankFigures> ranks = {};                       ///< where there are several, or could be
+  std::vector<nodes::RankFigures> ranks = {};  ///< if there are several, or could be
   std::optional<nodes::VirtualReport> virtual_time = std::nullopt;  ///< of a modelled machine
 };
 
-/// And what its nodes report.
+/// An outcome with the reports of its nodes.
 template <class NodeReport>
 struct Report : Outcome {
   std::vector<NodeReport> nodes = {};
 
-  /// What programs count, summed over the nodes.
+  /// The counters of programs, summed over the nodes.
   template <class Counts, class ProgramReport>
   Counts summed(Counts ProgramReport::*counts) const {
     return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
@@ -73,8 +73,7 @@ struct Report : Outcome {
   }
 };
 
-/// What a runner needs for a plan where the host is elsewhere. make_program(index, node) makes the program of a node; it is
-/// copied.
+/// The specifications for a plan if the host is elsewhere. make_program(index, node) makes the program of a node; it is copied.
 template <class Plan, class MakeProgram>
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program,
                                                                   const nodes::Batching& batching,
@@ -88,7 +87,7 @@ std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& pl
   return all;
 }
 
-/// As the host has it at first.
+/// The settings at the host for the first picture.
 template <class PlanRequest>
 core::Film film_of(const PlanRequest& request, core::FilmScale scale, const core::PartialPicture* start = nullptr) {
   core::expect(start == nullptr || start->film.pixel_count() == std::size_t{request.width} * request.height,
@@ -98,11 +97,10 @@ core::Film film_of(const PlanRequest& request, core::FilmScale scale, const core
                                        core::planes_for(request.first_samples));
 }
 
-/// Between two pictures the nodes stay as they are: what they have of scene and picture, and where they have their memories.
-/// Thread safety: none.
+/// Between two pictures the nodes stay as they are, with their parts of scene and picture, and their memories. Not thread-safe.
 class Computer {
  public:
-  /// specify(film) says what nodes and host are, which writes that film. What specifications refer to outlives this.
+  /// specify(film) returns the nodes and the host, which writes that film. What specifications refer to outlives this.
   using Specify = std::function<std::vector<nodes::NodeSpecification>(core::Film& film)>;
   Computer(core::Film film, const Specify& specify, const nodes::ComputerRequest& computer, const nodes::Watching& watching);
   Computer(const Computer&) = delete;
@@ -115,7 +113,7 @@ class Computer {
   /// ranks they are told of `settings`. These and `detail` outlive the picture.
   void begin_frame(core::Film film, const core::RenderSettings& settings, const core::FineDetail* detail);
 
-  /// Runs. gather() gathers what the nodes of a plan report.
+  /// Runs. gather() gathers the reports of the plan's nodes.
   template <class Plan, class Gather>
   Outcome render(std::stop_token stop, const Plan& plan, const Gather& gather) {
     const nodes::RunEnd end = runner_->run(std::move(stop));

@@ -1,4 +1,4 @@
-// What the hosts of all strategies have: the picture's film, which of its pixels have light, and the pass under way.
+// What the hosts of all strategies share: the picture's film, the set of its pixels with light, and the current pass.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@
 
 namespace dmpc::pictures {
 
-/// The host's program, except for the packets: it takes light, and tells who looks on or keeps the picture.
+/// The host's program without the packets: it takes light, and calls observers and the saving of pictures.
 class Host : public nodes::Program {
  public:
-  /// The run of the picture before has ended: another one follows, on the same film, which is as new. `detail` is its own. Call
-  /// it only while the program is not running.
+  /// To be called when the run of a picture has ended and another one follows, on the same film, which is reset. `detail` is the
+  /// new picture's. Call it only while the program is not running.
   virtual void begin_frame(const core::FineDetail* detail);
-  /// Keeps what can be kept of a run that has been interrupted, if that is wanted.
+  /// Saves what can be saved of a run that has been interrupted, if that is wanted.
   virtual void keep_interrupted() const {}
 
   const core::Refinement& refinement() const { return refinement_; }
@@ -29,17 +29,17 @@ class Host : public nodes::Program {
   std::uint64_t deposits_saturated() const { return deposits_saturated_ + refinement_.gatherings_saturated(); }
 
  protected:
-  /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it, which is
-  /// read here alone. `progress` may be empty. `samples`: of each pixel in the first pass. `detail` is the picture's, if it is
+  /// `film` outlives the program and is written only by it until the run's end; it is in the state of continuation.start, which
+  /// is read only here. `progress` may be empty. `samples`: per pixel in the first pass. `detail` is the picture's, if it is
   /// refined, and outlives the program or its next frame.
   Host(nodes::Node& node, core::Film& film, const core::RefinementOptions& wanted, std::uint32_t samples,
        nodes::Progress progress, const core::Continuation& continuation, const core::FineDetail* detail);
-  /// What the constructor takes.
+  /// The memory that the constructor takes.
   static nodes::Room<std::uint64_t> own_layout(std::size_t pixel_count);
 
-  /// The light of each of the pixels `first` to `first + more`. Returns how many of them have none yet of this pass.
+  /// Takes the light of each of the pixels `first` to `first + more`. Returns the number of those that had none in this pass.
   std::uint32_t take_light(std::uint32_t first, std::uint32_t more, const core::PixelSums& sums);
-  /// All light of the pass has come. Returns whether another follows, which has none yet.
+  /// To be called when all light of the pass has arrived. Returns whether another follows, which has none yet.
   bool next_pass();
 
   const core::Film& film() const { return *film_; }
@@ -47,7 +47,7 @@ class Host : public nodes::Program {
   core::PixelMask with_light() const;
   std::uint32_t pixels_with_light() const { return pixels_with_light_; }
   void report_progress(std::uint32_t pixels) const;
-  /// Whether what is done should be kept now.
+  /// Whether the state should be saved now.
   bool is_due() const { return continuation_.is_due && continuation_.is_due(); }
   bool may_be_kept() const { return static_cast<bool>(continuation_.keep); }
   void keep(const core::PixelMask& done) const { continuation_.keep(*film_, refinement_, done); }

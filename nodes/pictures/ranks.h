@@ -1,5 +1,5 @@
-// A picture on several ranks: what rank 0, which alone has the scene, sends the others before they can make their nodes, and what
-// they do with it, by whatever strategy.
+// A picture on several ranks, by any strategy: what rank 0, which alone has the scene, sends the others before they can make
+// their nodes, and what they do with it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace dmpc::pictures {
 
-/// A computer request as bytes, except for the ranks. Requires that no machine is modelled.
+/// A computer request as bytes, without the ranks. Requires that no machine is modelled.
 inline void put_computer(nodes::FlatWriter& flat, const nodes::ComputerRequest& computer) {
   core::expect(!computer.machine, "a model has no ranks");
   flat.put(computer.node_count, computer.node_memory_bytes, computer.stack_reserve_bytes, computer.chaos, computer.pool_threads);
@@ -35,7 +35,7 @@ inline nodes::ComputerRequest take_computer(nodes::FlatReader& flat, nodes::Rank
   return computer;
 }
 
-/// What every strategy's plan is asked for of a picture, as bytes.
+/// The request for a picture that all strategies' plans share, as bytes.
 template <class PlanRequest>
 void put_picture(nodes::FlatWriter& flat, const PlanRequest& request) {
   put_computer(flat, request.computer);
@@ -49,7 +49,7 @@ void take_picture(nodes::FlatReader& flat, nodes::RankLinks& ranks, PlanRequest&
                  request.bundles, request.has_instances);
 }
 
-/// By which two plans are told apart: whatever a node's memory and mailbox are for changes their sizes; `own` is a strategy's.
+/// For comparing two plans: any use of a node's memory and mailbox changes their sizes; `own` is the strategy's.
 template <class Plan, class... Own>
 std::string figures_of(const Plan& plan, const Own&... own) {
   nodes::FlatWriter flat;
@@ -57,10 +57,10 @@ std::string figures_of(const Plan& plan, const Own&... own) {
   return flat.take();
 }
 
-/// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
-/// its program keeps. Returns when all have their nodes. put_own(flat) adds to the job what is the strategy's, deal(streams,
-/// rank, node) sends what the node is assigned. `are_frames`: nodes are kept, for nodes::hand_out_again() of settings before
-/// another picture. Throws what fails on another rank.
+/// On rank 0, before its own nodes are made: sends each other rank its job, what is to be observed there and, node by node, its
+/// program's data. Returns when all have their nodes. put_own(flat) adds the strategy's part to the job, assign(streams, rank,
+/// node) sends the node's assignment. `are_frames`: nodes are kept, for nodes::hand_out_again() of settings before another
+/// picture. Throws what fails on another rank.
 template <class PutOwn, class Assign>
 void hand_out(const core::RenderSettings& settings, std::uint32_t node_count, const std::string& observer_order, bool are_frames,
               nodes::RankLinks& links, const PutOwn& put_own, const Assign& assign) {
@@ -78,13 +78,13 @@ void hand_out(const core::RenderSettings& settings, std::uint32_t node_count, co
   streams.finish();
 }
 
-/// The nodes of a run that are on this rank. `Job` is what a strategy makes them of: made of the flat bytes behind settings, of
-/// which it takes all, it has a plan(), the specifications() of its nodes, for which it reads what they are assigned from the
-/// stream (with a Following if they are watched), and gather() of what they report.
+/// The nodes of a run that are on this rank. `Job` is how a strategy makes them: it is made from the flat bytes after the
+/// settings, all of which it reads, and has a plan(), the specifications() of its nodes, for which it reads their assignments
+/// from the stream (and which observe if requested), and gather() of their reports.
 template <class Job, class WorkerCallbacks>
 class PartOfRun {
  public:
-  /// `told`: read from the stream, of which it reads the rest.
+  /// `reported`: read from the stream, of which it reads the rest.
   PartOfRun(std::string_view reported, nodes::StreamFromHost& stream, nodes::RankLinks& links, const WorkerCallbacks& callbacks)
       : PartOfRun(nodes::FlatReader(reported), stream, links, callbacks) {}
   PartOfRun(const PartOfRun&) = delete;
@@ -119,7 +119,7 @@ class PartOfRun {
                                  job_.plan().request.computer, watching_.observer);
   }
 
-  /// Takes what every job begins with.
+  /// Reads what every job begins with.
   core::RenderSettings beginning_of(nodes::FlatReader& flat) {
     core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::job, "nodes are there before frames");
     are_frames_ = flat.take<bool>();
@@ -136,8 +136,8 @@ class PartOfRun {
   std::unique_ptr<nodes::Runner> runner_;
 };
 
-/// What another rank does while rank 0 renders. No more of the scene is in its memory than its nodes are assigned. Where there
-/// are several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then.
+/// Runs a worker rank while rank 0 renders. Of the scene only its nodes' assignments are in its memory. With several frames it
+/// goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then.
 template <class Job, class WorkerCallbacks>
 nodes::WorkerOutcome follow(nodes::RankLinks& links, const std::stop_token& stop, const WorkerCallbacks& callbacks) {
   return nodes::run_as_worker(links, stop, [&](std::string_view reported, nodes::StreamFromHost& stream) {

@@ -1,4 +1,4 @@
-// What a communicating thread with nothing to do does: it sleeps, the longer, the longer it has had nothing, or it does not.
+// The idle strategy of a communicating thread: it sleeps, the longer, the longer it has had nothing to do, or it spins.
 #pragma once
 
 #include <algorithm>
@@ -9,26 +9,26 @@ namespace dmpc::nodes {
 
 enum class Idle : std::uint8_t {
   sleep,  ///< where other threads want the core
-  spin    ///< where it has one of its own: no frame waits for it to wake
+  spin  ///< if it has a core of its own: no frame waits for it to wake
 };
 
-/// Its own nodes call it when it is to act for them; it is frames of other ranks for which it has to look. It does not yield
-/// before it sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them. So every sleep's end takes
-/// a core from one that computes, and sleeps of a few us would be no more than a poll with two switches of threads.
+/// Its own nodes wake it when it is to act for them; it has to poll for frames of other ranks. It does not yield before it
+/// sleeps: if others compute, a yield takes milliseconds, while a thread that wakes goes before them. So the end of every sleep
+/// takes a core from a computing thread, and sleeps of a few us would be no more than a poll with two switches of threads.
 class Backoff {
  public:
   static constexpr std::chrono::nanoseconds shortest{30'000}, longest{100'000};
-  /// After so long a silence sleeps are ten times as long.
+  /// After this time without work sleeps are ten times as long.
   static constexpr std::chrono::nanoseconds silence{50'000'000};
 
   explicit Backoff(Idle idle = Idle::sleep) : idle_(idle) {}
 
-  /// Something was done.
+  /// To be called when something was done.
   void end() {
     next_ = shortest;
     slept_ = {};
   }
-  /// How long to sleep now; zero for a yield.
+  /// The duration of the next sleep; zero for a yield.
   std::chrono::nanoseconds next() {
     if (idle_ == Idle::spin) {
       return {};

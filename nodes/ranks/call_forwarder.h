@@ -1,4 +1,4 @@
-// Work on a thread of its own, for which this thread, to which something belongs that no other may touch, does forwarded calls.
+// Runs work on a separate thread, which forwards calls to this thread, for objects that no other thread may use.
 #pragma once
 
 #include <chrono>
@@ -16,9 +16,9 @@ namespace dmpc::nodes {
 /// Thread safety: while_working() from the thread to which it belongs, send() from that of the work.
 class CallForwarder {
  public:
-  /// What work() returns or throws. Meanwhile look_after() is called again and again. If that throws, so does every forwarded
-  /// call from then on, and send_heartbeat() is called until the work is done. Then what it throws itself is thrown, unless ranks
-  /// are lost or all is over, else what look_after() has thrown.
+  /// Returns or throws what work() does. Meanwhile look_after() is called repeatedly. If that throws, so does every forwarded
+  /// call from then on, and send_heartbeat() is called until the work is done. Then work()'s exception is thrown, unless ranks
+  /// are lost or dismissed, otherwise look_after()'s.
   template <class Work>
   auto while_working(const Work& work, const std::function<void()>& look_after, const std::function<void()>& send_heartbeat) {
     constexpr std::chrono::milliseconds look{10};
@@ -45,16 +45,16 @@ class CallForwarder {
     std::rethrow_exception(failure_);
   }
 
-  /// Has it done there, and returns or throws as it does.
+  /// Calls `act` on the other thread, and returns or throws as it does.
   void send(const std::function<void()>& act);
 
  private:
-  /// Says, in the end, that there are no more forwarded calls.
+  /// Reports, at the end, that there are no more forwarded calls.
   struct Over {
     CallForwarder& call_forwarder;
     ~Over() { call_forwarder.end_work(); }
   };
-  /// What the sender, which waits, wants done. What it throws there is the sender's alone.
+  /// A call that the waiting sender has forwarded. Its exceptions go only to the sender.
   struct ForwardedCall {
     const std::function<void()>* act = nullptr;
     std::exception_ptr failure;
@@ -63,12 +63,12 @@ class CallForwarder {
 
   /// Dismissed, or LostRank.
   static bool is_end_of_all(const std::exception_ptr& failure);
-  /// Waits so long for a forwarded call, and does it. Whether the work is over.
+  /// Waits up to `timeout` for a forwarded call, and does it. Returns whether the work is done.
   bool do_one(std::chrono::milliseconds timeout);
   /// With the mutex locked.
   void end(ForwardedCall& forwarded_call, std::exception_ptr failure);
   void end_work();
-  /// Every forwarded call that waits or comes fails as the first failure says.
+  /// Every forwarded call, waiting or new, fails with the first failure.
   void fail(const std::exception_ptr& failure);
 
   std::mutex mutex_;

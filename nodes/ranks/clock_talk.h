@@ -1,4 +1,4 @@
-// What ranks say of their clocks: rank 0 asks the others, before the start, which it gives, and again after the run.
+// The ranks' protocol for clocks: rank 0 asks the others, before the start, which it announces, and again after the run.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace dmpc::nodes {
 /// Items: clock_asked, clock_reported, clocks_read, start. Thread safety: belongs to one thread at a time.
 class ClockTalk {
  public:
-  /// `links` outlive this. On rank 0 `compares` says whether clocks are to be compared; the others hear of it.
+  /// `links` outlive this. `compares`, used on rank 0: whether clocks are to be compared; the others are informed.
   ClockTalk(RankLinks& links, bool compares) : links_(&links), compares_(compares) {}
 
   /// Takes an item of this talk; false if it is of another.
@@ -44,12 +44,12 @@ class ClockTalk {
     }
   }
 
-  /// Until all ranks have made their nodes nobody starts: packets would come where there is no mailbox yet. Rank 0 knows when.
-  /// `wait` may end before its time once a rank has failed, which may never answer.
+  /// Nobody starts until all ranks have made their nodes: otherwise packets would arrive without a mailbox. Rank 0 knows when.
+  /// `wait` may end early once a rank has failed, which may never answer.
   void start(const Wait& wait) {
     if (links_->rank() != 0) {
       wait([this] { return may_start_; });
-      start_ns_ = std::min(start_ns_, nanoseconds(CLOCK_MONOTONIC));  // as far as the clocks go wrong, it may be to come
+      start_ns_ = std::min(start_ns_, nanoseconds(CLOCK_MONOTONIC));  // with clock errors it may lie in the future
       return;
     }
     if (compares_) {
@@ -65,9 +65,9 @@ class ClockTalk {
   /// When the run starts, by this rank's clock.
   std::uint64_t start_ns() const { return start_ns_; }
 
-  /// There is something to say after the run.
+  /// Whether there is an exchange after the run.
   bool compares() const { return compares_; }
-  /// Rank 0 does so then. They answer until they hear that it asks no more.
+  /// On rank 0: asks again then. The others answer until it asks no more.
   void ask_again(const Wait& wait) {
     if (links_->rank() == 0) {
       after_ = read_clocks(wait);
@@ -96,7 +96,7 @@ class ClockTalk {
     return shortest;
   }
 
-  /// Nothing of use if the wait has ended before its time.
+  /// The answer is useless if the wait has ended early.
   ClockAnswer ask(std::uint32_t rank, const Wait& wait) {
     heard_.reset();
     const std::uint64_t asked_ns = nanoseconds(CLOCK_MONOTONIC);
@@ -110,7 +110,7 @@ class ClockTalk {
   RankLinks* links_;
   bool compares_;
   std::uint64_t start_ns_ = 0;
-  std::vector<ClockAnswer> before_, after_;  ///< the run, by rank: what rank 0 knows of others' clocks
+  std::vector<ClockAnswer> before_, after_;  ///< before and after the run, by rank: what rank 0 knows of others' clocks
   std::optional<ClockAnswer> heard_;         ///< to the last question
   bool may_start_ = false, are_clocks_read_ = false;
 };

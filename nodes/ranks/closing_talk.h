@@ -1,4 +1,4 @@
-// The last words of ranks: how the run has ended for each and, if not well, what there is to say.
+// The ranks' termination messages: how the run has ended for each and, if not regularly, why.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class ClosingTalk {
   /// `links` and `nodes` outlive this.
   ClosingTalk(RankLinks& links, NodeThreads& nodes) : links_(&links), nodes_(&nodes), termination_messages_(links.rank_count()) {}
 
-  /// Takes an item of this talk; false if it is of another. What has ended elsewhere ends here.
+  /// Takes an item of this talk; false if it is of another. If the run has ended elsewhere, it ends here.
   bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
     TerminationMessage& word = termination_messages_[rank];
     if (header.item == Item::text) {
@@ -42,7 +42,7 @@ class ClosingTalk {
     return false;
   }
 
-  /// This rank's last word, when its nodes have stopped, for which it waits.
+  /// Sends this rank's termination message, after waiting until its nodes have stopped.
   void close() {
     is_closing_ = true;
     nodes_->join();
@@ -54,17 +54,17 @@ class ClosingTalk {
   }
 
   bool is_closing() const { return is_closing_; }
-  /// All have said their last word.
+  /// Whether all have sent their termination message.
   bool is_closed() const {
     const auto is_silent = [](const TerminationMessage& word) { return word.ending == Ending::none; };
     return is_closing_ && std::count_if(termination_messages_.begin(), termination_messages_.end(), is_silent) == 1 &&
            links_->has_said_all();
   }
 
-  /// This rank knows from that one's last word that the run has not ended well.
+  /// Whether that rank's termination message says that the run has failed.
   bool has_reported_of_failure(std::uint32_t rank) const { return termination_messages_[rank].ending >= Ending::stalled; }
 
-  /// How the run has ended, as badly as anywhere; throws what a rank has failed with, or DeadlockError. When all is closed.
+  /// The end of the run, the gravest of all ranks; throws a rank's failure, or DeadlockError. Requires is_closed().
   RunEnd judge(const std::optional<Chaos>& disturbance) const {
     const auto gravity = [](const TerminationMessage& word) { return std::pair(word.ending, !word.text.empty()); };
     const auto gravest =
@@ -87,15 +87,15 @@ class ClosingTalk {
   }
 
  private:
-  /// How the last word of a rank travels, behind its text.
+  /// The format of a termination message, after its text.
   struct Closing {
     Ending ending;
     FailureKind kind;
   };
   struct TerminationMessage {
     Ending ending = Ending::none;
-    FailureKind kind = FailureKind::internal;  ///< of one that has failed
-    std::string text;                          ///< of one that has failed, or a line for each program of one that stalls
+    FailureKind kind = FailureKind::internal;  ///< of a failed rank
+    std::string text;  ///< of a failed rank, or in a deadlock a line for each program
   };
 
   TerminationMessage own_message() const {

@@ -1,13 +1,13 @@
-// What goes between the nodes of several ranks, and how the ranks find out that nothing does any more.
+// Packets between the nodes of several ranks, and termination detection over the ranks.
 //
-// Everybody counts, twice (F. Mattern, "Algorithms for distributed termination detection", Distributed Computing 2, 1987: four
+// Every rank counts, twice (F. Mattern, "Algorithms for distributed termination detection", Distributed Computing 2, 1987: four
 // counters).
 //
-// A rank counts for a wave while all its nodes sleep and its outbox is empty, and for the next one only when it knows what all
-// have said in this. Counts only grow; so where two waves in succession have equal sums, each rank's are equal, and nobody has
-// sent or received anything from its first word to its second; all first words lie before all second ones. Where as many packets
-// were received as sent, none was under way in between, and nothing can come any more. No time-out is in it, and no rank is
-// asked by another: each tells all others, comes to the same sums, and knows.
+// A rank counts for a wave while all its nodes sleep and its outbox is empty, and for the next one only when it has the counts of
+// all in this one. Counts only grow; so if two successive waves have equal sums, each rank's are equal, and no rank has sent or
+// received anything from its first count to its second; all first counts were made before all second ones. If as many packets
+// were received as sent, none was in flight in between, and nothing can arrive any more. There is no timeout, and no rank asks
+// another: each informs all others, computes the same sums, and knows.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@
 
 namespace dmpc::nodes {
 
-/// What one rank has counted, or all together.
+/// The counts of one rank, or of all together.
 struct Counts {
   std::uint64_t sent = 0, received = 0;  ///< packets, to and from other ranks
   std::uint64_t unfinished = 0;          ///< programs
@@ -41,16 +41,16 @@ class CountingWaves {
  public:
   explicit CountingWaves(std::size_t rank_count) : ranks_(rank_count) {}
 
-  /// Whether this rank has counted for the wave that is going on.
+  /// Whether this rank has counted for the current wave.
   bool has_counted(std::size_t rank) const { return ranks_[rank].waves > wave_; }
-  /// What a rank says in the wave that is its next.
+  /// Sets a rank's counts for its next wave.
   void count(std::size_t rank, const Counts& counts) {
     Rank& one = ranks_.at(rank);
     core::expect(one.waves <= wave_ + 1, "nobody is two waves ahead");
     one.said[one.waves++ % one.said.size()] = counts;
   }
 
-  /// Ends the wave if all have counted. What all stand still at, if by that they are found to.
+  /// Ends the wave if all have counted. Returns the final counts if termination is detected.
   std::optional<Counts> end_wave() {
     for (std::size_t rank = 0; rank < ranks_.size(); ++rank) {
       if (!has_counted(rank)) {
@@ -91,7 +91,7 @@ class CountingWaves {
 /// Items: packet, counts. Thread safety: belongs to one thread at a time.
 class CountingTalk {
  public:
-  /// All of it outlives this. `outbox` has what nodes here send to nodes elsewhere, of `node_count` in all and the host.
+  /// The arguments outlive this. `outbox` has what nodes here send to nodes elsewhere; there are `node_count` nodes and the host.
   CountingTalk(RankLinks& links, NodeThreads& nodes, Mailbox& outbox, std::uint32_t node_count)
       : links_(&links), nodes_(&nodes), outbox_(&outbox), node_count_(node_count), waves_(links.rank_count()) {}
 
@@ -111,8 +111,8 @@ class CountingTalk {
     return false;
   }
 
-  /// Out of the outbox into frames, as far as there is room. A way that is full holds the others up, but not for long: what
-  /// arrives at a rank has its place there, so frames are always taken. Returns whether there was anything.
+  /// Moves packets from the outbox into frames, as far as there is space. A full link delays the others, but not for long: what
+  /// arrives at a rank has a reserved slot there, so frames are always taken. Returns whether there was anything.
   bool send_packets() {
     const std::uint64_t before = traffic_.packets_sent;
     outbox_->drain_while([this](const Packet& packet) {
@@ -129,9 +129,8 @@ class CountingTalk {
     return traffic_.packets_sent > before;
   }
 
-  /// Counts if all is quiet here, and ends the run if it is everywhere.
-  /// The order matters: nodes that sleep have put into the outbox what they had, and while all do only what this thread brings
-  /// wakes them.
+  /// Counts if all is quiet here, and ends the run if it is everywhere. The order matters: nodes that sleep have put everything
+  /// into the outbox, and while all do, only what this thread brings wakes them.
   void count_if_quiet() {
     if (is_to_count() && outbox_->is_drained()) {
       const Counts counts{traffic_.packets_sent, traffic_.packets_received, nodes_->unfinished_count()};
@@ -143,12 +142,12 @@ class CountingTalk {
     }
   }
 
-  /// There is something new to count.
+  /// Whether there is something new to count.
   bool is_to_count() const { return nodes_->all_sleep() && !waves_.has_counted(links_->rank()); }
 
-  /// The nodes here stop: packets that still come are for nobody.
+  /// To be called when the nodes here stop: packets that still arrive are dropped.
   void close() { is_closing_ = true; }
-  /// All were told how the run has ended. Call it before the next two.
+  /// To be called when all know how the run has ended, before the next two.
   void close_account() {
     const RankLinks::Sent sent = links_->take_sent();
     traffic_.frames_sent = sent.frames;
@@ -157,7 +156,7 @@ class CountingTalk {
   }
 
   const RankTraffic& traffic() const { return traffic_; }
-  /// What was sent here or came here was received here or left.
+  /// Expects that everything that was sent here or arrived here was received here or sent on.
   void expect_nothing_lost() const {
     nodes_->expect_nothing_lies_about();
     expect_all_received(nodes_->processors(), traffic_.packets_received, traffic_.packets_sent);

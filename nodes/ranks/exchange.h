@@ -1,4 +1,4 @@
-// What a rank does while it waits for others: takes and sends frames, shows that it lives, and sleeps.
+// What a rank does while it waits for others: receives and sends frames, sends heartbeats, and sleeps.
 #pragma once
 
 #include <sched.h>
@@ -13,7 +13,7 @@
 
 namespace dmpc::nodes {
 
-/// Takes turns until that is so.
+/// Takes turns until is_done().
 using Wait = std::function<void(const std::function<bool()>& is_done)>;
 
 /// Thread safety: belongs to the communicating thread.
@@ -22,8 +22,8 @@ class Exchange {
   /// `links` outlive this.
   explicit Exchange(RankLinks& links) : links_(&links), backoff_(links.idle()) {}
 
-  /// Takes and sends what there is, as RankLinks do, with act() in between; sleep(time) if that is nothing, by what act() returns
-  /// either.
+  /// Receives and sends what there is, as RankLinks do, with act() in between; calls sleep(time) if there was nothing and act()
+  /// returned false.
   template <class Receive, class Act, class Sleep>
   void turn(const Receive& receive, const Act& act, const Sleep& sleep) {
     bool has_moved = links_->take(receive);
@@ -46,11 +46,11 @@ class Exchange {
       turn(receive);
     }
   }
-  /// Others, who moved what there was, do so no more: soon something comes.
+  /// To be called when other threads, which moved frames, do so no more: soon something arrives.
   void end_backoff() { backoff_.end(); }
 
  private:
-  /// So many turns does a thread that always has something to do take from one look at who is silent to the next.
+  /// The number of turns of a busy thread between two checks for silent ranks.
   static constexpr std::uint32_t turns_a_look = 256;
 
   template <class Sleep>

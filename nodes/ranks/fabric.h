@@ -1,4 +1,4 @@
-// What carries bytes between the processes of a computer that is spread over several: the seam to MPI and its like.
+// The transport between the processes of a computer that is distributed over several: the interface to MPI and the like.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,24 @@
 
 namespace dmpc::nodes {
 
-/// Ranks are lost, or what they send is: nothing that this process has done wrong.
+/// Ranks are lost, or data of theirs is: no fault of this process.
 struct FabricError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A rank is gone, or the way to it: there is no orderly end.
+/// A rank is gone, or the connection to it: there is no orderly end.
 struct LostRank : FabricError {
   using FabricError::FabricError;
 };
 
-/// A frame that has come.
+/// A received frame.
 struct Arrival {
   std::uint32_t rank = 0;  ///< its sender
   std::span<const std::byte> frame;
 };
 
-/// One rank's end of it. Frames from one rank to another arrive whole and in the order in which they were sent; of more it need
-/// not know anything. Two to each rank may be under way. What it can no longer do is a LostRank. Thread safety: belongs to one
-/// thread at a time.
+/// One rank's endpoint. Frames from one rank to another arrive whole and in the order in which they were sent; nothing else is
+/// required. Two to each rank may be in flight. It throws LostRank if it fails. Thread safety: belongs to one thread at a time.
 class Fabric {
  public:
   virtual ~Fabric() = default;
@@ -41,14 +40,13 @@ class Fabric {
 
   /// The longest frame, the same on all ranks.
   virtual std::size_t frame_bytes() const = 0;
-  /// What each rank sets aside for frames that have come.
+  /// Memory of each rank for received frames.
   virtual std::size_t arrival_bytes() const = 0;
-  /// Where the next frame to another rank is put together, frame_bytes() long; the same until it is sent. Empty while two are
-  /// under way.
+  /// The buffer for the next frame to another rank, frame_bytes() long; the same until it is sent. Empty while two are in flight.
   virtual std::span<std::byte> room(std::uint32_t rank) = 0;
   /// Sends the first `bytes` of the room.
   virtual void send(std::uint32_t rank, std::size_t bytes) = 0;
-  /// The next frame that has come, if one has; it lasts until the next call.
+  /// The next received frame, if there is one; it is valid until the next call.
   virtual std::optional<Arrival> take() = 0;
 };
 

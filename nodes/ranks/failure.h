@@ -1,4 +1,4 @@
-// What has failed on a rank, as others hear of it.
+// Failures of a rank, for the others.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@
 
 namespace dmpc::nodes {
 
-/// What a failure is, for those who hear of it.
+/// The kind of a failure.
 enum class FailureKind : std::uint8_t { internal, room, fabric };
 
-/// An exception as it travels.
+/// A serialised exception.
 struct Failure {
   FailureKind kind = FailureKind::internal;
   std::string text;
 };
 
-/// What is said of an exception.
+/// The text and kind of an exception.
 Failure failure_of(const std::exception_ptr& exception);
 
-/// Throws what it is of: core::CapacityError, FabricError or core::InternalError.
+/// Throws an exception of this kind: core::CapacityError, FabricError or core::InternalError.
 [[noreturn]] void fail_as(FailureKind kind, const std::string& text);
 
-/// Tells rank 0, which waits for something else.
+/// Sends it to rank 0, which waits for something else.
 void say_failure(RankLinks& links, const Failure& failure);
-/// Throws what another rank has said by say_failure(), with its name.
+/// Throws what another rank has sent by say_failure(), with its name.
 [[noreturn]] void fail_as_said(const std::string& rank_name, std::span<const std::byte> word);
 
 }  // namespace dmpc::nodes

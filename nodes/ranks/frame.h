@@ -1,4 +1,4 @@
-// What travels between ranks: frames, each a number and then items one behind the other, packets of nodes and words of ranks.
+// The format of messages between ranks: frames, each a number and then items, packets of nodes and messages of ranks.
 #pragma once
 
 #include <cstddef>
@@ -11,56 +11,56 @@
 
 namespace dmpc::nodes {
 
-/// A rank's frames to another are numbered from 0, so that one which is lost is missed when the next one comes.
+/// A rank's frames to another are numbered from 0, so that a lost one is detected when the next one arrives.
 using FrameNumber = std::uint64_t;
 
-/// What an item is.
+/// The kind of an item.
 enum class Item : std::uint8_t {
   packet,    ///< from a node to a node
   counts,    ///< Counts, of the sender's next wave
-  text,      ///< a part of what the sender's words are about
-  closing,   ///< how the run has ended for the sender: its last word of the run
-  report,    ///< a part of what a node has to say after it
-  reported,  ///< no more of that comes from the sender
+  text,  ///< a part of the text of the sender's messages
+  closing,  ///< how the run has ended for the sender: its termination message of the run
+  report,  ///< a part of a node's report after it
+  reported,  ///< no more reports come from the sender
 
-  rank_traffic,   ///< RankTraffic, of the sender, after the reports
-  rank_report,    ///< a part of what the sender has to say after the run, beside its nodes
+  rank_traffic,  ///< RankTraffic, of the sender, after the reports
+  rank_report,  ///< a part of the sender's report after the run, in addition to its nodes'
   rank_reported,  ///< no more of that comes from it
 
   stream,          ///< from rank 0, before the run: a part of what a rank's nodes are made from
-  stream_read,     ///< to rank 0: how many bytes of that have been read
+  stream_read,  ///< to rank 0: how many bytes of the stream have been read
   ready,           ///< to rank 0: all nodes are made
-  clock_asked,     ///< from rank 0, before the start or after the run: what the receiver's clock shows
-  clock_reported,  ///< to rank 0: that
+  clock_asked,  ///< from rank 0, before the start or after the run: asks for the receiver's clock
+  clock_reported,  ///< to rank 0: the clock
   clocks_read,     ///< from rank 0, after the run: it asks no more
-  start,           ///< from rank 0: everybody is ready, and what the receiver's clock showed when the run began
-  failure,         ///< to rank 0: why no node is made, or no report
-  dismissal        ///< from rank 0, its very last word: the status with which all end
+  start,  ///< from rank 0: all are ready, and what the receiver's clock showed when the run began
+  failure,  ///< to rank 0: why no node is made, or no report
+  dismissal  ///< from rank 0, its last message: the status with which all end
 };
 
-/// Stands before an item's bytes.
+/// Precedes an item's bytes.
 struct ItemHeader {
   std::uint32_t target = 0;  ///< the index of a packet's target, or of the node that a report is of
   PacketHeader packet;       ///< of other items only `bytes` counts
   Item item = Item::packet;
 
-  /// With what follows it.
+  /// Including the bytes that follow.
   std::size_t bytes() const { return sizeof(ItemHeader) + packet.bytes; }
 };
 
-/// Frames are at least so long; longer ones where a packet does not fit in.
+/// The minimum length of frames; they are longer if a packet would not fit.
 inline constexpr std::size_t frame_bytes_min = std::size_t{16} << 10U;
 
-/// A frame that holds one packet of this size, at least.
+/// The length of a frame that holds at least one packet of this size.
 constexpr std::size_t frame_bytes_for(std::size_t payload_bytes_max) {
   const std::size_t least = sizeof(FrameNumber) + sizeof(ItemHeader) + payload_bytes_max;
   return least > frame_bytes_min ? least : frame_bytes_min;
 }
 
-/// Puts a frame together in a fabric's room.
+/// Writes a frame into a fabric's buffer.
 class FrameWriter {
  public:
-  /// Not begun: there is no room yet.
+  /// Not begun: there is no buffer yet.
   FrameWriter() = default;
   FrameWriter(std::span<std::byte> room, FrameNumber number) : room_(room), used_bytes_(sizeof(number)) {
     std::memcpy(room.data(), &number, sizeof(number));
@@ -83,7 +83,7 @@ class FrameWriter {
   std::size_t used_bytes_ = 0;
 };
 
-/// A word that is a value.
+/// Reads a message that is a value.
 template <class T>
 T value_of(std::span<const std::byte> bytes) {
   core::expect(bytes.size() == sizeof(T), "a word has the size of its kind");

@@ -1,4 +1,4 @@
-// What rank 0 gathers from the others after a run: what their nodes have to say, then what they have to say themselves.
+// What rank 0 gathers from the others after a run: their nodes' reports, then their own.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace dmpc::nodes {
 
-/// Items: report, reported, rank_traffic, rank_report, rank_reported. A rank may say of itself while rank 0 still gathers from
-/// others what their nodes say: hence words of other kinds. Thread safety: belongs to one thread at a time.
+/// Items: report, reported, rank_traffic, rank_report, rank_reported. A rank may send its own report while rank 0 still gathers
+/// those of others' nodes: hence messages of different kinds. Thread safety: belongs to one thread at a time.
 class GatheringTalk {
  public:
   /// `links` outlive this.
@@ -46,7 +46,7 @@ class GatheringTalk {
     }
   }
 
-  /// `told` by the nodes here, by index. On rank 0 with what nodes elsewhere told.
+  /// `reported`: by the nodes here, by index. On rank 0 returns it with the reports of nodes elsewhere.
   std::vector<std::string> gather(std::vector<std::string> reported, const Wait& wait) {
     if (links_->rank() == 0) {
       wait([this] { return ranks_reported_ + 1 == links_->rank_count(); });
@@ -65,7 +65,7 @@ class GatheringTalk {
     return reported;
   }
 
-  /// `own`: of this rank. On rank 0 those of all ranks, except for clocks; else nothing.
+  /// `own`: of this rank. On rank 0 returns those of all ranks, without clocks; elsewhere nothing.
   std::vector<RankReport> gather_ranks(RankReport own, const Wait& wait) {
     if (links_->rank() == 0) {
       wait([this] { return reports_ended_ + 1 == links_->rank_count(); });

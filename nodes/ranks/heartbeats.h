@@ -1,4 +1,4 @@
-// Long work that has nothing to do with other ranks, who are to know meanwhile that this one lives.
+// Long work that does not involve other ranks, which need heartbeats meanwhile.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace dmpc::nodes {
 
-/// Takes what comes and drops it, and shows that this rank lives. Throws LostRank as RankLinks do.
+/// Receives and drops what arrives, and sends heartbeats. Throws LostRank as RankLinks do.
 inline void send_heartbeat(RankLinks& links) {
   while (links.take([](std::uint32_t, const ItemHeader&, std::span<const std::byte>) {})) {
   }
   links.look_after();
 }
 
-/// What work() returns or throws. It runs on a thread of its own, while the calling one, which communicates, shows that it lives.
-/// Others say nothing meanwhile. Throws LostRank as RankLinks do, when the work is done.
+/// Returns or throws what work() does. It runs on a separate thread, while the calling one, which communicates, sends heartbeats.
+/// Others send nothing else meanwhile. Throws LostRank as RankLinks do, when the work is done.
 template <class Work>
 auto with_heartbeats(RankLinks& links, const Work& work) {
   const auto show = [&links] { send_heartbeat(links); };

@@ -1,4 +1,4 @@
-// Which rank a node is on, and where packets for nodes elsewhere wait for a frame.
+// The rank of a node, and the mailbox in which packets for nodes elsewhere wait for a frame.
 #pragma once
 
 #include <algorithm>
@@ -9,20 +9,20 @@
 namespace dmpc::nodes {
 
 /// The rank of a node, or of the host, whose index is node_count: blocks keep neighbours together, the host is on rank 0. Each
-/// rank has a node where there are at least as many nodes as ranks.
+/// rank has a node if there are at least as many nodes as ranks.
 constexpr std::uint32_t rank_of(std::uint32_t index, std::uint32_t node_count, std::uint32_t rank_count) {
   return index == node_count ? 0 : static_cast<std::uint32_t>(std::uint64_t{index} * rank_count / node_count);
 }
 
-/// Before a packet in the outbox.
+/// Precedes a packet in the outbox.
 using TargetIndex = std::uint32_t;
 
-/// The capacity of an outbox for nobody yet.
+/// The capacity of an outbox without targets.
 inline MailboxCapacity empty_outbox() { return {.small_front_bytes = sizeof(TargetIndex)}; }
 
-/// Makes room for all that may be under way to one more node elsewhere. A packet under way has a place in its target's mailbox.
-/// So what is under way to nodes elsewhere, all of which may wait here, has as many as their mailboxes have together. Bytes are
-/// set aside when they are first written: of these places few ever are.
+/// Adds slots for everything that may be in flight to one more node elsewhere. A packet in flight has a slot in its target's
+/// mailbox. So all packets in flight to nodes elsewhere, which may all wait here, need as many as their mailboxes have together.
+/// Bytes are committed when they are first written: few of these slots ever are.
 inline void add_target(MailboxCapacity& outbox, const MailboxCapacity& mailbox) {
   outbox.small_slots += mailbox.small_slots;
   outbox.bulk_slots += mailbox.bulk_slots;

@@ -1,4 +1,4 @@
-// What is known of each rank when a run is over.
+// Figures of each rank after a run.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct RankFigures {
   ClockDrift clock;  ///< of an observed run
 };
 
-/// The figures of all ranks, by number: what their nodes and the host took, and what has come from each.
+/// The figures of all ranks, by number: the memory of their nodes and the host, and each rank's report.
 inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, const RankLinks& links,
                                              const std::vector<RankReport>& reports) {
   std::vector<RankFigures> figures;

@@ -1,4 +1,4 @@
-// One rank's links to all others: what it sends them, what comes from them, and whether they are still there.
+// One rank's links to all others: sending, receiving, and detection of lost ranks.
 #pragma once
 
 #include <algorithm>
@@ -19,20 +19,20 @@
 
 namespace dmpc::nodes {
 
-/// When ranks are taken for lost. A silence is reckoned by the time in which this rank itself ran: where all were stopped, as
-/// clusters stop what has to wait for others, nobody was silent.
+/// Timeouts for lost ranks. Silence is measured in time in which this rank itself ran: if all were stopped, as clusters do with
+/// waiting jobs, none was silent.
 struct RankSilence {
-  std::chrono::milliseconds heartbeat{2'000};  ///< a rank with nothing to say says so after so long
-  std::chrono::milliseconds longest{600'000};  ///< one that says nothing for so long is lost: a debugger may hold it, or swapping
-  std::chrono::milliseconds reported{30'000};  ///< each time one has said nothing for so long that is told
-  /// Who looks up after a longer time than this did not run in between, and counts no more than this.
+  std::chrono::milliseconds heartbeat{2'000};  ///< a rank with nothing to send sends a heartbeat after this time
+  std::chrono::milliseconds longest{600'000};  ///< a rank that is silent for this time is lost: it may be in a debugger, or swapping
+  std::chrono::milliseconds reported{30'000};  ///< each time a rank has been silent for this time that is reported
+  /// A longer time between two checks means that this rank did not run, and counts only as this much.
   std::chrono::milliseconds look_max() const { return std::min(longest, reported) / 8; }
 };
 
 /// Thread safety: belongs to one thread at a time.
 class RankLinks {
  public:
-  /// `fabric` outlives this. Others have this one's `longest` to begin.
+  /// `fabric` outlives this. Others initially have this one's `longest`.
   explicit RankLinks(Fabric& fabric, const RankSilence& silence = {}, Idle idle = Idle::sleep);
 
   std::uint32_t rank() const { return fabric_->rank(); }
@@ -42,14 +42,14 @@ class RankLinks {
   /// What this thread does while nothing comes.
   Idle idle() const { return idle_; }
 
-  /// Puts a packet into the frame for another rank; false if there is no room while two are under way.
+  /// Puts a packet into the frame for another rank; false if there is no space while two are in flight.
   [[nodiscard]] bool put(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
     return ways_[rank].put(header, bytes);
   }
-  /// A word of this rank's, about a node if `target` says so; cut into several if it is long.
+  /// Sends a message of this rank, about node `target` if given; split into several if it is long.
   void say(std::uint32_t rank, Item item, std::span<const std::byte> bytes, std::uint32_t target = 0);
   void say_to_all(Item item, std::span<const std::byte> bytes);
-  /// Sends what there is, as far as ways are free. Returns whether anything was sent.
+  /// Sends what there is, as far as links are free. Returns whether anything was sent.
   bool flush();
   bool has_said_all() const;
 
@@ -71,19 +71,19 @@ class RankLinks {
     return taken > 0;
   }
 
-  /// Shows others that this rank lives, and tells whom it waits for; throws LostRank if one has been silent for too long.
+  /// Sends heartbeats, and reports which rank it waits for; throws LostRank if one has been silent for too long.
   void look_after();
-  /// Who is told "rank 1 on host b: ..." of a rank that is waited for: on rank 0, and where that is the one on rank 1.
+  /// Sets who gets "rank 1 on host b: ..." about a rank that is waited for: on rank 0, and on rank 1 about rank 0.
   void report_to(std::function<void(const std::string&)> listener) { listener_ = std::move(listener); }
 
   struct Sent {
     std::uint64_t frames = 0, bytes = 0;
   };
-  /// What was sent since this was called last.
+  /// What was sent since the last call.
   Sent take_sent();
-  /// What is set aside for frames that are sent.
+  /// Memory for frames that are sent.
   std::size_t room_bytes() const { return 2 * frame_bytes() * (rank_count() - 1); }
-  /// And for those that have come.
+  /// Memory for received frames.
   std::size_t arrival_bytes() const { return fabric_->arrival_bytes(); }
 
  private:
@@ -93,7 +93,7 @@ class RankLinks {
   struct Peer {
     FrameNumber frames_taken = 0;
     Clock::duration heard{};    ///< by the time in which this rank ran
-    std::int64_t reported = 0;  ///< how often its silence has been since
+    std::int64_t reported = 0;  ///< how often its silence has been reported since
     Clock::time_point spoken_to;
   };
 
@@ -101,7 +101,7 @@ class RankLinks {
   Clock::duration time_run();
 
   bool is_other(std::size_t rank) const { return rank != fabric_->rank(); }
-  /// Returns the number that it should have.
+  /// Returns the number that the frame should have.
   FrameNumber note(const Arrival& arrival);
   void expect_number(FrameNumber expected, const Arrival& arrival) const;
   void report_of_silence(std::uint32_t rank, Clock::duration silence);

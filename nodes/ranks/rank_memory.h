@@ -1,4 +1,4 @@
-// What one of several ranks sets aside for a run, known before it begins.
+// The memory of one of several ranks for a run, known before it begins.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@
 
 namespace dmpc::nodes {
 
-/// What one rank takes beside its nodes' memories: sums of what can be under way.
+/// A rank's memory in addition to its nodes' memories: sums of what can be in flight.
 struct NetworkMemory {
-  std::size_t outbox_bytes = 0;   ///< for the worst case, of which little is ever written
+  std::size_t outbox_bytes = 0;  ///< for the worst case; little is ever written
   std::size_t sent_bytes = 0;     ///< two frames to each other rank
   std::size_t arrived_bytes = 0;  ///< frames that have come
-  std::size_t stream_bytes = 0;   ///< what it is sent before the run and has not read yet
+  std::size_t stream_bytes = 0;  ///< stream bytes that it is sent before the run and has not read yet
 
   std::size_t total() const { return outbox_bytes + sent_bytes + arrived_bytes + stream_bytes; }
 };
 
-/// All that one rank takes.
+/// All memory of one rank.
 struct RankMemory {
   std::uint32_t node_count = 0;
   bool has_host = false;
@@ -33,7 +33,7 @@ struct RankMemory {
   std::uint64_t total() const { return nodes_bytes + network.total(); }
 };
 
-/// What a node takes, or the host.
+/// The memory of a node, or of the host.
 struct PeerMemory {
   MailboxCapacity mailbox;
   std::size_t bytes = 0;  ///< all of its local memory, the mailbox included
@@ -50,7 +50,7 @@ std::vector<PeerMemory> peers_of(const Plan& plan) {
   peers.push_back({plan.host_mailbox, plan.host_memory().total()});
   return peers;
 }
-/// The memories of all nodes as a runner is given them, then the host's.
+/// The memories of all nodes from a runner's specifications, then the host's.
 inline std::vector<PeerMemory> peers_of(std::span<const NodeSpecification> specifications) {
   std::vector<PeerMemory> peers;
   for (const NodeSpecification& specification : specifications) {
@@ -59,7 +59,7 @@ inline std::vector<PeerMemory> peers_of(std::span<const NodeSpecification> speci
   return peers;
 }
 
-/// What a rank sets aside. Without links there is one, which has all nodes and no network.
+/// A rank's memory. Without links there is one rank, which has all nodes and no network.
 inline RankMemory rank_memory(std::span<const PeerMemory> peers, const RankLinks* links, std::uint32_t rank) {
   const auto node_count = static_cast<std::uint32_t>(peers.size() - 1);
   const std::uint32_t rank_count = links == nullptr ? 1 : links->rank_count();

@@ -1,4 +1,4 @@
-// What comes from each rank when a run is over.
+// The report of each rank after a run.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace dmpc::nodes {
 
-/// What went between a rank and others.
+/// The traffic between a rank and others.
 struct RankTraffic {
   std::uint64_t packets_sent = 0, packets_received = 0;  ///< of nodes
-  std::uint64_t frames_sent = 0, bytes_sent = 0;         ///< of frames, from the end of the run before on
-  std::uint64_t waves = 0;                               ///< that were counted until all stood still
+  std::uint64_t frames_sent = 0, bytes_sent = 0;  ///< since the end of the run before
+  std::uint64_t waves = 0;  ///< counted until termination
 };
 static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to rank 0");
 
 struct RankReport {
   RankTraffic traffic;
   ClockDrift clock;      ///< of an observed run
-  std::string reported;  ///< what whoever called there had to say
+  std::string reported;  ///< the caller's report there
 };
 
 }  // namespace dmpc::nodes

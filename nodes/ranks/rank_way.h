@@ -1,4 +1,4 @@
-// One rank's way to another: the frame that is being filled, and words that wait for room in it.
+// One rank's link to another: the frame that is being filled, and messages that wait for space in it.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class RankWay {
   /// `fabric` outlives this.
   RankWay(Fabric& fabric, std::uint32_t rank) : fabric_(&fabric), rank_(rank) {}
 
-  /// Puts a packet into the frame; false if there is no room while two frames are under way.
+  /// Puts a packet into the frame; false if there is no space while two frames are in flight.
   [[nodiscard]] bool put(const ItemHeader& header, std::span<const std::byte> bytes) {
     if (!has_room_for(header)) {
       return false;
@@ -27,12 +27,12 @@ class RankWay {
     return true;
   }
 
-  /// A word of this rank's: goes with the next frame that has room, in the order of such words.
+  /// A message of this rank: goes with the next frame that has space, in the order of such messages.
   void say(const ItemHeader& header, std::span<const std::byte> bytes) {
     words_.push_back({header, std::vector<std::byte>(bytes.begin(), bytes.end())});
   }
 
-  /// Sends what there is, if the way is free; the next frame fills meanwhile. Returns whether anything was sent.
+  /// Sends what there is, if the link is free; the next frame fills meanwhile. Returns whether anything was sent.
   bool flush() {
     while (!words_.empty() && has_room_for(words_.front().header)) {
       frame_.add(words_.front().header, words_.front().bytes);
@@ -41,7 +41,7 @@ class RankWay {
     return send();
   }
 
-  /// Sends a frame, though it be an empty one.
+  /// Sends a frame, even an empty one.
   void send_heartbeat() {
     if (begin_frame()) {
       send();
@@ -67,7 +67,7 @@ class RankWay {
     return frame_.is_begun();
   }
 
-  /// In this frame, or in the next one, as this one leaves for it.
+  /// In this frame, or in the next one after sending this one.
   bool has_room_for(const ItemHeader& header) {
     if (begin_frame() && !frame_.has_room_for(header)) {
       send();

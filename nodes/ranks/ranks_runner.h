@@ -1,5 +1,5 @@
-// Runs the node programs on several ranks, each a process with a share of the nodes, on one thread a node or on a pool, and a
-// thread that communicates where they do not do so themselves.
+// Runs the node programs on several ranks, each a process with a share of the nodes, on one thread per node or on a pool, and a
+// communicating thread if they do not communicate themselves.
 #pragma once
 
 #include <cstddef>
@@ -18,22 +18,22 @@
 
 namespace dmpc::nodes {
 
-/// As Runner, but that node() and program() have this rank's nodes alone. The calling thread is the one that communicates.
+/// As Runner, but node() and program() have only this rank's nodes. The calling thread is the one that communicates.
 class RanksRunner final : public Runner {
  public:
-  /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
-  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer, of
-  /// whom rank 0 has one if any rank has, is told of this rank's nodes, by its own clock, which is set to that of rank 0 before
-  /// the start and compared with it again after a regular end. `pool_threads`: as ComputerRequest's, of each rank.
+  /// All ranks have equal specifications, of all nodes, then the host; no programs are made for those elsewhere. There are at
+  /// least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer, which rank 0
+  /// must have if any rank has one, gets reports of this rank's nodes, by its own clock, which is set to that of rank 0 before
+  /// the start and compared with it again after a regular end. `pool_threads`: as in ComputerRequest, per rank.
   RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
               const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr,
               const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~RanksRunner() override;
 
-  /// To be called on all ranks; again, when all have gathered, and rank 0 knows that all are about to. The end and a stall are
-  /// found exactly, without a time-out. It ends alike on all ranks: what fails on one fails on the others, with its rank and
-  /// text; a stop that is requested on one stops all. A stall's report has all nodes on rank 0, and its own on others. Throws
-  /// FabricError if a frame is lost, LostRank if a rank is.
+  /// To be called on all ranks; again, when all have gathered, and rank 0 knows that all are about to. The end and a deadlock are
+  /// detected exactly, without a timeout. It ends in the same way on all ranks: what fails on one fails on the others, with its
+  /// rank and text; a stop that is requested on one stops all. A deadlock's report has all nodes on rank 0, and its own on
+  /// others. Throws FabricError if a frame is lost, LostRank if a rank is.
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
@@ -43,7 +43,7 @@ class RanksRunner final : public Runner {
   std::vector<std::string> gather(const Report& report) override;
   /// Likewise, after gather().
   std::vector<RankReport> gather_ranks(const std::string& reported) override;
-  /// After run(): until all were told how it had ended.
+  /// After run(): up to the end of the exchange on how it had ended.
   RankTraffic traffic() const;
 
  private:

@@ -1,5 +1,5 @@
-// Several runs on the same nodes, as rank 0 tells the other ranks of them: a job for the first, of which they make their nodes,
-// and for each that follows the one value in which it differs.
+// Several runs on the same nodes, as rank 0 announces them to the other ranks: a job for the first, from which they make their
+// nodes, and for each that follows the one value in which it differs.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +19,37 @@
 
 namespace dmpc::nodes {
 
-/// What a stream from rank 0 is about, by its first byte.
+/// The content of a stream from rank 0, by its first byte.
 enum class StreamKind : std::uint8_t {
-  job,   ///< a run on new nodes, which are made of what follows
-  again  ///< another run on the nodes that are there
+  job,  ///< a run on new nodes, which are made from what follows
+  again  ///< another run on the existing nodes
 };
 
-/// Of what read_counted() has read first.
+/// The kind of a stream whose first read_counted() returned `bytes`.
 inline StreamKind kind_of_stream(std::string_view bytes) {
   core::expect(!bytes.empty(), "a stream says what it is about");
   return StreamKind{static_cast<std::uint8_t>(bytes.front())};
 }
 
-/// What a rank brings to a run that rank 0 leads.
+/// A worker rank's callbacks for a run that rank 0 coordinates.
 struct WorkerCallbacks {
-  /// Called when the plan is known, before anything of it is set aside; throws if this rank has no room.
+  /// Called when the plan is known, before memory is allocated; throws if this rank has not enough memory.
   std::function<void(const RankMemory&)> check_room = [](const RankMemory&) {};
-  /// Called next, if rank 0 wants the nodes looked at, with what it orders: who looks on here.
+  /// Called next, if rank 0 wants the nodes observed, with its order: returns the observers here.
   std::function<Watching(std::string_view order)> watch = [](std::string_view) { return Watching(); };
-  /// Called before each run but the first, where several follow each other on the same nodes: what was seen is forgotten.
+  /// Called before each run except the first, if several follow each other on the same nodes: resets the observers.
   std::function<void()> watch_again = [] {};
-  /// Called then, when the run is over: what was seen here, as WatchingElsewhere::add() of rank 0 understands it.
+  /// Called after the run: returns what was observed here, in the format of WatchingElsewhere::add() of rank 0.
   std::function<std::string()> seen = [] { return std::string(); };
 };
 
-/// How a run went for a rank that renders what rank 0 has handed out.
+/// The outcome of a run for a worker rank.
 struct WorkerOutcome {
   RunEnd end = RunEnd::finished;
-  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes keep during the run
+  std::uint64_t bytes_received = 0;  ///< all data from rank 0 before the run: a job, and its nodes' data
 };
 
-/// On rank 0, before another run on the nodes that are there: sends each other rank the value. Returns when all have taken it up.
+/// On rank 0, before another run on the existing nodes: sends each other rank the value. Returns when all have processed it.
 /// Throws what fails on another rank.
 template <class Value>
 void hand_out_again(const Value& value, RankLinks& links) {
@@ -61,7 +61,7 @@ void hand_out_again(const Value& value, RankLinks& links) {
   streams.finish();
 }
 
-/// The value, from what another rank was told.
+/// Reads the value on a worker rank.
 template <class Value>
 Value read_again(std::string_view reported) {
   FlatReader flat(reported);
@@ -69,9 +69,9 @@ Value read_again(std::string_view reported) {
   return flat.take<Value>();
 }
 
-/// What another rank does until rank 0 ends: throws Dismissed then, and what fails. `make_part(told, stream)` makes the nodes
-/// that are here by what was told and the rest of the stream; they run, by `run(stop)`, and where `is_repeated()` run anew after
-/// each `begin_again(told)`, until they give way to others. Where they are not to run anew it returns after the first run.
+/// The loop of a worker rank until rank 0 ends: throws Dismissed then, and what fails. `make_part(reported, stream)` makes the
+/// nodes that are here from `reported` and the rest of the stream; they run, by `run(stop)`, and if `is_repeated()` again after
+/// each `begin_again(reported)`, until they are replaced by others. If they are not to run again it returns after the first run.
 template <class MakePart>
 WorkerOutcome run_as_worker(RankLinks& links, const std::stop_token& stop, const MakePart& make_part) {
   StreamFromHost stream(links);

@@ -1,7 +1,8 @@
-// What rank 0 sends the others before the run, so that they can make their nodes: a stream to each, in bounded room.
+// What rank 0 sends the others before the run, so that they can make their nodes: a stream to each, in bounded memory.
 //
-// A rank has room for stream_window_bytes that it has not read yet, and tells what it has read; so many bytes are under way to it
-// at most, whatever the network would take. Nobody starts before rank 0 does (RanksRunner), which waits here until all are ready:
+// A rank has memory for stream_window_bytes that it has not read yet, and reports what it has read; no more bytes are in flight
+// to it, even if the network would take them. Nobody starts before rank 0 does (RanksRunner), which waits here until all are
+// ready:
 // so until then nothing else is under way.
 #pragma once
 
@@ -18,7 +19,7 @@
 
 namespace dmpc::nodes {
 
-/// So much of one rank's stream may be sent and not read.
+/// The maximum number of bytes of one rank's stream that are sent and not read.
 inline constexpr std::size_t stream_window_bytes = std::size_t{512} << 10U;
 
 /// Thread safety: belongs to the communicating thread of rank 0.
@@ -28,24 +29,24 @@ class StreamsToRanks {
   explicit StreamsToRanks(RankLinks& links);
 
   std::uint32_t rank_count() const { return links_->rank_count(); }
-  /// Sends these bytes, or waits until they may be sent. Throws what has failed on another rank, with its name; LostRank as
+  /// Sends these bytes, after waiting until they may be sent. Throws what has failed on another rank, with its name; LostRank as
   /// RankLinks do.
   void write(std::uint32_t rank, std::span<const std::byte> bytes);
-  /// How many there are, then these bytes: for read_counted().
+  /// Writes the number of bytes, then these: for read_counted().
   void write_counted(std::uint32_t rank, std::span<const std::byte> bytes);
-  /// The same for each rank but this.
+  /// write_counted() for each other rank.
   void write_counted_to_all(std::string_view bytes);
-  /// The piece of `whole` from `offset_bytes` on: for a ByteSource.
+  /// Writes the piece of `whole` from `offset_bytes` on: for a ByteSource.
   void write_piece(std::uint32_t rank, std::span<const std::byte> whole, std::size_t offset_bytes, std::size_t bytes);
-  /// Waits until all ranks have read what is for them, and are ready; then streams can be written for another run. Throws as
-  /// write() does.
+  /// Waits until all ranks have read their streams, and are ready; then streams can be written for another run. Throws as write()
+  /// does.
   void finish();
-  /// Takes what has come, and shows that this rank lives: to be called again and again while it does something else. Throws as
-  /// write() does.
+  /// Receives what has arrived, and sends heartbeats: to be called repeatedly while it does something else. Throws as write()
+  /// does.
   void look_after();
 
  private:
-  /// What one rank's stream has come to.
+  /// The state of one rank's stream.
   struct Stream {
     std::uint64_t written_bytes = 0, read_bytes = 0;
     bool is_ready = false;
@@ -55,7 +56,7 @@ class StreamsToRanks {
 
   RankLinks* links_;
   Exchange exchange_;
-  std::vector<Stream> streams_;  ///< by rank; the first is nobody's
+  std::vector<Stream> streams_;  ///< by rank; the first is unused
 };
 
 /// The other end of StreamsToRanks. Holds no more than stream_window_bytes. Thread safety: belongs to the communicating thread.
@@ -66,7 +67,7 @@ class StreamFromHost final : public ByteStream {
 
   /// Throws Dismissed if rank 0 ends the command instead, LostRank as RankLinks do.
   void read(std::span<std::byte> into) override;
-  /// All is read and all nodes are made.
+  /// Reports that all is read and all nodes are made.
   void say_ready();
   /// As StreamsToRanks::look_after(). Throws as read() does.
   void look_after();
@@ -81,7 +82,7 @@ class StreamFromHost final : public ByteStream {
 
   RankLinks* links_;
   Exchange exchange_;
-  std::vector<std::byte> window_;      ///< a ring: what has come and is not read
+  std::vector<std::byte> window_;  ///< a ring: received and not read
   std::size_t first_ = 0, count_ = 0;  ///< of it
   std::uint64_t bytes_read_ = 0, bytes_reported_ = 0;
 };

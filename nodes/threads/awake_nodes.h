@@ -1,18 +1,19 @@
-// Which of the nodes that share a thread are awake, whose turn is next, and where that thread, a driver, sleeps while none is.
+// The awake nodes of a thread that runs several, the order of their turns, and the worker thread's sleep while none is awake.
 //
-// A node sleeps as any does: its mailbox's word is ASLEEP (nodes/mailbox.h). Whoever replaces that rings its wake-up, which puts
-// the node's number into the driver's own mailbox; so the driver is woken, and counted, as a node with a thread of its own is.
+// A node sleeps as any does: its mailbox's word is ASLEEP (nodes/mailbox.h). The thread that replaces that rings its wake-up,
+// which puts the node's number into the worker thread's own mailbox; so the worker thread is woken, and counted, like a node with
+// its own thread.
 //
-// Thread safety: wake-ups may be rung by any thread, and woken().rouse() be called; everything else belongs to the driver.
+// Thread safety: wake-ups may be rung by any thread, and woken().rouse() be called; everything else belongs to the worker thread.
 //
 // Invariants
 // (1) A node is in line, or its turn is on, or its mailbox's word is ASLEEP, or it is woken: then its number is with the one
 //     thread that has replaced ASLEEP, or in woken(), once. So woken() never has more numbers than there are nodes.
-// (2) The awake count (nodes/awake_count.h) counts drivers. A driver leaves it when nobody is in line and after the word of
-//     woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a driver that runs, or brings
-//     packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is under way.
-// Progress: as push()'s. A driver that is stopped between a packet and the wake-up delays the packet's node until it goes on, as
-// it does its own nodes.
+// (2) The awake count (nodes/awake_count.h) counts worker threads. A worker thread leaves it when no node is in line and after
+// the word of woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a running worker thread,
+// or brings packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is in flight.
+// Progress: as push()'s. A worker thread that is stopped between a packet and the wake-up delays the packet's node until it goes
+// on, like its own nodes.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +32,7 @@ template <class Atomics>
 class BasicAwakeNodes {
  public:
   /// `count` nodes, 1 at least, all awake, in line by number. Takes bytes(count) of `memory` (Category::mailbox); `awake`, which
-  /// counts the driver, outlives this.
+  /// counts the worker thread, outlives this.
   BasicAwakeNodes(std::uint32_t count, LocalMemory& memory, BasicAwakeCount<Atomics>& awake)
       : woken_(capacity(count), memory), awake_(&awake), line_(count), in_line_(count) {
     core::expect(count > 0, "a driver has a node");
@@ -44,7 +45,7 @@ class BasicAwakeNodes {
   BasicAwakeNodes(const BasicAwakeNodes&) = delete;
   BasicAwakeNodes& operator=(const BasicAwakeNodes&) = delete;
 
-  /// What that takes of a memory, in bytes.
+  /// The memory that the constructor takes, in bytes.
   static std::size_t bytes(std::uint32_t count) { return Mailbox::bytes(capacity(count)); }
 
   /// For the mailbox of a node.
@@ -59,7 +60,7 @@ class BasicAwakeNodes {
       woke(number);
     });
   }
-  /// Whose turn it is, who leaves the line for it; nothing if nobody is in line.
+  /// Removes and returns the node whose turn is next; nothing if none is in line.
   std::optional<std::uint32_t> next() {
     if (in_line_ == 0) {
       return std::nullopt;
@@ -69,14 +70,14 @@ class BasicAwakeNodes {
     --in_line_;
     return number;
   }
-  /// Its turn is over, and it is awake: goes to the end of the line.
+  /// Puts a node whose turn is over, and which is awake, at the end of the line.
   void stay(std::uint32_t number) {
     core::expect(in_line_ < line_.size(), "a node is in line once");
     line_[(first_ + in_line_) % line_.size()] = number;
     ++in_line_;
   }
 
-  /// Where the driver sleeps while nobody is in line, as a node does before its mailbox.
+  /// The mailbox before which the worker thread sleeps while no node is in line.
   BasicMailbox<Atomics>& woken() { return woken_; }
 
  private:

@@ -11,37 +11,37 @@
 
 namespace dmpc::nodes {
 
-/// A bounded queue between one node and the network. What a node sends to one target arrives in order; what it sends to different
-/// targets may not. Nothing is refused and nothing lost: without room for a new packet the oldest ones leave early. A packet held
-/// back has spent its credit, so its target has room for it whenever it comes. Thread safety: belongs to the sender's thread.
+/// A bounded queue between one node and the network. Packets to one target arrive in order; those to different targets may not.
+/// Nothing is refused or lost: if there is no space for a new packet the oldest ones leave early. A delayed packet has spent its
+/// credit, so its target has a slot for it at any time. Thread safety: belongs to the sender's thread.
 class DelayedPackets final : public Network {
  public:
   /// Takes `room_bytes` of `memory` (Category::queues). `network` outlives this.
   DelayedPackets(const Chaos& chaos, NodeId source, LocalMemory& memory, std::size_t room_bytes, Network& network);
 
-  /// Room for four packets with the largest payload that the node sends and sixteen small ones, in bytes; and what it takes of
-  /// the local memory.
+  /// Memory for four packets with the largest payload that the node sends and sixteen small ones, in bytes; and the local memory
+  /// that it takes.
   static std::size_t room_bytes(std::size_t payload_bytes_max);
 
-  /// Hands the packet on at once or holds it back, by a draw. Expects that the room is enough for it alone.
+  /// Passes the packet on at once or delays it, at random. Expects that the memory is enough for it alone.
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
 
-  /// A quantum of the node is over: hands on what has waited long enough.
+  /// To be called after each quantum of the node: passes on what has waited long enough.
   void pass_quantum();
 
   /// Whether no packet is held back.
   bool empty() const { return used_bytes_ == 0; }
-  /// Packets that have been held back so far.
+  /// Number of packets that have been delayed so far.
   std::uint64_t count() const { return count_; }
 
  private:
-  /// Stands before a payload that is held back; the room is a sequence of both, oldest first.
+  /// Precedes a payload that is delayed; the memory holds a sequence of both, oldest first.
   struct Held {
     std::uint64_t due_quantum = 0;
     NodeId target{};
     PacketHeader header;
 
-    /// With its payload, in the room.
+    /// Including its payload.
     std::size_t bytes() const { return bytes_for(header.bytes); }
   };
   static std::size_t bytes_for(std::size_t payload_bytes);

@@ -1,4 +1,4 @@
-// The nodes of this process, each on a thread of its own or many to a driver: all of a computer's, or a rank's share of them.
+// The nodes of this process, each on its own thread or several per worker thread: all of a computer's, or a rank's share.
 #pragma once
 
 #include <atomic>
@@ -22,81 +22,81 @@
 
 namespace dmpc::nodes {
 
-/// How a run ends, the gravest last. The first to say so decides in a process.
+/// How a run ends, the gravest last. The first one in a process decides.
 enum class Ending : std::uint8_t { none, finished, interrupted, stalled, failed };
 
-/// What carries packets from and to other processes.
+/// Transports packets from and to other processes.
 class Carrier {
  public:
-  /// Carries what there is, unless another thread is about it; called by awake nodes' threads between quanta. Never blocks.
+  /// Transports what there is, unless another thread does so; called by awake nodes' threads between quanta. Never blocks.
   virtual void carry() = 0;
 
  protected:
   ~Carrier() = default;
 };
 
-/// Where a computer has nodes in other processes, too.
+/// For a computer that has nodes in other processes, too.
 struct Outlet {
   std::vector<bool> is_here;  ///< by node, the host last
-  /// Where packets for the others go, each behind its target's index (4 bytes).
+  /// The mailbox for packets to nodes elsewhere, each after its target's index (4 bytes).
   Mailbox& outbox;
   Mailbox& call;  ///< its receiver is roused when all nodes here sleep, and at the end
   Carrier& carrier;
 };
 
-/// What is said of a stall, before a line for each program.
+/// The text on a deadlock, before a line for each program.
 std::string deadlock_text(const std::optional<Chaos>& chaos);
 
 /// Thread safety: deliver() and what threads run belongs to the nodes' threads; end(), fail() and ending() may be called from
-/// any. What is said to be the bringer's is called by one thread at a time, a node's or one that is none;
-/// everything else by the thread that makes this, while no node's thread exists.
+/// any. Functions of the bringer are called by one thread at a time, a node's or another; everything else by the thread that
+/// makes this, while no node's thread exists.
 class NodeThreads final : public Network {
  public:
-  /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if there is one, is told on the
-  /// nodes' threads; it and the outlet outlive this. `pool_threads`: as ComputerRequest's.
+  /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if given, is called on the nodes'
+  /// threads; it and the outlet outlive this. `pool_threads`: as in ComputerRequest.
   NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
               const Outlet* outlet = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~NodeThreads() override;
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
 
-  /// Starts them; what keeps one from starting is a failure. `start_ns`: when the run began, by CLOCK_MONOTONIC.
+  /// Starts the threads; if one cannot start that is a failure. `start_ns`: the start of the run, by CLOCK_MONOTONIC.
   void start(std::uint64_t start_ns);
   /// After a regular end, and join(): all nodes are awake again, and start() begins another run, counted from zero.
   void begin_again();
   /// Waits until all have left.
   void join();
 
-  /// Ends the run, unless something else has; every thread leaves within a quantum. Without an outlet it ends by itself when all
-  /// nodes sleep.
+  /// Ends the run, unless it has ended; every thread leaves within a quantum. Without an outlet it ends by itself when all nodes
+  /// sleep.
   void end(Ending ending);
-  /// Ends it with this, unless something else has failed.
+  /// Ends it with this failure, unless there is one already.
   void fail(std::exception_ptr failure);
   Ending ending() const { return ending_.load(std::memory_order_acquire); }  // partner: end()
   /// What the run failed with; after join().
   const std::exception_ptr& failure() const { return failure_; }
 
-  /// The bringer's: as long as it lives, packets may be brought.
+  /// For the bringer: as long as it lives, packets may be brought.
   class Bringing {
    public:
     explicit Bringing(NodeThreads& nodes) : nodes_(&nodes) { nodes_->awake_.raise(); }
     Bringing(const Bringing&) = delete;
     Bringing& operator=(const Bringing&) = delete;
     ~Bringing() { static_cast<void>(nodes_->awake_.leave()); }
-    /// Puts a packet into the mailbox of its target, which is here, and has room by its sender's credit.
+    /// Puts a packet into the mailbox of its target, which is here, and has a slot by its sender's credit.
     void bring(NodeId target, const PacketHeader& header, std::span<const std::byte> payload);
 
    private:
     NodeThreads* nodes_;
   };
-  /// The bringer's, if it is no node: whether all nodes here sleep, and will until a packet is brought. If so, what their
-  /// programs say of themselves may be asked.
+  /// For a bringer that is no node: whether all nodes here sleep, and will until a packet is brought. If so, their programs'
+  /// describe() may be called.
   bool all_sleep() const { return awake_.is_zero(); }
   std::uint32_t unfinished_count() const;
   /// A line for each program that is here.
   std::string describe() const;
 
-  /// Expects that nothing lies in a mailbox or is held back; after a regular end.
+  /// Expects that no packet lies in a mailbox or is delayed; after a regular end.
   void expect_nothing_lies_about() const;
 
   const std::vector<std::unique_ptr<ThreadProcessor>>& processors() const { return processors_; }
@@ -113,7 +113,7 @@ class NodeThreads final : public Network {
   /// What a node does after a quantum.
   enum class Next : std::uint8_t {
     go_on,
-    pass,  ///< chaos alone keeps it from sleeping
+    pass,  ///< only chaos keeps it from sleeping
     rest   ///< it has nothing to do
   };
 
@@ -148,8 +148,8 @@ class NodeThreads final : public Network {
   Observer* observer_;
   const Outlet* outlet_;
   std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
-  AwakeCount awake_;            ///< nodes or drivers, and the bringer while it brings
-  AwakeCount uncounted_;        ///< of the outbox, whose receiver is no node: read by nobody
+  AwakeCount awake_;  ///< nodes or worker threads, and the bringer while it brings
+  AwakeCount uncounted_;  ///< for the outbox, whose receiver is no node: never read
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins

@@ -1,4 +1,4 @@
-// A thread that runs for short whiles, but soon after it is woken.
+// A thread that runs for short periods, but soon after it is woken.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 
 namespace dmpc::nodes {
 
-/// What the calling thread, and those that it starts meanwhile, ask the scheduler for while this lives: to be woken on time (the
-/// kernel may else be 50 us late), and to run for 0.1 ms at a time where others want the core, in return for running before them
-/// (Linux 6.12 on; earlier ones leave it at their own). Their share of the processors stays what it is. For ranks, between whose
-/// nodes an answer takes up to six threads' turns, each of which would wait for the milliseconds of whoever computes. Thread
-/// safety: belongs to the thread that made it.
+/// Sets what the calling thread, and those that it starts meanwhile, request from the scheduler while this lives: to be woken on
+/// time (otherwise the kernel may be 50 us late), and to run for 0.1 ms at a time if others want the core, in return for running
+/// before them (Linux 6.12 on; earlier ones keep their own slices). Their share of the processors stays the same. For ranks,
+/// between whose nodes an answer takes up to six threads' turns, each of which would wait for milliseconds while others compute.
+/// Thread safety: belongs to the thread that made it.
 class Promptness {
  public:
   Promptness();

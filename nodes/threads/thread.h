@@ -7,10 +7,10 @@
 
 namespace dmpc::nodes {
 
-/// The least thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
+/// The minimum thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
 inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
 
-/// Not started, running, or joined. Thread safety: none; belongs to who starts it.
+/// Not started, running, or joined. Not thread-safe; belongs to the thread that starts it.
 class Thread {
  public:
   Thread() = default;
@@ -20,7 +20,7 @@ class Thread {
   ~Thread() { join(); }
 
   /// Runs body(argument) on a thread with at least `stack_bytes` of stack (more under sanitizers). `body` must not throw. Throws
-  /// core::CapacityError if the real computer has no room for another thread.
+  /// core::CapacityError if the real computer cannot create another thread.
   void start(std::size_t stack_bytes, void (*body)(void*), void* argument);
   /// Waits until the body has returned.
   void join();

@@ -1,4 +1,4 @@
-// One node of those whose programs run on threads: its memory, mailbox, program, and what it knows of the run.
+// One node of those whose programs run on threads: its memory, mailbox, program, and state of the run.
 #pragma once
 
 #include <sched.h>
@@ -24,11 +24,11 @@
 
 namespace dmpc::nodes {
 
-/// Quanta that pass at a node which pauses, or only waits for packets held back to fall due, until it gives its core to others.
-/// Giving it away in each would cost a time slice each where other processes want the core.
+/// The number of quanta after which a node that pauses, or only waits for delayed packets to fall due, gives its core to others.
+/// Giving it away in each would cost a time slice each if other processes want the core.
 inline constexpr std::uint32_t quanta_per_yield = 16;
 
-/// A place for the packets that chaos holds back at this node, if it does.
+/// The queue for packets that chaos delays at this node, if it does.
 inline std::optional<DelayedPackets> delayed_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification,
                                                         NodeId id, LocalMemory& memory, Network& network) {
   if (!chaos || specification.held_bytes == 0) {
@@ -47,7 +47,7 @@ struct ThreadComputer {
   std::size_t core_count;         ///< 0: not known
 };
 
-/// Between a program and the network, chaos or not: tells an observer what is sent, when the program sends it.
+/// Between a program and the network, with chaos or not: reports to an observer what is sent, when the program sends it.
 class Telling final : public Network {
  public:
   /// `call` is the number of the program's. All outlive this.
@@ -72,7 +72,7 @@ class Telling final : public Network {
   Network* next_;
 };
 
-/// One node with all that belongs to it. On cache lines of its own, so that neighbours do not disturb each other's counters.
+/// One node with all that belongs to it. On its own cache lines, so that neighbours do not disturb each other's counters.
 struct alignas(cache_line_bytes) ThreadProcessor {
   ThreadProcessor(const NodeSpecification& specification, NodeId id, const ThreadComputer& computer)
       : memory(specification.plan),
@@ -91,13 +91,13 @@ struct alignas(cache_line_bytes) ThreadProcessor {
     memory.seal();
   }
 
-  /// Where the program's packets go first.
+  /// The first network on the way of the program's packets.
   Network& way_out(const ThreadComputer& computer) {
     Network& next = held ? *held : computer.network;
     return computer.observer == nullptr ? next : telling.emplace(*computer.observer, computer.start_ns, call, next);
   }
 
-  /// Whether this node, being slow, lets the next quantum pass.
+  /// Whether this node, being slow, skips the next quantum.
   bool sits_out() {
     if (!pauses) {
       return false;
@@ -110,13 +110,13 @@ struct alignas(cache_line_bytes) ThreadProcessor {
     return quanta_to_run > 0;
   }
 
-  /// Another run begins, which is counted from zero.
+  /// To be called before another run, which is counted from zero.
   void begin_again() {
     node.counters() = {};
     held_before = held ? held->count() : 0;
   }
 
-  /// Hands on the packets whose time has come; returns whether others are still held back.
+  /// Passes on the packets whose time has come; returns whether others are still delayed.
   bool holds_packets() {
     if (!held) {
       return false;
@@ -126,7 +126,7 @@ struct alignas(cache_line_bytes) ThreadProcessor {
     return !held->empty();
   }
 
-  /// A quantum in which chaos alone keeps the node from sleeping.
+  /// A quantum in which only chaos keeps the node from sleeping.
   void pass_idly() {
     if (++quanta_idle % quanta_per_yield == 0) {
       sched_yield();
@@ -141,21 +141,21 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   NodeId waiting_for{};    ///< their target
   std::uint32_t waiting_count = 0, quanta_waited = 0;
   PollBackoff polls;               ///< at its mailbox before it sleeps
-  std::optional<Telling> telling;  ///< if somebody looks on
+  std::optional<Telling> telling;  ///< if there is an observer
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
   std::uint64_t held_before = 0;  ///< packets held back in earlier runs
   std::uint32_t quanta_idle = 0;
-  std::uint64_t call = 0;                                 ///< number of the program's call, if somebody looks on
+  std::uint64_t call = 0;  ///< number of the program's call, if there is an observer
   Charges charged;                                        ///< until the last one's end, likewise
-  std::uint32_t interrupt_kinds;                          ///< which end no wait
-  bool is_waiting = false;                                ///< it has nothing to do, if somebody looks on
+  std::uint32_t interrupt_kinds;  ///< which do not end a wait
+  bool is_waiting = false;  ///< it has nothing to do, if there is an observer
   std::uint64_t waits_since_ns = 0, service_idle_ns = 0;  ///< likewise; what it did for others meanwhile
-  std::uint32_t quanta_to_run = 0;                        ///< this many quanta from now the node runs one
-  bool is_asleep = false;                                 ///< of a driver's: its mailbox's word was made ASLEEP
+  std::uint32_t quanta_to_run = 0;  ///< the node runs again after this number of quanta
+  bool is_asleep = false;  ///< on a worker thread: its mailbox's word was made ASLEEP
   std::uint64_t asleep_since_ns = 0;
-  Thread thread;  ///< not of a driver's
+  Thread thread;  ///< unless on a worker thread
 };
 
 }  // namespace dmpc::nodes

@@ -1,4 +1,4 @@
-// Runs the node programs on one thread a node, or on a few that drive all in turn, wall clock; who is idle sleeps.
+// Runs the node programs on one thread per node, or on a few that run all in turn, wall clock; idle threads sleep.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@
 
 namespace dmpc::nodes {
 
-/// As Runner; on one thread a node or on a pool of threads, wall clock.
+/// As Runner; on one thread per node or on a pool of threads, wall clock.
 class ThreadsRunner final : public Runner {
  public:
-  /// `specifications`: the nodes in order, then the host, last. With `chaos` the computer delays and reorders packets, and some
-  /// of its nodes are slow; the credits are the strategy's to shrink (shrunk_credits()). `observer`, if there is one, is told on
-  /// the nodes' threads. `pool_threads`: as ComputerRequest's.
+  /// `specifications`: the nodes in order, then the host. With `chaos` the computer delays and reorders packets, and some of its
+  /// nodes are slow; the strategy shrinks the credits (shrunk_credits()). `observer`, if given, is called on the nodes' threads.
+  /// `pool_threads`: as in ComputerRequest.
   explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt,
                          Observer* observer = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
 
-  /// Starts the threads. After a stop is requested every thread ends within a quantum. A stall is found exactly, without a
-  /// time-out: all nodes sleep and nothing is under way.
+  /// Starts the threads. After a stop is requested every thread ends within a quantum. A deadlock is detected exactly, without a
+  /// timeout: all nodes sleep and nothing is in flight.
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;

@@ -1,4 +1,4 @@
-// What each of the nodes that share a thread takes of that thread's processor time.
+// The share of each of the nodes on a worker thread in that thread's processor time.
 #pragma once
 
 #include <array>
@@ -9,26 +9,25 @@
 
 namespace dmpc::nodes {
 
-/// Turns follow each other without a gap. The wall clock, which costs little to read, is read after each; the clock of the
-/// thread's processor time, which costs a call of the system, after a long one or many short ones. Short turns take what the wall
-/// clock says, as in them a thread hardly waits for its core; the last one takes the rest of what the thread has had since the
-/// clock was read last. Thread safety: none; belongs to the thread.
+/// Turns follow each other without a gap. The wall clock, which is cheap to read, is read after each; the clock of the thread's
+/// processor time, which costs a system call, after a long one or many short ones. Short turns are measured by the wall clock, as
+/// in them a thread hardly waits for its core; the last one gets the rest of the thread's time since that clock was read last.
+/// Not thread-safe; belongs to the thread.
 class TurnTimes {
  public:
-  /// So many turns are shared out together at most.
+  /// The maximum number of turns that are accounted together.
   static constexpr std::size_t turns_max = 64;
   static constexpr std::uint64_t long_turn_ns = 50'000;
 
-  /// The first turn begins, or one after a sleep. Expects that turns before that are shared out.
+  /// Begins the first turn, or one after a sleep. Expects that turns before that are accounted.
   void begin(std::uint64_t wall_ns, std::uint64_t processor_ns) {
     now_ns_ = wall_ns;
     processor_ns_ = processor_ns;
   }
-  /// When the last turn ended, or begin() was.
+  /// The end of the last turn, or the time of begin().
   std::uint64_t now_ns() const { return now_ns_; }
 
-  /// A turn of the node whose counters these are is over; they outlive this. True if it is time to share out, before another one
-  /// is.
+  /// Ends a turn of the node with these counters, which outlive this. True if share_out() is due before another turn.
   [[nodiscard]] bool end_turn(NodeCounters& counters, std::uint64_t wall_ns) {
     const std::uint64_t length_ns = wall_ns - now_ns_;
     turns_[count_++] = {&counters, length_ns};
@@ -36,7 +35,7 @@ class TurnTimes {
     return count_ == turns_max || length_ns >= long_turn_ns;
   }
 
-  /// Adds what the thread has had since then to `busy_ns` of those whose turns it was.
+  /// Adds the thread's time since then to `busy_ns` of the nodes that had the turns.
   void share_out(std::uint64_t processor_ns) {
     if (count_ == 0) {
       return;

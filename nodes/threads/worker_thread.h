@@ -1,4 +1,4 @@
-// A thread that drives several nodes in turn: its share of a computer's, or of a rank's.
+// A thread that runs several nodes in turn: its share of a computer's, or of a rank's.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 
 namespace dmpc::nodes {
 
-/// So many quanta a node runs in its turn, if it has so much to do.
+/// The maximum number of quanta in a node's turn.
 inline constexpr int quanta_per_turn = 64;
 
-/// Its nodes, which are those of `share` and of no other driver, whose turn it is, and what they take. Thread safety: as
+/// Its nodes, `share`, which belong to no other worker thread, the order of their turns, and their times. Thread safety: as
 /// AwakeNodes; made before the threads start.
 struct alignas(cache_line_bytes) WorkerThread {
-  /// Gives the nodes' mailboxes their wake-ups. `awake` counts the driver. Both outlive this.
+  /// Gives the nodes' mailboxes their wake-ups. `awake` counts the worker thread. Both outlive this.
   WorkerThread(std::span<const std::unique_ptr<ThreadProcessor>> share, AwakeCount& awake)
       : nodes(share), memory(plan(share.size())), awake_nodes(static_cast<std::uint32_t>(share.size()), memory, awake) {
     for (std::uint32_t number = 0; number < share.size(); ++number) {
@@ -32,7 +32,7 @@ struct alignas(cache_line_bytes) WorkerThread {
     }
   }
 
-  /// What a stack has to have for each of its nodes, one after the other.
+  /// The stack size, enough for each of its nodes in turn.
   std::size_t stack_bytes() const {
     std::size_t most = 0;
     for (const auto& node : nodes) {
@@ -41,7 +41,7 @@ struct alignas(cache_line_bytes) WorkerThread {
     return most;
   }
 
-  /// Another run begins: all nodes, which sleep, are awake and in line by number. Before the thread starts.
+  /// To be called before another run: all nodes, which sleep, are awake and in line by number. Before the thread starts.
   void begin_again() {
     for (const auto& node : nodes) {
       node->mailbox.rouse();
@@ -58,7 +58,7 @@ struct alignas(cache_line_bytes) WorkerThread {
     self.asleep_since_ns = times.now_ns();
   }
   void share_out_time() { times.share_out(nanoseconds(CLOCK_THREAD_CPUTIME_ID)); }
-  /// The run, which began for this driver then, is over.
+  /// Ends the run, which began at `start_ns` for this worker thread.
   void end_turns(std::uint64_t start_ns) {
     share_out_time();
     const std::uint64_t end_ns = nanoseconds(CLOCK_MONOTONIC);
@@ -68,14 +68,14 @@ struct alignas(cache_line_bytes) WorkerThread {
     }
   }
 
-  /// A node that slept has been put in line.
+  /// Accounts the sleep of a node that has been put in line.
   void note_sleep(ThreadProcessor& self) const {
     self.node.counters().asleep_ns += times.now_ns() - self.asleep_since_ns;
     self.is_asleep = false;
   }
 
   std::span<const std::unique_ptr<ThreadProcessor>> nodes;
-  LocalMemory memory;  ///< no node's: for the numbers of those that are woken
+  LocalMemory memory;  ///< no node's: for the numbers of nodes that are woken
   AwakeNodes awake_nodes;
   TurnTimes times;
   Thread thread;

@@ -1,4 +1,4 @@
-// What is going to happen, in the one order that virtual time allows.
+// The pending events, in order of virtual time.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace dmpc::nodes {
 
-/// Something that happens at a time. Ordered by (time, source, sequence): the node whose action made the event, and that node's
-/// own count of its events, so that the order does not depend on how the host came to make them.
+/// An event at a time. Ordered by (time, source, sequence): the node whose action made the event, and that node's own count of
+/// its events, so that the order does not depend on how the real computer made them.
 struct Event {
   enum class Kind : std::uint8_t {
     enters,   ///< a message enters the network
     arrives,  ///< a message is at its target
-    is_free   ///< a node's processor has done what it was doing
+    is_free  ///< a node's processor has finished its activity
   };
   __extension__ using Order = unsigned __int128;
   /// As one number; sequences are below 2^48.
@@ -30,15 +30,15 @@ struct Event {
 
   Order order = 0;
   Kind kind = Kind::is_free;
-  std::uint32_t packet = 0;  ///< of a message: its number in the runner's store
+  std::uint32_t packet = 0;  ///< for a message: its number in the runner's store
 
   std::uint64_t time_ns() const { return static_cast<std::uint64_t>(order >> 64U); }
   std::uint32_t source() const { return static_cast<std::uint32_t>(static_cast<std::uint64_t>(order) >> 48U); }
 };
 
-/// Most events are near, and lie by their time in a ring of slots, each a short list in order (R. Brown, "Calendar Queues",
-/// 1988); what is far, or would make a list long, is in a binary heap. The least of both is next, so where an event lies decides
-/// nothing. Not thread-safe.
+/// Most events are near, and lie by their time in a ring of slots, each a short sorted list (R. Brown, "Calendar Queues", 1988);
+/// events that are far, or would make a list long, are in a binary heap. The least of both is next, so the place of an event does
+/// not affect the order. Not thread-safe.
 class EventQueue {
  public:
   /// `slot_ns`, at least 1, is about the time from one event to the next.
@@ -58,7 +58,7 @@ class EventQueue {
     }
   }
   bool empty() const { return count_ == 0; }
-  /// The least event, which is now.
+  /// Removes the least event, whose time is now.
   Event pop() {
     core::expect(!empty(), "an event is popped that is there");
     const bool is_near = count_ > far_.size();
@@ -74,15 +74,15 @@ class EventQueue {
  private:
   struct Place {
     Event event;
-    std::uint32_t next = 0;  ///< in the list of a slot, or of places that are free
+    std::uint32_t next = 0;  ///< in the list of a slot, or in the free list
   };
   static constexpr std::uint32_t none = 0xffffffffU;
   static constexpr std::size_t slot_count = 512, word_bits = 64, word_count = slot_count / word_bits;
-  static constexpr int steps_max = 8;  ///< in a list, to the place of an event
+  static constexpr int steps_max = 8;  ///< maximum in a list, to the place of an event
 
   static bool is_later(const Event& a, const Event& b) { return b.order < a.order; }
 
-  /// Returns false if the slot's list is too long for that.
+  /// Returns false if the slot's list is too long.
   bool put(const Event& event, std::size_t slot) {
     std::uint32_t before = none, at = slots_[slot];
     for (int steps = 0; at != none && places_[at].event.order < event.order; ++steps) {
@@ -107,7 +107,7 @@ class EventQueue {
     return std::exchange(free_, places_[free_].next);
   }
 
-  /// From now on round the ring. Requires an event in some slot.
+  /// The first slot with an event from now on, round the ring. Requires an event in some slot.
   std::size_t first_slot() const {
     const std::size_t now = (now_ns_ >> slot_shift_) % slot_count;
     std::size_t word = now / word_bits;

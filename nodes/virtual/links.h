@@ -1,4 +1,4 @@
-// The wires of a modelled machine, each with the time at which it is free again.
+// The links of a modelled machine, each with the time at which it is free again.
 #pragma once
 
 #include <cstddef>
@@ -11,48 +11,48 @@
 
 namespace dmpc::nodes {
 
-/// What one link has carried. A node's memory port counts as a link each way, between the node's memory and the node.
+/// The traffic of one link. A node's memory port counts as a link in each direction, between the node's memory and the node.
 struct LinkUse {
   std::string from, to;        ///< "node 3", "host", "switch 0", "place 9" (a router without a node), "memory 3"
-  std::uint64_t messages = 0;  ///< that passed it
-  std::uint64_t bytes = 0;     ///< of them, headers included
-  std::uint64_t busy_ns = 0;   ///< held by them
-  std::uint64_t wait_ns = 0;   ///< that messages waited for it
+  std::uint64_t messages = 0;  ///< those that passed it
+  std::uint64_t bytes = 0;  ///< of these, headers included
+  std::uint64_t busy_ns = 0;  ///< time held by them
+  std::uint64_t wait_ns = 0;  ///< time that messages waited for it
 };
 
-/// What the links of a run have carried together.
+/// The traffic of all links of a run.
 struct LinkTraffic {
-  std::uint64_t messages = 0;  ///< from a node to another one
+  std::uint64_t messages = 0;  ///< from a node to another
   std::uint64_t hops = 0;      ///< links passed, memory ports aside, summed over messages
   std::uint64_t passages = 0;  ///< links and memory ports passed, summed over messages
   std::uint64_t bytes = 0;     ///< of the messages, summed over passages
-  std::uint64_t busy_ns = 0;   ///< of the links and memory ports, summed
-  std::uint64_t wait_ns = 0;   ///< that messages stood before links that others held, summed
+  std::uint64_t busy_ns = 0;  ///< summed over links and memory ports
+  std::uint64_t wait_ns = 0;  ///< time that messages waited for links held by others, summed
 };
 
-/// A message takes one link of its route after the other, and holds them as the machine's Switching says. Links are given in the
-/// order in which messages enter the network. The host hangs on node 0 by a link of its own in each direction. If the machine has
-/// memory ports, every node but the host, whose only link is one, has one in each direction: the first and the last link of a
-/// route. Without contention nothing is ever waited for. Deterministic; belongs to one run.
+/// A message takes one link of its route after the other, and holds them by the machine's Switching. Links are allocated in the
+/// order in which messages enter the network. The host is attached to node 0 by its own link in each direction. If the machine
+/// has memory ports, every node except the host, whose only link acts as one, has one in each direction: the first and the last
+/// link of a route. Without contention there are no waits. Deterministic; belongs to one run.
 class Links {
  public:
   /// `node_count` is without the host, at least 1.
   Links(const Machine& machine, std::uint32_t node_count);
 
-  /// Links of the way, without memory ports. The host is node `node_count`.
+  /// The number of links of the route, without memory ports. The host is node `node_count`.
   std::uint32_t hops(NodeId source, NodeId target) const;
-  /// Sends a message of so many bytes into the network at `now_ns`: when it has arrived. From its first byte to its last it takes
-  /// the machine's hop_ns for each hop and its byte_ps for each byte, and what it waits on its way. A message from a node to
-  /// itself passes no link and arrives at once.
+  /// Sends a message of this length into the network at `now_ns`: returns when it has arrived. From its first byte to its last it
+  /// takes the machine's hop_ns for each hop and its byte_ps for each byte, plus its waits. A message from a node to itself
+  /// passes no link and arrives at once.
   std::uint64_t pass(NodeId source, NodeId target, std::uint64_t now_ns, std::uint64_t bytes);
 
   const LinkTraffic& traffic() const { return traffic_; }
-  /// At most `count` of the links that carried anything: those that were held longest, the longest first, equal ones in the order
-  /// of their ends.
+  /// At most `count` of the links that carried anything: those that were held longest, in descending order, equal ones in the
+  /// order of their ends.
   std::vector<LinkUse> busiest(std::size_t count) const;
-  /// How many links and memory ports carried anything.
+  /// The number of links and memory ports that carried anything.
   std::size_t used_count() const;
-  /// Expects that what the links carried adds up to traffic().
+  /// Expects that the links' traffic adds up to traffic().
   void expect_sums() const;
 
  private:
@@ -76,11 +76,11 @@ class Links {
 
   Topology topology_;
   Machine machine_;
-  std::vector<Wire> wires_;               ///< of links that a message has passed, in the order of the first
-  std::vector<std::uint32_t> table_;      ///< of a power of two: by a hash of its ends, where each wire is, or no_wire
-  std::vector<Link> links_;               ///< of the message that is passing, memory ports included
+  std::vector<Wire> wires_;  ///< for links that a message has passed, in the order of the first
+  std::vector<std::uint32_t> table_;  ///< size a power of two: by a hash of its ends, the index of each wire, or no_wire
+  std::vector<Link> links_;  ///< of the current message, memory ports included
   std::vector<std::uint32_t> route_;      ///< the same links' wires
-  std::vector<std::uint64_t> begins_ns_;  ///< from when on it has each of them
+  std::vector<std::uint64_t> begins_ns_;  ///< from when it has each of them
   LinkTraffic traffic_;
 };
 

@@ -1,4 +1,4 @@
-// What the virtual runner keeps of a message and of a node with all that belongs to it.
+// The virtual runner's data of a message and of a node.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,12 @@
 
 namespace dmpc::nodes {
 
-/// A message on its way, or at its target and not received.
+/// A message in flight, or at its target and not received.
 struct Message {
   NodeId target{};
   PacketHeader header;
   std::vector<std::byte> payload;
-  std::span<const std::byte> immutable;  ///< the payload's end, where it is, if the sender has said that it lasts
+  std::span<const std::byte> immutable;  ///< the payload's immutable end, by address, if the sender sent it so
   std::uint32_t next = 0;                ///< in a MessageQueue
   MessageTimes times;                    ///< for an observer
 
@@ -37,7 +37,7 @@ struct Message {
   Packet packet() const { return {NodeId{header.source}, header.kind, payload, immutable}; }
 };
 
-/// Messages by number; a number is used again, and so is its memory.
+/// Messages by number; numbers and their memory are reused.
 class MessageStore {
  public:
   std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
@@ -70,11 +70,11 @@ class MessageStore {
     }
   }
 
-  std::vector<std::unique_ptr<Message[]>> blocks_;  ///< so that addresses of messages stay
+  std::vector<std::unique_ptr<Message[]>> blocks_;  ///< so that addresses of messages are stable
   std::vector<std::uint32_t> free_;
 };
 
-/// Messages of a store, in the order in which they came; each is in one queue at most.
+/// Messages of a store, in the order of arrival; each is in at most one queue.
 class MessageQueue {
  public:
   bool empty() const { return count_ == 0; }
@@ -83,7 +83,7 @@ class MessageQueue {
     last_ = number;
     ++count_;
   }
-  /// The oldest. Requires that there is one.
+  /// Removes the oldest. Requires that there is one.
   std::uint32_t pop(const MessageStore& store) {
     core::expect(!empty(), "a message is taken that has come");
     --count_;
@@ -94,7 +94,7 @@ class MessageQueue {
   std::uint32_t first_ = 0, last_ = 0, count_ = 0;
 };
 
-/// From one node to another: messages keep their order, even a short one behind a long one.
+/// From one node to another: messages keep their order, even a short one after a long one.
 struct Way {
   std::uint64_t last_enters_ns = 0, last_arrives_ns = 0;
 };
@@ -127,7 +127,7 @@ struct alignas(64) VirtualProcessor final : Network {
     deliver_in_place(target, header, payload, {});
   }
 
-  /// The sender's side: the message has its place in the target's mailbox from now on.
+  /// The sender's side: the message has its slot in the target's mailbox from now on.
   bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
                         std::span<const std::byte> immutable) override {
     const std::uint32_t number = computer.messages.put(target, header, front, immutable);
@@ -141,9 +141,9 @@ struct alignas(64) VirtualProcessor final : Network {
     return true;
   }
 
-  ~VirtualProcessor() override { program.reset(); }  // which has what memory holds
+  ~VirtualProcessor() override { program.reset(); }  // its data lies in memory
 
-  /// Another run begins, for a program whose charges so far have this price.
+  /// To be called before another run, for a program whose charges so far have this price.
   void begin_again(std::uint64_t price_ps) {
     sequence = occupied_until_ns = remainder_ps = served_until_ns = idle_since_ns = service_idle_before_ns = calls = 0;
     charged_ps = price_ps;
@@ -164,30 +164,30 @@ struct alignas(64) VirtualProcessor final : Network {
 
   VirtualComputer& computer;
 
-  // What each quantum reads or writes, on few cache lines: with many nodes it is seldom still in the processor's own cache.
+  // Data that each quantum reads or writes, on few cache lines: with many nodes it is seldom still in the real processor's cache.
   std::unique_ptr<Program> program;
   std::uint64_t sequence = 0;
   std::uint64_t occupied_until_ns = 0;
-  std::uint64_t charged_ps = 0;    ///< the price of all that has been charged
-  std::uint64_t remainder_ps = 0;  ///< of that, what is not yet a whole nanosecond
+  std::uint64_t charged_ps = 0;  ///< the price of all charges
+  std::uint64_t remainder_ps = 0;  ///< the part of it that is not yet a whole nanosecond
   NodeId id;
   bool has_more = true;                 ///< work() may have something to do
   bool is_occupied = false;             ///< an is_free event is under way
   MessageQueue inbox;                   ///< arrived and not received
-  std::vector<std::uint32_t> sent;      ///< in the call that is going on, in order
-  std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not done yet
+  std::vector<std::uint32_t> sent;  ///< in the current call, in order
+  std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not finished yet
   VirtualTimes times;
 
-  std::uint64_t served_until_ns = 0;  ///< the last interrupt
+  std::uint64_t served_until_ns = 0;  ///< the end of the last interrupt
   std::uint64_t idle_since_ns = 0;
   std::uint64_t service_idle_before_ns = 0;     ///< times.service_idle_ns when it fell idle
-  std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
+  std::uint32_t small_held = 0, bulk_held = 0;  ///< slots of the mailbox that are taken
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;
   core::ZeroedArray<Way> ways;  ///< by target
-  std::uint64_t calls = 0;      ///< of the program, if somebody looks on
+  std::uint64_t calls = 0;  ///< of the program, if there is an observer
   Charges charged;              ///< likewise
-  Span span, service;           ///< what it is doing and what it interrupted that for, likewise
+  Span span, service;  ///< current activity, and the service that interrupted it, likewise
   LocalMemory memory;
   Node node;
 };

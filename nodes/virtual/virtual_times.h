@@ -1,4 +1,4 @@
-// Where a node's virtual time has gone: the parts add up to the whole.
+// The parts of a node's virtual time, which add up to the whole.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@ namespace dmpc::nodes {
 /// The times of one node in one run, in nanoseconds of virtual time.
 struct VirtualTimes {
   std::uint64_t computing_ns = 0;     ///< the operations that the program charged
-  std::uint64_t sending_ns = 0;       ///< of packets, except for those sent by an interrupt's service
-  std::uint64_t receiving_ns = 0;     ///< of packets, except for those that interrupted
+  std::uint64_t sending_ns = 0;  ///< sending packets, except those sent by an interrupt's service
+  std::uint64_t receiving_ns = 0;  ///< receiving packets, except those that interrupted
   std::uint64_t service_busy_ns = 0;  ///< service of interrupts while the program had something to do
   std::uint64_t service_idle_ns = 0;  ///< the same while it had nothing to do
-  /// Nothing to do, by the kind of the packet that ended it.
+  /// Idle time, by the kind of the packet that ended it.
   std::array<std::uint64_t, packet_kind_count> waiting_ns{};
-  std::uint64_t end_ns = 0;  ///< nothing to do any more
+  std::uint64_t end_ns = 0;  ///< idle time at the end
 
   /// The length of the run: the same for every node.
   std::uint64_t total_ns() const {
@@ -33,23 +33,23 @@ struct VirtualTimes {
   }
 };
 
-/// All links of machines with up to 32 nodes, as a rule.
+/// Enough for all links of machines with up to 32 nodes, usually.
 inline constexpr std::size_t busiest_links_max = 256;
 
-/// What a run came to in virtual time.
+/// The result of a run in virtual time.
 struct VirtualReport {
   std::uint64_t total_ns = 0;  ///< from the start to the last event
   std::uint64_t events = 0;
-  /// Over all events in order: time, source and kind, and of a message its target, kind and bytes.
+  /// Over all events in order: time, source and kind, and for a message its target, kind and bytes.
   std::uint64_t hash = 0;
   std::uint64_t machine_digest = 0;  ///< Machine::digest()
   LinkTraffic links;
-  std::size_t links_used = 0;                      ///< that carried anything, memory ports included
+  std::size_t links_used = 0;  ///< those that carried anything, including memory ports
   std::vector<LinkUse> busiest_links;              ///< as Links::busiest(), at most busiest_links_max
   std::vector<VirtualTimes> nodes;                 ///< in order, the host last
-  std::optional<CriticalPath> critical_path = {};  ///< if somebody followed paths; adds up to total_ns
+  std::optional<CriticalPath> critical_path = {};  ///< if an observer followed paths; adds up to total_ns
 
-  /// A digest of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any
+  /// A digest of a whole run: its events, its machine and its product (a hash of it). Equal runs have equal hashes, on any
   /// computer and in every build type.
   std::uint64_t run_hash(std::uint64_t product_hash) const { return core::mix(core::mix(hash ^ machine_digest) ^ product_hash); }
 };
