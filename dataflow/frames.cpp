@@ -92,7 +92,7 @@ void check_packets(const Report& report) {
   nodes::expect_nothing_lost(report.ranks);
 }
 
-/// Of those owners that have got something since.
+/// The owners that have got something since then.
 std::vector<SentToOwner> since(const std::vector<SentToOwner>& now, const std::vector<SentToOwner>& before) {
   std::vector<SentToOwner> changed;
   auto earlier = before.begin();
@@ -182,7 +182,7 @@ Report Frames::render(std::stop_token stop) {
   return report;
 }
 
-/// Of each node, what it did for this frame and what it was assigned.
+/// Adds, for each node, its work for this frame and its assignment.
 void Frames::add_shares(Report& report) {
   const Distribution& distribution = prepared_.distribution;
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();

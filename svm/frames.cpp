@@ -56,7 +56,7 @@ void check_conservation(const Report& report) {
 /// time. Which pages its cache has changes between quanta alone; serving one marks it as used, like any look-up.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
-/// Those that every node keeps for good.
+/// The pages that every node keeps permanently.
 std::vector<PageId> resident_pages(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                                    nodes::RankLinks* ranks, const std::stop_token& stop) {
   const auto find = [&] { return most_used_pages(database, settings, plan.resident_count, stop); };

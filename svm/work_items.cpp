@@ -9,12 +9,12 @@
 namespace dmpc::svm {
 namespace {
 
-/// What of `length` `part` of `whole` nodes get, rounded to the nearest.
+/// The part of `length` for `part` of `whole` nodes, rounded to nearest.
 std::uint32_t portion(std::uint32_t length, std::uint32_t part, std::uint32_t whole) {
   return static_cast<std::uint32_t>((std::uint64_t{length} * part + whole / 2) / whole);
 }
 
-/// Keeps the first `part` (or, with `second`, all but the first part) of `whole` nodes' rectangle, cut across its longer side.
+/// The first `part` (or, with `second`, the rest) of the rectangle of `whole` nodes, cut across its longer side.
 PixelRectangle half(PixelRectangle rectangle, std::uint32_t part, std::uint32_t whole, bool second) {
   const bool wide = rectangle.width >= rectangle.height;
   std::uint32_t& length = wide ? rectangle.width : rectangle.height;

@@ -215,7 +215,8 @@ void WorkSource::pass_on_kept() {
 /// Along the ring.
 std::uint32_t WorkSource::steps_to(std::uint32_t node) const { return (node + worker_count_ - self_) % worker_count_; }
 
-/// As far as this node knows, to the first that may have an item, be it the requester; once round the ring if none does.
+/// Steps to the first node that may have an item, as far as this node knows, which may be the requester; once round the ring if
+/// none has.
 std::uint32_t WorkSource::steps_for(const WorkRequest& request) const {
   if (!knows_of(request)) {
     return 1;

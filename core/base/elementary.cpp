@@ -89,7 +89,7 @@ Reduced radians_from_degrees(double quarters, double degrees) {
   return renormalized(quarters, product, std::fma(degrees, radian_per_degree_tail, error));
 }
 
-/// Those of 0/8 to 8/8.
+/// The arc tangents of 0/8 to 8/8.
 constexpr std::array<double, 9> arc_tangent_of_eighths = {0x0p+0,
                                                           0x1.fd5ba9aac2f6ep-4,
                                                           0x1.f5b75f92c80ddp-3,
@@ -100,8 +100,8 @@ constexpr std::array<double, 9> arc_tangent_of_eighths = {0x0p+0,
                                                           0x1.700a7c5784634p-1,
                                                           0x1.921fb54442d18p-1};
 
-/// Of y / x, 0 <= y <= x, x > 0: that of the nearest eighth, and Taylor's series for what the angle is more or less, whose
-/// tangent is at most 1/16: the first term left out is below 1e-19.
+/// The angle of y / x, 0 <= y <= x, x > 0: that of the nearest eighth, plus Taylor's series for the difference, whose tangent is
+/// at most 1/16: the first omitted term is below 1e-19.
 double first_octant(double y, double x) {
   static constexpr std::array<double, 7> series = {-1 / 15.0, 1 / 13.0, -1 / 11.0, 1 / 9.0, -1 / 7.0, 1 / 5.0, -1 / 3.0};
   const auto eighth = static_cast<std::size_t>(y / x * 8 + 0.5);

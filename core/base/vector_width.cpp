@@ -5,8 +5,8 @@
 namespace dmpc::core {
 namespace {
 
-/// What of x86-64-v3, and of what Highway compiles its AVX2 for, compilers know no names of: F16C, MOVBE, AES and LZCNT, which
-/// other processors take for BSR, so that they would compute something else.
+/// Tests the parts of x86-64-v3, and of Highway's AVX2 target, for which compilers have no names: F16C, MOVBE, AES and LZCNT,
+/// which other processors execute as BSR, with different results.
 bool has_small_instructions() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   constexpr unsigned basic = bit_F16C | bit_MOVBE | bit_AES | bit_PCLMUL, extended = 0x80000001U;

@@ -45,7 +45,7 @@ void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, dou
   put_values(primitive, first, {on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)});
 }
 
-/// Of a flat cone, in place of its apex: no coordinates, so on no lattice.
+/// Stores a flat cone's axis, in place of its apex: no coordinates, so not on a lattice.
 void put_axis(PrimitiveValues& primitive, const Vec3d& axis, double apex_radius) {
   put_values(primitive, 4, {axis.x, axis.y, axis.z, on_lattice(apex_radius)});
 }
@@ -79,7 +79,7 @@ double gap_at_zero(const Vec3d& base, const Vec3d& axis, double base_radius, dou
   return length(base + axis * height) - (base_radius + (apex_radius - base_radius) * height);
 }
 
-/// The same of a cone or cylinder.
+/// The same for a cone or cylinder.
 void settle_passing_cone(PrimitiveValues& values, const Vec3d& base, const Vec3d& apex, double base_radius, double apex_radius) {
   const double low = std::fabs(base_radius), high = std::fabs(apex_radius);
   const auto put = [&](double by) {
@@ -352,7 +352,7 @@ class Steps {
     std::vector<std::uint32_t> planes;  ///< by the mesh's: PrimitiveValues::plane()
   };
 
-  /// Those before `end`.
+  /// Adds the objects before `end`.
   void add_objects(std::uint32_t end) {
     if (next_ < end) {
       runs_.push_back({count_, next_, nullptr, {}});
@@ -405,7 +405,7 @@ class Steps {
   std::span<const MeshFaces> meshes_;
   std::vector<Run> runs_;
   std::size_t count_ = 0;
-  std::uint32_t next_ = 0;  ///< of Scene::objects
+  std::uint32_t next_ = 0;  ///< index into Scene::objects
 };
 
 Box bounds_of_points(std::span<const Vec3d> points) {

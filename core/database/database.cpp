@@ -61,7 +61,7 @@ void find_places_in(const LocalRecords& records, Address address, std::vector<Da
       address, leaf, 0, [](std::uint32_t lane) { return lane; }, places);
 }
 
-/// Of the copies that a scene leaves out.
+/// The corners of the copies that a scene leaves out.
 std::uint64_t copied_corners(const Scene& scene) { return size_with_copies(scene).vertices - scene.vertices.size(); }
 
 /// What is there while a scene with copies in these places becomes primitives. Their records take its objects' place.

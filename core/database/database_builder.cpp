@@ -122,8 +122,8 @@ std::int32_t DatabaseBuilder::layers_above() const {
   return layers;
 }
 
-/// Where primitives are so large, so long, so far from the view or so much in one place that the lists would be long, those go
-/// that are there many times over; then cells of twice the size are tried, at last a single one.
+/// If primitives are so large, so long, so far from the view or so concentrated that the lists would be long, duplicates are
+/// removed; then cells of twice the size are tried, at last a single one.
 MacroCells DatabaseBuilder::sort_into_macro_cells() {
   for (;;) {
     if (auto cells = list_macro_cells()) {
@@ -191,7 +191,7 @@ void DatabaseBuilder::write_lights() {
   }
 }
 
-/// Those of emitters behind the scene's, finishes behind all, in their order.
+/// Emitters' materials follow the scene's, extensions follow all, in their order.
 void DatabaseBuilder::write_materials() {
   std::vector<Material> materials = scene_.materials;
   materials.insert(materials.end(), emitters_.materials.begin(), emitters_.materials.end());

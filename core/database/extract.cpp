@@ -85,7 +85,7 @@ class Extractor {
   }
 
  private:
-  /// Those of the regions, by number, that are still in question: a part of among_, which grows and shrinks like a stack.
+  /// The remaining regions, by number: a part of among_, which grows and shrinks like a stack.
   struct Those {
     std::size_t first, count;
   };
@@ -201,7 +201,7 @@ class Extractor {
     return {0, among_.size()};
   }
 
-  /// Those that a child's box touches; let_go() of them before those from which they were chosen.
+  /// The remaining regions that a child's box touches; call let_go() for them before those from which they were chosen.
   Those touched(const BvhNode& bvh_node, std::size_t child, const Those& those) {
     const std::size_t first = among_.size();
     const Box box = box_of(bvh_node, child);
@@ -224,7 +224,7 @@ class Extractor {
     let_go(left);
     return is_needed;
   }
-  /// Of boxes of places, whether one of them brings something; any other leaf whose box touches a region is needed.
+  /// For boxes of instances, whether one of them has something here; any other leaf whose box touches a region is needed.
   bool needs_leaf(Address leaf) const { return !needs_ || !has_places(leaf) || needed_slots(leaf) != 0; }
   bool has_places(Address leaf) const { return read<LeafHeader>(at(leaf)).kind == PrimitiveKind::instance; }
   /// A bit for each lane.
@@ -447,10 +447,10 @@ class Extractor {
   std::vector<std::uint32_t> among_;
   RecordWriter writer_;
   DatabasePart part_;
-  std::vector<DirectoryEntry> entries_;  ///< of voxels
+  std::vector<DirectoryEntry> entries_;  ///< the voxels'
   std::vector<VoxelReference> listed_;   ///< by them
   std::optional<MeshNeeds> needs_;       ///< where meshes are kept once
-  Address next_instance_ = no_address;   ///< of the copies
+  Address next_instance_ = no_address;  ///< for the next copied instance
   AddressMap meshes_;                    ///< by their first BVH nodes
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables

@@ -105,7 +105,7 @@ class Outliner {
     return bvh_node;
   }
 
-  /// Of places, or of a mesh's BVH node in one.
+  /// For instances, or a mesh's BVH node in one.
   BvhNode bvh_node_in_place(const Waiting& next) {
     const std::byte* const record = at(next.from.address());
     std::array<Bounds, bvh_children_max> boxes;

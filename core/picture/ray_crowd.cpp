@@ -13,7 +13,7 @@ constexpr std::uint64_t looked_at = 64;
 /// Odd and near to what is left of the golden ratio: its multiples go all over the picture.
 constexpr std::uint64_t stride = 2'654'435'761;
 
-/// Of one with a finish the record does not say whether it has alpha, so that light may come through it.
+/// For a material with an extension the record does not say whether it has alpha, so it may transmit light.
 bool can_send_two(const MaterialRecord& material) {
   return material.has_extension() || (material.specular > 0.0F && material.transmittance > 0.0F);
 }

@@ -52,8 +52,8 @@ double chance_of(const Ray& ray) {
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
-/// Of a surface of microfacets their light, else diffuse plus Phong's highlight (NFF) for light that falls at this cosine, of
-/// which a mirror would send so much to the eye.
+/// Light of a microfacet surface, otherwise diffuse plus Phong's highlight (NFF), for light at this cosine; `highlight`:
+/// lobe_cosine() to the power of the shine.
 Color reflected_light(const HitState& state, const LightRecord& light, const LightFall& fall, double highlight) {
   const MaterialRecord& material = state.surface.material;
   if (material.has_microfacets()) {
@@ -84,7 +84,7 @@ float share_left(std::uint16_t cutoff, float alpha) {
   return share * float{MaterialExtensionRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
 }
 
-/// The same of a hit. Returns it.
+/// The same for a hit. Returns it.
 float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_index) {
   MaterialRecord& material = state.surface.material;
   const float share = share_left(cutoff, state.coverage());
@@ -158,7 +158,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
     const double texture = texture_max(scene, material);
     const double diffuse = material.diffuse * brightest(material.color) * texture, specular = material.specular_max(texture);
     const double scattered = transport.is_by_paths() ? diffuse : 0, share = specular * material.mirror + material.transmittance;
-    // Of an emitter at which it aims no more comes than of one that its path meets, as densities are rounded.
+    // Light sampling of an emitter brings no more than a path that hits it, up to the rounding of densities.
     const double aimed = emitter * (scattered + share) * (1 + 0x1p-6);
     direct = std::max(direct, light * (diffuse + specular) + ambient * diffuse + brightest(material.emission) + aimed);
     passed_on = std::max(passed_on, scattered + (material.alpha == AlphaUse::none ? share : std::max(share, 1.0)));
@@ -168,7 +168,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   }
   const double background = std::max({brightest(scene.background), double{brightest(transport.zenith)}, sky});
   double bound = std::max(background, direct);
-  const int looks = transport.is_by_paths() ? 1 : 0;  // of the last hit, at the sky or what shines
+  const int looks = transport.is_by_paths() ? 1 : 0;  // for the last hit, by light sampling of the sky or of emitters
   for (int depth = depth_max + looks; depth > 2; --depth) {
     bound = std::max(background, direct + passed_on * bound);
   }
@@ -257,7 +257,7 @@ void Shader::turn_to_color(HitState& state, const std::byte* record) const {
   state.stage = Stage::texture;
 }
 
-/// Of a format with alpha the look-up adds up what is there of the light, and of alpha.
+/// For a format with alpha the look-up sums premultiplied colours, and alpha.
 void Shader::step_texture(HitState& state, const std::byte* record) const {
   float alpha = state.coverage();
   core::step(state.lookup, texture_place(state), record, operations_, alpha);
@@ -298,7 +298,7 @@ void Shader::blend_normals(HitState& state, const std::array<Vec3f, 3>& normals)
   }
 }
 
-/// Those of a base mesh, until its place is read once more.
+/// Keeps the normals of a base mesh, until its instance is read once more.
 void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
   if (!normals.is_textured()) {
     state.shading = ShadingReference::flat(normals.material());
@@ -377,7 +377,7 @@ Stage Shader::after_lights_of_path(const HitState& state) const {
   return finds_light ? Stage::continued : Stage::finished;
 }
 
-/// Of lights that are asked. A path beyond its last bounce looks for emitters alone.
+/// The number of lights that are sampled. A path beyond its last bounce only looks for emitters.
 std::uint32_t Shader::light_count(const HitState& state) const {
   const bool asks = !options_.transport.is_by_paths() || state.ray.depth <= options_.depth_max;
   return asks ? header_.light_count : 0;

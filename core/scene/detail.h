@@ -1,4 +1,4 @@
-// Where a scene's detail is, if it is in one place that is small beside the whole.
+// The place of a scene's detail, if it is concentrated in one that is small beside the whole.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@
 
 namespace dmpc::core {
 
-/// Detail lies close together if three quarters of it lie within this share of the scene's extent.
+/// Detail is concentrated if three quarters of it lie within this share of the scene's extent.
 inline constexpr double close_share = 0x1p-8;
 
-/// The place about which a scene's small objects lie close together; nothing if they are spread
-/// over it. An object of size s counts 1/s^2 times, so that one large beside many small ones does not matter, and not at all if
-/// it has no size. `bounds` are the scene's. Follows from the objects alone, and scales with them to the last bit by powers of
-/// two.
+/// The place around which a scene's small objects are concentrated; nothing if they are spread over it. An object of size s has
+/// weight 1/s^2, so that a large one beside many small ones does not matter, and weight 0 if it has no size. `bounds` are the
+/// scene's. Depends only on the objects, and scales with them to the last bit by powers of two.
 std::optional<Vec3d> place_of_detail(const Scene& scene, const Box& bounds);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// A polygon that loses one ear after the other.
+// Triangulation of a polygon by ear clipping.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace dmpc::core {
 
-/// The corners of a polygon that are left, as a k-d tree (J. L. Bentley, "Multidimensional Binary Search Trees Used for
-/// Associative Searching", 1975); of few corners a list.
+/// The remaining corners of a polygon, as a k-d tree (J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative
+/// Searching", 1975); a list for few corners.
 class CornerTree {
  public:
   /// `polygon` outlives the tree.
   explicit CornerTree(const FlatPolygon& polygon);
 
   void remove(std::uint32_t corner);
-  /// A corner that hinders the triangle from being cut off, if there is one.
+  /// A corner that prevents the triangle from being cut off, if there is one.
   std::optional<std::uint32_t> hindrance(const CornerTriangle& triangle);
-  /// Nodes of the tree that all questions so far have visited.
+  /// Nodes of the tree that all queries so far have visited.
   std::uint64_t nodes_visited() const { return nodes_visited_; }
 
  private:
@@ -38,10 +38,10 @@ class CornerTree {
     std::uint32_t children = none;  ///< the first of two
     std::uint32_t first = 0, end = 0;
     std::uint32_t left = 0;     ///< corners in it that have not been removed
-    bool is_one_place = false;  ///< where they all lie: one speaks for all
+    bool is_one_place = false;  ///< all corners coincide: one represents all
   };
 
-  /// What a node may hold of a triangle, except for rounding: where none of three straight lines has it on its right.
+  /// Whether a node may hold a point of a triangle, up to rounding: where none of three straight lines has it on its right.
   struct Query {
     /// The turn at (u, v) is at most offset + slope[0] u + slope[1] v.
     struct Edge {
@@ -63,21 +63,21 @@ class CornerTree {
   const FlatPolygon& polygon_;
   std::vector<std::uint32_t> order_;  ///< corners, each node's next to each other
   std::vector<std::uint8_t> is_left_;
-  std::vector<std::uint32_t> leaf_;  ///< of each corner
+  std::vector<std::uint32_t> leaf_;  ///< by corner
   std::vector<Node> nodes_;
   std::uint64_t nodes_visited_ = 0;
 };
 
-/// Cuts off the first ear in the order of the corners, again and again (G. Meisters, "Polygons Have Ears", 1975), or, where
-/// rounding or self-intersection leaves none, the corner that turns left most. A corner that is no ear remembers one that hinders
-/// it, and is looked at again when that one is gone or a neighbour is: so a polygon takes about n log n steps.
+/// Repeatedly cuts off the first ear in the order of the corners (G. Meisters, "Polygons Have Ears", 1975), or, if rounding or
+/// self-intersection leaves none, the corner that turns left most. A corner that is no ear remembers one that prevents it, and is
+/// tested again when that one or a neighbour is removed: so a polygon takes about n log n steps.
 class EarClipper {
  public:
   /// `polygon` has at least 3 corners and outlives the clipper.
   explicit EarClipper(const FlatPolygon& polygon);
 
   std::vector<CornerTriangle> triangles();
-  /// What it took: nodes of a tree of the corners, n log n or so.
+  /// The cost: nodes of a tree of the corners, about n log n.
   std::uint64_t nodes_visited() const { return tree_.nodes_visited(); }
 
  private:
@@ -85,10 +85,10 @@ class EarClipper {
     std::uint32_t before = 0, after = 0;
     bool is_left = true;
     double turn = 0;                         ///< with its neighbours
-    std::optional<std::uint32_t> hindrance;  ///< found when it was looked at last
+    std::optional<std::uint32_t> hindrance;  ///< found by the last test
     std::vector<std::uint32_t> hindered;     ///< every corner whose hindrance this is, and some whose hindrance this was
   };
-  /// The corner that turns left most comes last, of several the first one.
+  /// The corner that turns left most comes last; of several the first one.
   struct TurnsLess {
     bool operator()(const std::pair<double, std::uint32_t>& a, const std::pair<double, std::uint32_t>& b) const {
       return a.first < b.first || (a.first == b.first && a.second > b.second);

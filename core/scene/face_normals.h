@@ -1,4 +1,4 @@
-// What the normals at a face's corners say.
+// Whether the normals at a face's corners add anything.
 #pragma once
 
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace dmpc::core {
 
-/// Whether a face looks as it would without them: all are alike and stand on its plane except for what writing them in a few digits
-/// has done to them, or are 0. Cards of leaves have normals that are alike, and point elsewhere. A normal for each corner, of any
-/// length; at least one.
+/// Whether a face looks the same without them: all are equal and perpendicular to its plane up to rounding to a few digits, or
+/// are 0. Cards of leaves have equal normals that point elsewhere. There is one normal of any length for each corner, and at
+/// least one.
 bool are_the_faces_own(std::span<const Vec3d> normals, std::span<const Vec3d> corners);
 
 }  // namespace dmpc::core

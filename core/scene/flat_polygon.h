@@ -1,4 +1,4 @@
-// A planar polygon seen along its normal: two coordinates a corner, and how three corners turn.
+// A planar polygon projected along its normal: two coordinates per corner, and the turns of three corners.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace dmpc::core {
 /// Corner indices.
 using CornerTriangle = std::array<std::uint32_t, 3>;
 
-/// Seen along the largest axis of its normal, counter-clockwise. `vertices` outlive it.
+/// Projected along the largest axis of its normal, counter-clockwise. `vertices` outlive it.
 class FlatPolygon {
  public:
   FlatPolygon(std::span<const Vec3d> vertices, const Vec3d& normal) : vertices_(vertices) {
@@ -26,9 +26,9 @@ class FlatPolygon {
   }
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
-  /// -1 where it is seen from below: then what turns right by its coordinates turns left.
+  /// -1 if it is projected from below: then a right turn of the coordinates is a left turn.
   double sign() const { return sign_; }
-  /// A corner's place along side 0 or 1.
+  /// A corner's coordinate 0 or 1.
   double coordinate(std::uint32_t corner, std::size_t side) const { return vertices_[corner][side == 0 ? u_ : v_]; }
   bool same_place(std::uint32_t a, std::uint32_t b) const { return vertices_[a] == vertices_[b]; }
   /// Above 0 if a, b, c turn left.
@@ -36,7 +36,7 @@ class FlatPolygon {
     const Vec3d ab = vertices_[b] - vertices_[a], ac = vertices_[c] - vertices_[a];
     return sign_ * (ab[u_] * ac[v_] - ab[v_] * ac[u_]);
   }
-  /// Whether a corner lies in the triangle, its edges included, but not where one of its corners lies.
+  /// Whether a corner lies in the triangle, including its edges, but not at one of its corners.
   bool hinders(std::uint32_t p, const CornerTriangle& t) const {
     return turn(t[0], t[1], p) >= 0 && turn(t[1], t[2], p) >= 0 && turn(t[2], t[0], p) >= 0 && !same_place(p, t[0]) &&
            !same_place(p, t[1]) && !same_place(p, t[2]);

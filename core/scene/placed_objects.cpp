@@ -63,7 +63,7 @@ void for_each_left_out(const Scene& scene, const std::vector<bool>& places, cons
   }
 }
 
-/// Those in `places` have been put.
+/// Marks the copies of `places` as put.
 void mark_copies(BaseMeshes& kept, const std::vector<bool>& places) {
   std::uint32_t left_out = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

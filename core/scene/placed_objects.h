@@ -1,4 +1,4 @@
-// All objects of a scene with each copy of its base meshes, whether it has these copies or leaves some or all of them out.
+// All objects of a scene with each copy of its base meshes, which the scene may have or leave out.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace dmpc::core {
 
-/// What a place does to all objects of its mesh, world to world: the one code that makes copies.
+/// Places all objects of a mesh by an instance, world to world: the only code that makes copies.
 class CopyPlacing {
  public:
   explicit CopyPlacing(const Transform& world)
       : world_(&world), normals_(world.of_normals()), is_mirrored_(world.determinant() < 0) {}
 
-  /// Which corner of the mesh's object becomes the i-th.
+  /// The corner of the mesh's object that becomes the i-th.
   std::uint32_t corner(const Object& object, std::uint32_t i) const {
     return placed_corner(is_mirrored_, object.vertex_count, i);
   }
-  /// To nothing, or to a plane or line: then there are no normals.
+  /// To a point, line or plane: then there are no normals.
   bool presses_flat() const { return world_->determinant() == 0; }
   Vec3d point(const Vec3d& of_mesh) const { return world_->point(of_mesh); }
   Vec3d normal(const Vec3d& of_mesh) const { return normals_.direction(of_mesh); }
@@ -32,27 +32,27 @@ class CopyPlacing {
   bool is_mirrored_;
 };
 
-/// An object where it stands. Refers to the scene, and to the placing if it is a copy.
+/// An object in the scene. Refers to the scene, and to the placing if it is a copy.
 class PlacedObject {
  public:
   PlacedObject(const Scene& pools, const Object& object, const CopyPlacing* placing)
       : pools_(&pools), object_(&object), placing_(placing) {}
 
-  /// Its `first` and `first_normal` are of pools().
+  /// Its `first` and `first_normal` refer to pools().
   const Object& object() const { return *object_; }
-  /// The scene's own or, of a copy that is left out, the mesh's.
+  /// The scene's own or, for a copy that is left out, the mesh's.
   const Scene& pools() const { return *pools_; }
 
   Vec3d vertex(std::uint32_t i) const {
     const Vec3d& own = pools_->vertices[object_->first + of_mesh(i)];
     return placing_ == nullptr ? own : placing_->point(own);
   }
-  /// Of a patch.
+  /// For a patch.
   Vec3d normal(std::uint32_t i) const {
     const Vec3d& own = pools_->normals[object_->first_normal + of_mesh(i)];
     return placing_ == nullptr ? own : placing_->normal(own);
   }
-  /// Of a textured one.
+  /// For a textured patch.
   TexturedCorner corner(std::uint32_t i) const {
     TexturedCorner own = pools_->corners[object_->first_normal + of_mesh(i)];
     if (placing_ != nullptr && !(own.normal == Vec3d{} && is_flat())) {
@@ -76,15 +76,15 @@ class PlacedObject {
   const CopyPlacing* placing_;
 };
 
-/// Whether there are copies of base meshes that the scene's objects are without.
+/// Whether some copies of base meshes are left out of the scene's objects.
 bool leaves_copies_out(const Scene& scene);
 
-/// All of a scene's objects by the indices that they have with all copies. Whatever asks for them gets the same bits of one that
-/// leaves copies out. The scene must outlive it.
+/// All of a scene's objects by the indices that they have with all copies. They have the same bits if the scene leaves copies
+/// out. The scene must outlive it.
 class PlacedObjects {
  public:
   explicit PlacedObjects(const Scene& scene);
-  /// Of copies that are left out only those of these places are among them, one entry for each of Scene::kept.
+  /// Of copies that are left out it includes only those of these instances, one entry for each of Scene::kept.
   PlacedObjects(const Scene& scene, const std::vector<bool>& places);
 
   std::uint64_t size() const { return count_; }
@@ -113,7 +113,7 @@ class PlacedObjects {
   }
 
  private:
-  /// Objects from `first` to before `end`: of a place or, where that is null, the scene's own from `own` on.
+  /// Objects from `first` to before `end`: of an instance or, if that is null, the scene's own from `own` on.
   struct Run {
     std::uint64_t first, end;
     std::size_t own;
@@ -125,24 +125,24 @@ class PlacedObjects {
   const Scene& scene_;
   std::vector<Run> runs_;
   std::uint64_t count_ = 0;
-  std::size_t own_ = 0;  ///< of the scene's objects, those that are in runs
+  std::size_t own_ = 0;  ///< number of the scene's objects in runs
 };
 
-/// How many objects a scene has with all copies.
+/// The number of a scene's objects with all copies.
 std::uint64_t object_count(const Scene& scene);
 
-/// What the pools of a scene hold with all copies.
+/// The size of a scene's pools with all copies.
 ExpandedSize size_with_copies(const Scene& scene);
-/// With those in these places, one entry for each of Scene::kept, beside those that it has.
+/// With copies for these instances, one entry for each of Scene::kept, in addition to those that it has.
 ExpandedSize size_with_copies(const Scene& scene, const std::vector<bool>& places);
 
-/// Puts copies of base meshes where they are left out: then the scene is what expand() makes of it. Others stay as they are.
-/// Throws CapacityError if pools outgrow 32 bits.
+/// Adds the copies of base meshes that are left out: then the scene is the result of expand(). Others stay as they are. Throws
+/// CapacityError if pools outgrow 32 bits.
 void put_copies(Scene& scene);
-/// In these places alone, one entry for each of Scene::kept.
+/// For these instances only, one entry for each of Scene::kept.
 void put_copies(Scene& scene, const std::vector<bool>& places);
 
-/// The objects, and their pools alone, that are no copies of base meshes, as a scene that leaves copies out has them.
+/// Only the objects, and their pools, that are no copies of base meshes, as in a scene that leaves copies out.
 Scene without_copies(const Scene& scene);
 
 }  // namespace dmpc::core

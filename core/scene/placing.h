@@ -1,4 +1,4 @@
-// What a place does to a mesh: how far it reaches, and the way of its corners, planes and records into the grid.
+// The transform of a mesh by an instance: its extent, and the transforms of its corners, planes and records into the grid.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ namespace dmpc::core {
 
 inline Vec3d magnitudes(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
-/// A box that holds all corners of a mesh with the box `own`, as doubles have them in their place.
-/// Numbers that are none where doubles end, which no other box holds.
+/// A box that holds all transformed corners, in doubles, of a mesh with the box `own`. Not finite at the limits of doubles; no
+/// other box holds it then.
 inline Box reach_of(const Box& own, const Transform& world) {
-  constexpr double rounding = 0x1p-40;  // of what is added up: far more than doubles lose
+  constexpr double rounding = 0x1p-40;  // relative to the summands: far more than the error of doubles
   const Vec3d middle = world.point(own.center()), half = own.half(), largest = magnitudes(own.center()) + half;
   Box reach;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -39,13 +39,13 @@ inline Transform transform_of(const InstanceRecord& instance) {
           .shift = {world[9], world[10], world[11]}};
 }
 
-/// By columns, of a linear part that can_be_instanced().
+/// By columns, for a linear part that can_be_instanced().
 inline std::array<Vec3d, 3> inverse_of(const std::array<Vec3d, 3>& rows) {
   const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
   return {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
 }
 
-/// The linear part of the way into the grid from a mesh's records, which have this unit.
+/// The linear part of the transform into the grid from a mesh's records, which have this unit.
 inline std::array<Vec3d, 3> rows_in_grid(const Transform& world, double unit, const GridFrame& frame) {
   std::array<Vec3d, 3> rows;
   for (std::size_t row = 0; row < 3; ++row) {
@@ -54,8 +54,8 @@ inline std::array<Vec3d, 3> rows_in_grid(const Transform& world, double unit, co
   return rows;
 }
 
-/// For boxes, in double: rows m + shift of a point m in units of the mesh's records. Corners of triangles are placed by Placing
-/// (core/scene/placing.h), in another order of operations.
+/// For boxes, in double: rows m + shift of a point m in units of the mesh's records. Corners of triangles are transformed by
+/// Placing (below), in another order of operations.
 struct MeshToGrid {
   MeshToGrid(const InstanceRecord& instance, const GridFrame& frame)
       : rows(rows_in_grid(transform_of(instance), double{instance.unit}, frame)),
@@ -65,7 +65,7 @@ struct MeshToGrid {
   Vec3d shift;
 };
 
-/// As records have it: of unit length to rounding, or 0 if it has no direction.
+/// As in records: of unit length up to rounding, or 0 if it has no direction.
 inline Vec3f unit_normal(const Vec3d& normal) {
   const double size = length(normal);
   return size > 0 && std::isfinite(size) ? Vec3f(normal * (1.0 / size)) : Vec3f{};
@@ -74,19 +74,18 @@ inline Vec3f unit_normal(const Vec3d& normal) {
 /// A plane of a mesh, in the mesh's coordinates.
 struct MeshPlane : FacePlane {
   std::uint8_t stored_as = LeafHeader::shared_plane;  ///< LeafHeader::plane
-  bool is_level = false;  ///< `normal` is an axis, and all corners of its faces have `offset` there, to the bit
+  bool is_level = false;  ///< `normal` is an axis, and all corners of its faces have exactly `offset` there
 };
 
-/// A mesh's corners and planes where an instance has them, in double, in one order of operations: whoever places a thing gets
-/// these bits.
+/// Transforms a mesh's corners and planes by an instance, in double, in one order of operations: the only source of these bits.
 class Placing {
  public:
   Placing(const Transform& world, const GridFrame& frame) : world_(world), frame_(frame), normals_(world.of_normals()) {}
 
   bool is_mirrored() const { return world_.determinant() < 0; }
-  /// A corner, which coordinate_of() has yet to round.
+  /// A corner, before it is rounded by coordinate_of().
   Vec3d corner(const Vec3d& at) const { return to_local(frame_, world_.point(at)); }
-  /// Nothing if doubles cannot tell. It faces the side that the mesh's does, in a mirror, too.
+  /// Nothing if doubles cannot tell. It faces the same side as the mesh's, even if mirrored.
   std::optional<FacePlane> plane(const MeshPlane& plane) const {
     const Vec3d way = normals_.direction(plane.normal);
     const double size = length(way);
@@ -96,7 +95,7 @@ class Placing {
     const Vec3d normal = way * (1.0 / size);
     return FacePlane{normal, dot(normal, corner(plane.normal * plane.offset))};
   }
-  /// Whether faces of a level plane have a coordinate in common here, too, to the bit.
+  /// Whether faces of a level plane have a coordinate exactly in common here, too.
   bool stays_level(const MeshPlane& plane) const {
     if (!plane.is_level) {
       return false;
@@ -112,7 +111,7 @@ class Placing {
     }
     return false;
   }
-  /// How long the longest way of a mesh's unit is here, or longer by no more than the square root of 3.
+  /// The length of the longest image of a mesh's unit here, or at most the square root of 3 times as much.
   double size_of_unit() const {
     double square = 0;
     for (const Vec3d& row : world_.rows) {

@@ -1,5 +1,5 @@
-// A scene as a file says it: objects in file order, materials, lights and a view, in double precision and world
-// coordinates. It lives on the host only; core/database/database.h turns it into flat records for the nodes.
+// A scene as described by a file: objects in file order, materials, lights and a view, in double precision and world coordinates.
+// It lives on the host only; core/database/database.h turns it into flat records for the nodes.
 #pragma once
 
 #include <algorithm>
@@ -19,23 +19,23 @@
 
 namespace dmpc::core {
 
-/// What alpha, of a texture's texels or of corners' colours, does to a surface: nothing; what is there shows what is behind by
-/// the share that is not; or it is there altogether from a cutoff on, and below that not at all.
+/// The effect of alpha, of a texture's texels or of corners' colours, on a surface: none; blending with what is behind; or a
+/// cutoff, from which on the surface is opaque, and below which it is absent.
 enum class AlphaUse : std::uint8_t { none, blend, cut };
 
-/// What a texture of metal and roughness does: it lies where that of the colour does, or its mean is meant.
+/// The use of a texture of metal and roughness: in the same place as that of the colour, or as its mean.
 enum class FacetTexture : std::uint8_t { placed, mean };
 
-/// A surface of tiny mirrors, as glTF's metallic-roughness has it (core/picture/surfaces/microfacet_lobes.h). What it scatters or
-/// reflects as a metal has the material's colour; light, index and alpha are the material's, too.
+/// A microfacet surface as in glTF's metallic-roughness (core/picture/surfaces/microfacet_lobes.h). What it scatters or reflects
+/// as a metal has the material's colour; emission, index and alpha are the material's, too.
 struct Microfacets {
-  double roughness = -1;      ///< 0 to 1; below 0 there are none
+  double roughness = -1;  ///< 0 to 1; below 0: no microfacet surface
   double metallic = 0;        ///< 0 to 1
-  double reflectance = 0.04;  ///< 0 to 1: what is no metal reflects so much straight ahead
-  double transmission = 0;    ///< 0 to 1: of what is no metal, the share that lets light through in place of scattering it
-  double opacity = 1;         ///< 0 to 1: the share of the surface that is there
-  /// The texture by whose blue `metallic` is multiplied, and by whose green `roughness` is: index into Scene::textures, of
-  /// TexelFormat::linear. Such a material has a texture of its colour, too, and is one of textured patches alone.
+  double reflectance = 0.04;  ///< 0 to 1: the dielectric's at normal incidence
+  double transmission = 0;  ///< 0 to 1: the dielectric's share that transmits light instead of scattering it
+  double opacity = 1;  ///< 0 to 1: coverage of the surface
+  /// The texture whose blue is a factor of `metallic`, and whose green of `roughness`: index into Scene::textures, of
+  /// TexelFormat::linear. Such a material has a texture of its colour, too, and is used by textured patches only.
   std::uint32_t texture = no_texture;
   FacetTexture use = FacetTexture::placed;
 
@@ -45,53 +45,52 @@ struct Microfacets {
   constexpr bool operator==(const Microfacets&) const = default;
 };
 
-/// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT), and behind it what only other formats know.
+/// NFF's `f`: an object's surface (E. Haines, SPD, NFF.TXT), followed by extensions for other formats.
 struct Material {
-  Vec3d color{0.5, 0.5, 0.5};   ///< of the diffuse part, 0..1
+  Vec3d color{0.5, 0.5, 0.5};  ///< the diffuse part's, 0..1
   double diffuse = 1;           ///< Kd
   double specular = 0;          ///< Ks: weight of the highlight and of the mirror
   double shine = 0;             ///< Phong's cosine power
   double transmittance = 0;     ///< T; above 0 the surface transmits
-  double refraction_index = 1;  ///< of the inside; meaningful when transmittance > 0 only
-  /// What `color` is multiplied by on textured patches: index into Scene::textures.
+  double refraction_index = 1;  ///< of the inside; used only if transmittance > 0
+  /// Multiplies `color` on textured patches: index into Scene::textures.
   std::uint32_t texture = no_texture;
   AlphaUse alpha = AlphaUse::none;
-  double alpha_cutoff = 0;        ///< of AlphaUse::cut: above 0, at most 1
-  Vec3d specular_color{1, 1, 1};  ///< of highlight and mirror: what `specular` is multiplied by
-  double tinted_specular = 0;     ///< weight of more highlight and mirror in the surface's own colour, as metals have
-  double mirror = 1;              ///< the share of both that mirrors; 0 where there is a highlight alone
-  Vec3d emission;                 ///< radiance of its own, which lights nothing else
-  /// What pictures by paths show of the surface in place of `diffuse`, what is specular and `transmittance`, which approximate
-  /// it.
+  double alpha_cutoff = 0;  ///< for AlphaUse::cut: above 0, at most 1
+  Vec3d specular_color{1, 1, 1};  ///< of highlight and mirror: a factor of `specular`
+  double tinted_specular = 0;  ///< weight of further highlight and mirror in the surface's own colour, as for metals
+  double mirror = 1;  ///< the share of both that mirrors; 0 for highlights only
+  Vec3d emission;  ///< its own radiance
+  /// Used by pictures by paths in place of `diffuse`, the specular part and `transmittance`, which approximate it.
   Microfacets microfacets;
 
   static constexpr std::uint32_t no_texture = Microfacets::no_texture;
   bool operator==(const Material&) const = default;
 
-  /// Whether NFF cannot say all of it: then the database has a MaterialExtensionRecord for it.
+  /// Whether it exceeds NFF: then the database has a MaterialExtensionRecord for it.
   bool has_extension() const;
-  /// Whether it has light of its own.
+  /// Whether it is an emitter.
   bool shines() const { return emission != Vec3d{}; }
-  /// Whether light may come through it somewhere.
+  /// Whether it may transmit light somewhere.
   bool lets_through() const { return transmittance > 0 || alpha != AlphaUse::none; }
-  /// Of faces that cover each other in one plane the least shows: what shines before what does not, and before both what lets no
-  /// light through, so that a lamp lights in its ceiling's plane, and a glass box shows the floor that it stands on.
+  /// Of faces that cover each other in one plane the least is visible: emitters before others, and before both opaque ones, so
+  /// that a lamp is visible in its ceiling's plane, and a glass box shows the floor that it stands on.
   int rank_in_plane() const { return (lets_through() ? 2 : 0) + (shines() ? 0 : 1); }
-  /// The most of highlight and mirror in any channel, if `color` is multiplied by no more than `texture_max`.
+  /// The maximum of highlight and mirror in any channel, if `color` is multiplied by at most `texture_max`.
   double specular_max(double texture_max = 1) const;
 };
 
-/// NFF's `l`: a point light, without fall-off unless that is said. Nothing is to be seen of it.
+/// NFF's `l`: a point light, without fall-off by default, and invisible.
 struct PointLight {
   Vec3d position;
   Vec3d color{1, 1, 1};
   bool has_color = false;  ///< false: the file gave no colour, and every such light gets 1/sqrt(number of lights)
-  /// Above 0 it falls off with the square of the distance, and `color` is what it is 1 away, in the scene's units. What is nearer
-  /// than this may be brighter than a film is made for.
+  /// Above 0 it falls off with the square of the distance, and `color` is its intensity at distance 1, in the scene's units. What
+  /// is nearer than this may be brighter than the film's range.
   double falls_off_from = 0;
   LightCone cone = {};
 
-  /// Whether NFF can say it.
+  /// Whether NFF can express it.
   bool is_plain() const { return falls_off_from == 0 && cone.none_degrees == 0; }
 };
 
@@ -117,15 +116,15 @@ struct Cone {
   double apex_radius = 1;
 };
 
-/// A vertex of a textured or coloured patch beside its position.
+/// A vertex of a textured or coloured patch in addition to its position.
 struct TexturedCorner {
   Vec3d normal;  ///< need not be of unit length; 0 at all corners of a flat patch
-  /// On the texture: s to the right, t downwards, 0 to 1 over the whole. Where the material has no texture: the bits of a
-  /// CornerColor, by which the material's colour is multiplied.
+  /// Position on the texture: s to the right, t downwards, 0 to 1 over the whole. If the material has no texture: the bits of a
+  /// CornerColor, a factor of the material's colour.
   std::array<float, 2> place{};
 };
 
-/// One with a linear colour; it and alpha are brought to 0 to 1, in steps of 1 in 65535.
+/// A corner with a linear colour, which is clamped with alpha to 0 to 1, in steps of 1 in 65535.
 TexturedCorner colored_corner(const Vec3d& normal, const Vec3d& color, double alpha = 1);
 
 enum class ObjectKind : std::uint8_t { polygon, patch, textured, sphere, cone };
@@ -136,7 +135,7 @@ struct Object {
   std::uint32_t material = 0;  ///< index into Scene::materials
   std::uint32_t first = 0;
   std::uint32_t vertex_count = 0;  ///< polygon, patch, textured: at least 3; else 0
-  /// patch: index into Scene::normals, textured: into Scene::corners, vertex_count of them.
+  /// patch: index into Scene::normals, textured: into Scene::corners; there are vertex_count of them.
   std::uint32_t first_normal = 0;
 };
 
@@ -148,36 +147,36 @@ struct Scene {
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
   Vec3d background;  ///< linear RGB, as the file gives it
-  Vec3d ambient;     ///< light that comes to every hit alike, from everywhere: its diffuse part reflects that, too
+  Vec3d ambient;  ///< light that comes uniformly to every hit, and is reflected by its diffuse part
   std::vector<PointLight> lights;
   std::vector<Material> materials;  ///< equal ones merged
   std::vector<Object> objects;      ///< in file order
   std::vector<Vec3d> vertices;
-  std::vector<Vec3d> normals;  ///< of patches; need not be of unit length
+  std::vector<Vec3d> normals;  ///< for patches; need not be of unit length
   std::vector<TexturedCorner> corners;
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
-  SkyTexels sky;               ///< by paths, what no ray meets, if it is there
-  Vec3d zenith;                ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
-  std::optional<int> bounces;  ///< by paths, how often its file has light go on; nothing where it does not say that
-  /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
-  /// precision. So much does not tell two planes apart.
+  SkyTexels sky;  ///< with paths, the background, if there is one
+  Vec3d zenith;  ///< of the sky, of unit length, for any view; 0: the view's up
+  std::optional<int> bounces;  ///< with paths, the number of bounces in the file, if given
+  /// The relative error of the file's coordinates: 0x1p-25 if it stores them in single precision. Smaller differences do not
+  /// distinguish two planes.
   double coordinate_rounding = 0;
-  /// Which of the objects are copies of meshes that stand in several places (core/scene/base_meshes.h); null if none are. Copies
-  /// of a scene have it in common.
+  /// The objects that are copies of meshes with several instances (core/scene/base_meshes.h); null if there are none. Copies of a
+  /// scene share it.
   std::shared_ptr<const BaseMeshes> kept;
 };
 
-/// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
-/// since nothing here is ambient.
+/// The intensity of a light of the scene. One without a colour has 1 / sqrt(number of lights): twice Haines' suggestion, since
+/// there is no ambient light here.
 Vec3d intensity_of(const PointLight& light, const Scene& scene);
 
-/// Of unit length. Requires a view that makes a picture.
+/// A unit vector. Requires a view that makes a picture.
 Vec3d zenith_of(const Scene& scene);
 
-/// What takes the entities of a scene one by one, in a file's order: a builder, a writer, or a step on the way to one. Objects
-/// get the material given last before them.
+/// A consumer of the entities of a scene, one by one, in a file's order: a builder, a writer, or an intermediate step. Objects
+/// get the last material before them.
 class SceneSink {
  public:
   virtual ~SceneSink() = default;
@@ -212,7 +211,7 @@ class SceneBuilder final : public SceneSink {
   /// each.
   void textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners);
 
-  /// The same of so many vertices as the caller gives the scene later, those of all objects in their order.
+  /// polygon() for `vertex_count` vertices that the caller adds to the scene later, those of all objects in their order.
   void polygon(std::size_t vertex_count);
   void patch(std::size_t vertex_count, const std::vector<Vec3d>& normals);
   void textured(std::size_t vertex_count, const std::vector<TexturedCorner>& corners);
@@ -232,18 +231,18 @@ class SceneBuilder final : public SceneSink {
   bool has_material_ = false;
 };
 
-/// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes. Without
-/// its textures and corners' colours, which no sink knows: such patches come as plain ones.
+/// Sends a whole scene in file order: background, view, lights, then the objects, with the material whenever it changes. Without
+/// textures and corners' colours, which sinks do not support: such patches become plain ones.
 void replay(const Scene& scene, SceneSink& sink);
 
-/// Of objects in copies; as much as 2^48 stands for more, too.
+/// The size of objects in copies; 2^48 stands for more, too.
 struct ExpandedSize {
   std::uint64_t objects = 0, vertices = 0, normals = 0, corners = 0;
 
   std::uint64_t bytes() const {
     return sizeof(Object) * objects + sizeof(Vec3d) * (vertices + normals) + sizeof(TexturedCorner) * corners;
   }
-  /// Throws CapacityError if that is more than indices of 32 bits reach.
+  /// Throws CapacityError if that exceeds indices of 32 bits.
   void check() const;
 };
 
@@ -252,7 +251,7 @@ constexpr ExpandedSize operator+(const ExpandedSize& a, const ExpandedSize& b) {
   return {sum(a.objects, b.objects), sum(a.vertices, b.vertices), sum(a.normals, b.normals), sum(a.corners, b.corners)};
 }
 
-/// Of a scene's own objects.
+/// The size of a scene's own objects.
 ExpandedSize size_of_pools(const Scene& scene);
 
 }  // namespace dmpc::core

@@ -18,7 +18,7 @@ Color texel_of(const std::byte* tile, std::uint32_t column, std::uint32_t row) {
 
 Vec3d left_of(const SkyReference& sky) { return cross(sky.up, sky.middle); }
 
-/// Of the cell's corners.
+/// The mean of the cell's corners.
 double mean_of(double top_left, double top_right, double bottom_left, double bottom_right) {
   return ((top_left + top_right) + (bottom_left + bottom_right)) * 0.25;
 }

@@ -1,4 +1,4 @@
-// A sky from a picture: what comes from a direction, and how hits aim at what is bright in it.
+// A sky from a picture: its radiance by direction, and light sampling of it.
 #pragma once
 
 #include <array>
@@ -11,32 +11,33 @@
 
 namespace dmpc::core {
 
-/// A cell of a tile, and where in it, from 0 to 1 to the right and downwards.
+/// A cell of a tile, and the position in it, from 0 to 1 to the right and downwards.
 struct SkyPlace {
   std::uint32_t tile = 0;
   std::uint32_t column = 0, row = 0;  ///< in the tile
   double across = 0, down = 0;
 };
 
-/// Where a unit direction looks: who looks to the picture's middle, with its upper edge above, has its left half on his left.
+/// The place that a unit direction sees: looking at the picture's middle, with its upper edge above, its left half is on the
+/// left.
 SkyPlace sky_place(const SkyReference& sky, const Vec3d& direction);
 
-/// What comes from there, and how densely hits aim there, per steradian.
+/// The radiance from there, and the density of light sampling, per steradian.
 struct SkyLight {
   Color radiance;
   double density = 0;
 };
-/// Between the texels around it bilinearly. `tile` is the record of the place's tile.
+/// Bilinear interpolation of the texels around it. `tile` is the record of the place's tile.
 SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlace& place);
 
-/// How likely the cells of a tile are drawn: each in proportion to its solid angle times the mean strength_of() its corners, and
-/// a little more, so that none is never drawn. Anywhere in a cell is as likely by solid angle: so the density of a direction
-/// follows from the texels around it, whoever asks. The host weighs tiles by all(), shading draws from one.
+/// Sampling of the cells of a tile: in proportion to the solid angle times the mean strength_of() of the corners, plus a minimum,
+/// so that no cell is never drawn. Within a cell it is uniform by solid angle: so the density of a direction follows from the
+/// texels around it, on any node. The host weights tiles by all(), shading samples one.
 class SkyCells {
  public:
   SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte* record);
 
-  /// The sum over all cells of solid angle times mean strength: without the little more, and with it.
+  /// The sum over all cells of solid angle times mean strength: without the minimum, and with it.
   double strength() const { return strength_; }
   double solid_angle() const { return solid_angle_; }
   double all() const { return strength_ + solid_angle_ * least_; }
@@ -45,18 +46,18 @@ class SkyCells {
     SkyPlace place;
     Vec3d towards;  ///< of unit length
   };
-  /// For two numbers from 0 to less than 1 that are as likely anywhere.
+  /// For two uniform numbers in [0, 1).
   Drawn draw(double x, double y) const;
 
  private:
   double weight_of(std::uint32_t row) const { return row_[row].angle * (row_[row].strength + row_[row].count * least_); }
 
-  /// A row of cells: where it begins and ends, as cosines of the angle from the upper pole.
+  /// A row of cells: its limits, as cosines of the angle from the upper pole.
   struct Row {
     double top = 1, bottom = 1;
     double angle = 0;     ///< the solid angle of a cell
     double strength = 0;  ///< the sum over its cells
-    double count = 0;     ///< of them
+    double count = 0;  ///< number of its cells
   };
 
   const SkyReference& sky_;

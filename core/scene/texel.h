@@ -20,12 +20,12 @@ inline double sum_of_channels(std::uint32_t texel) {
   return sum * std::bit_cast<double>((std::uint64_t{texel >> 27U} + bias) << mantissa_bits);
 }
 
-/// What of a texel is there, from 0 to 1; 1 where the format does not say.
+/// Alpha of a texel, from 0 to 1; 1 if the format has none.
 float alpha_of(TexelFormat format, std::uint32_t texel);
 
-/// The texel nearest to `color`, with the alpha nearest to `alpha` where the format has one; what is negative or no number counts
-/// as 0, what is too large as the largest: 1, except for shared_exponent 65,408, whose error is up to 1/512 of the largest channel.
-/// With the curve: nearest on its scale.
+/// The texel nearest to `color`, with the alpha nearest to `alpha` if the format has one; negative values and NaN count as 0, too
+/// large ones as the maximum: 1, except for shared_exponent 65,408, whose error is up to 1/512 of the largest channel. With the
+/// curve: nearest on its scale.
 std::uint32_t encoded(TexelFormat format, const Vec3d& color, double alpha = 1);
 
 }  // namespace dmpc::core

@@ -15,7 +15,7 @@
 namespace dmpc::core {
 namespace {
 
-/// What of one side's texels a coarser texel covers: `first` and those behind it, each by its share.
+/// The texels of one side that a coarser texel covers: `first` and the following ones, each by its share.
 struct Cover {
   std::uint32_t first = 0;
   std::vector<double> share;  ///< they add up to 1
@@ -67,7 +67,7 @@ TextureLevel halved(const TextureLevel& fine, TexelFormat format) {
   return coarse;
 }
 
-/// Of TexelFormat::linear.
+/// For TexelFormat::linear.
 Color darkest_of(const TextureLevel& level) {
   Color least{1, 1, 1};
   for (const std::uint32_t texel : level.texels) {
@@ -77,7 +77,7 @@ Color darkest_of(const TextureLevel& level) {
   return least;
 }
 
-/// Of bytes on the curve, which rises, the largest alone is decoded.
+/// For bytes on the curve, which is monotonic, only the largest is decoded.
 double brightest_of(const TextureLevel& level, TexelFormat format) {
   if (format == TexelFormat::srgb || format == TexelFormat::srgb_alpha) {
     std::uint32_t most = 0;

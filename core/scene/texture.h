@@ -24,19 +24,19 @@ struct Texture {
   TexelFormat format{};
   TextureWrap wrap_s{}, wrap_t{};
   double brightest = 0;  ///< of all channels of all texels
-  Color darkest;         ///< each channel's least of all texels: of TexelFormat::linear alone
+  Color darkest;  ///< each channel's minimum over all texels: for TexelFormat::linear only
   std::vector<TextureLevel> levels;
 };
 
 /// Adds the smaller levels to `texture`, which has its finest, and finds the brightest channel. A texel is the mean, in linear
-/// light, of what it covers of the level above, whose texels count by the shares of them that it covers where a side is odd, and
+/// light, of what it covers of the next finer level, whose texels are weighted by their covered shares, where a side is odd, and
 /// by their alpha.
 void add_levels(Texture& texture);
 
-/// Where alpha cuts out what is less than `cutoff`, up to 1, means of holes and leaves would be all holes, or none, from some
-/// distance on. So the alpha of each level but the finest is scaled until as large a share of its texels comes up to the cutoff,
-/// as nearly as they can tell; a level of which it does is left as it is (I. Castano, "Computing Alpha Mipmaps", 2010, who
-/// finds the scale by bisection; here by counting). Nothing changes for a cutoff of 0, or a format without alpha.
+/// For a cutoff of alpha, up to 1, means of holes and leaves would be all holes, or none, from some distance on. So the alpha of
+/// each level except the finest is scaled until the same share of its texels reaches the cutoff, as nearly as possible; a level
+/// for which that holds already is left as it is (I. Castano, "Computing Alpha Mipmaps", 2010, who finds the scale by bisection;
+/// here by counting). Nothing changes for a cutoff of 0, or a format without alpha.
 void keep_coverage(Texture& texture, double cutoff);
 
 }  // namespace dmpc::core

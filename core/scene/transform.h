@@ -14,7 +14,7 @@ struct Transform {
 
   Vec3d direction(const Vec3d& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
   Vec3d point(const Vec3d& v) const { return direction(v) + shift; }
-  /// Its sign is that of a mirror if below 0.
+  /// Below 0 for a mirror.
   double determinant() const { return dot(rows[0], cross(rows[1], rows[2])); }
   /// The transform of normals, up to a length above 0: the inverse transpose times the determinant's magnitude.
   Transform of_normals() const {

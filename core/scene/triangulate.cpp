@@ -61,7 +61,7 @@ std::vector<Vec3d> enlarged_copy(std::span<const Vec3d> vertices) {
 
 }  // namespace
 
-/// Of a triangle one product tells it, except for those that are so small that it vanishes.
+/// One product decides for a triangle, unless it is so small that the product vanishes.
 bool has_area(std::span<const Vec3d> vertices) {
   if (vertices.size() == 3) {
     const Vec3d normal = cross(vertices[1] - vertices[0], vertices[2] - vertices[0]);

@@ -198,7 +198,7 @@ void meet_children(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, boo
   }
 }
 
-/// Those of `rays` that enter the box of a waiting child before their best hit.
+/// The rays of `rays` that enter the box of a waiting child before their best hit.
 HWY_INLINE RayMask still_want(const RayBundle& bundle, std::size_t child, RayMask rays) {
   const Row<float>& t_enter = bundle.waiting.t_enter[child];
   if ((rays & (rays - 1)) == 0) {
@@ -298,8 +298,7 @@ HWY_INLINE hn::Vec<Tag> edge(const SeenVertices<Tag>& a, const SeenVertices<Tag>
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-/// Those of the lanes `asked`, whose ray passes the triangle, about which floats may be wrong, and some more: the scalar twin has
-/// the last word.
+/// The lanes of `asked`, whose ray passes the triangle, for which floats may be wrong, and some more: the scalar twin decides.
 template <class Tag>
 HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
                                    const SeenVertices<Tag>& c, const hn::Vec<Tag>& margin) {
@@ -311,7 +310,7 @@ HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices
   return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
-/// Those of them for which doubles judge.
+/// The lanes of these that doubles decide.
 template <class Tag>
 HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
                             const SeenVertices<Tag>& c, hn::Vec<Tag> least, hn::Vec<Tag> greatest) {

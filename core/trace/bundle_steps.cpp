@@ -288,7 +288,7 @@ HWY_INLINE void set_entry(RayBundle& bundle, RayMask rays, std::size_t axis) {
   }
 }
 
-/// Those of `rays` whose macro cell lies in the region, all of it.
+/// The rays of `rays` whose macro cell lies completely in the region.
 HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
   const Integers tag;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -314,7 +314,7 @@ HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::
   return bits_of(tag, hn::And(is_inside, hn::Lt(t, hn::Set(tag, near_t_max))));
 }
 
-/// Those of `rays` that are certain to be in the region, though their macro cells are not.
+/// The rays of `rays` that are certain to be in the region, though their macro cells are not.
 RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   for (std::size_t axis = 0; axis < 3 && rays != 0; ++axis) {
     const Cells among{bundle.region.low[axis], bundle.region.high[axis]};
@@ -334,7 +334,7 @@ RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_a
   return rays;
 }
 
-/// Those of `rays` whose finest cell, in `arrival`, lies in the region.
+/// The rays of `rays` whose finest cell, in `arrival`, lies in the region.
 HWY_INLINE RayMask arrived_inside(const RayBundle& bundle, RayMask rays) {
   const Integers tag;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -521,8 +521,8 @@ void find_box_exits(RayBundle& bundle, RayMask rays, const PlaneRows& planes) {
   }
 }
 
-/// Those of `leaving` that do not end with a hit before their exit, or a light; at equality the next cell may hold the same t
-/// with a lower id.
+/// The rays of `leaving` that do not end with a hit before their exit, or at a light; if they are equal, the next cell may hold a
+/// hit at the same t with a lower id.
 HWY_INLINE RayMask goes_on(const RayBundle& bundle, RayMask leaving) {
   const Doubles tag;
   const HalfFloats half;

@@ -121,7 +121,7 @@ class KernelTriangle {
     const Interval px = float_seen(corner, axis), pz = float_seen(corner, z);
     const Interval moved = unit_rounding * magnitude(px) + gamma(3) * magnitude(slope * pz) + 2 * denormal_unit * magnitude(pz);
     const Interval by_rounding = moved + unit_rounding * (magnitude(px - slope * pz) + moved) + denormal_unit;
-    // As one quotient, since the two slopes all but cancel.
+    // As one quotient, since the two slopes nearly cancel.
     const Interval slope_rest = (rest(axis) * direction(z) - direction(axis) * rest(z)) / (direction(z) * real_.direction[z]);
     const Interval by_rests = origin_rest(axis) + slope_rest * pz - full_slope * origin_rest(z);
     return {real_.seen[corner][axis] - full_slope * real_.seen[corner][z], by_rounding + magnitude(by_rests)};

@@ -119,7 +119,7 @@ HWY_INLINE Vertices shear(const ShearedRay& ray, const float* vertex, std::size_
 
 HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-/// Those of the triangles `asked`, which the ray passes, about which floats may be wrong.
+/// The triangles of `asked`, which the ray passes, for which floats may be wrong.
 HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
                                          const Vector& margin, hn::Mask<Tag> asked) {
   const Tag tag;
@@ -131,7 +131,7 @@ HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& 
   return hn::And(asked, hn::Le(margin, bound));
 }
 
-/// Those of them for which doubles judge.
+/// The triangles of these that doubles decide.
 HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c, Vector least,
                                   Vector greatest, hn::Mask<Tag> outside) {
   const Tag tag;

@@ -55,7 +55,7 @@ struct SeenTriangle {
         b(seen_vertex(ray, rows + 3 * stride, stride)),
         c(seen_vertex(ray, rows + 6 * stride, stride)) {}
 
-  /// t of its plane, no farther than the triangle reaches: a ray that all but lies in the plane crosses it anywhere. Not finite
+  /// t of its plane, no farther than the triangle reaches: a ray that nearly lies in the plane crosses it anywhere. Not finite
   /// for a ray parallel to it.
   double plane_distance() const {
     const Vec3d normal = cross(b - a, c - a);
@@ -152,7 +152,7 @@ struct ShearedTriangle {
 
   ShearedVertex a, b, c;
   float u, v, w;
-  float least, greatest;  ///< of them, before zeros are told apart
+  float least, greatest;  ///< before zeros are distinguished
   float determinant = 0;
 };
 
@@ -338,8 +338,8 @@ bool solve(double a, double b, double c, double& first, double& second) {
 
 }  // namespace
 
-/// About the ray's nearest point to the base; a flat cone is all but a plane, and so is its twin beyond the apex, which only
-/// where the ray crosses that plane can be told apart.
+/// Around the ray's nearest point to the base; a flat cone is almost a plane, and so is its twin beyond the apex, which can only
+/// be distinguished where the ray crosses that plane.
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues cone(PrimitiveKind::cone, rows, stride, lane);
   const auto [base, signed_base_radius] = cone.four(0);

@@ -53,7 +53,7 @@ void BundleTask::resume_hit(const RayMessage& message) {
   push(message.ray, message.best);
 }
 
-/// Those that waited come behind those that have been taken up since, each to its own place or one before it.
+/// Moves waiting rays after those that have been taken up since, each to its own place or an earlier one.
 void BundleTask::gather_waiting() {
   for (; waiting_ > 0; --waiting_, ++count_, ++traced_) {
     bundle_->rays[count_] = bundle_->rays[traced_];
@@ -62,7 +62,7 @@ void BundleTask::gather_waiting() {
   }
 }
 
-/// That of the first ray; the one before if it starts where the node has none.
+/// Chooses the region of the first ray; keeps the one before if the ray starts where the node has none.
 void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame) {
   if ((entered_ & 1U) != 0) {
     const bool is_here = tracer.enter_taken_up(flights_->entry[0].passage.cell);
@@ -147,7 +147,7 @@ void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
   hits.add(ray, hit, fresh_hits_++);
 }
 
-/// Those that have been pushed are shaded next.
+/// Shades the pushed hits next.
 void BundleTask::close_hits() {
   depth_ += fresh_hits_ > 0 ? 1 : 0;
   fresh_hits_ = 0;

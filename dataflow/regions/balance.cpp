@@ -8,7 +8,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// Of the lattice that loads are counted on.
+/// The resolution of the lattice for loads.
 constexpr std::int32_t columns_per_side = 256;
 
 void check(const BalanceOptions& options) {

@@ -129,7 +129,7 @@ void Movement::send_page() {
   node_->send_reserved(recipient_, unit_channel, number_of(Kind::unit_page), std::span<const std::byte>(packet_));
 }
 
-/// Those that have not started meanwhile, if there are any.
+/// Sends the rays that have not started meanwhile, if there are any.
 void Movement::send_primaries() {
   UnitPrimaryRays rays{.unit = unit_};
   const std::uint64_t left = units_.primaries->left_of(unit_);

@@ -45,7 +45,7 @@ struct TraceRecorder::End {
   Name name(std::uint32_t source, std::uint32_t target) const { return {source, target, kind, ordinal}; }
 };
 
-/// Those that one node has told, either of what it sent or of what it received.
+/// The ends of messages reported by one node, either of what it sent or of what it received.
 struct TraceRecorder::Ends {
   std::vector<End> kept;
   Ordinals count;
@@ -56,7 +56,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
   Ends sent, received;
   std::array<std::uint64_t, Levels::count_max> levels{};
-  TraceSpan current;                   ///< of the call under way: what it has worked on
+  TraceSpan current;  ///< the current call's, with what it has worked on
   std::uint64_t room = 0;              ///< events that may be kept
   std::uint64_t lost = 0;              ///< events
   std::optional<RecordedTimes> times;  ///< if something was forgotten
@@ -351,7 +351,7 @@ void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
   }
 }
 
-/// Of those that are here, or have been added.
+/// Of the recorders here and those added.
 std::uint64_t TraceRecorder::events_lost() const {
   std::uint64_t lost = 0;
   for (const auto& log : logs_) {

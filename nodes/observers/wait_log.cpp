@@ -13,7 +13,7 @@ namespace {
 
 std::uint64_t length_ns(const Waited& wait) { return wait.end_ns - wait.begin_ns; }
 
-/// Leaves out all but the `count_max` longest, of equal ones the last, in their order: returns how long the longest of these is.
+/// Keeps only the `count_max` longest, of equal ones the first, in their order; returns the longest that is left out.
 std::uint64_t keep_longest(std::vector<Waited>& waits, std::size_t count_max) {
   std::vector<std::uint64_t> lengths;
   std::transform(waits.begin(), waits.end(), std::back_inserter(lengths), length_ns);

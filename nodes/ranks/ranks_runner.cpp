@@ -254,7 +254,7 @@ struct RanksRunner::Implementation final : Carrier {
   LocalMemory call_memory;
   Mailbox call;  ///< before which the communicating thread sleeps: nothing is ever put in
   std::mutex carrying;
-  std::exception_ptr carry_failure;  ///< of a node's thread in carry()
+  std::exception_ptr carry_failure;  ///< thrown on a node's thread in carry()
   Outlet outlet;
   NodeThreads nodes;
   Exchange exchange;

@@ -264,7 +264,7 @@ void NodeThreads::carry() const {
   }
 }
 
-/// Of a driver's node with nothing to do: it need not look for packets that come soon, as others have their turn before it.
+/// For an idle node on a worker thread: it need not poll for packets that arrive soon, as others have their turn before it.
 bool NodeThreads::falls_asleep(ThreadProcessor& self) {
   self.is_asleep = !self.program->has_leftovers() && self.mailbox.fall_asleep();
   self.node.counters().sleeps += self.is_asleep ? 1 : 0;

@@ -18,7 +18,7 @@ struct SchedulingAttributes {
   std::uint64_t flags = 0;
   std::int32_t nice = 0;
   std::uint32_t priority = 0;
-  std::uint64_t runtime_ns = 0;  ///< of a usual thread: its slice
+  std::uint64_t runtime_ns = 0;  ///< for an ordinary thread: its slice
   std::uint64_t deadline_ns = 0, period_ns = 0;
 };
 static_assert(sizeof(SchedulingAttributes) == 48);

@@ -335,7 +335,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
   }
 
-  /// Of a node that a message wakes, which has come or comes when a service is over.
+  /// Reports the wait of a node that a message wakes, which has arrived or is handled when a service is over.
   void report_wait(VirtualProcessor& self, std::uint32_t number, std::uint64_t end_ns, std::uint64_t own_ns) {
     const Message& message = computer.messages[number];
     Waited wait{.node = self.id,

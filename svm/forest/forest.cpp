@@ -62,7 +62,7 @@ class PacketWriter {
   std::size_t end_ = 0;
 };
 
-/// Of open pages that not every node holds.
+/// The size of open pages that not every node holds.
 std::size_t asked_open_bytes(const PageCapacity& capacity) {
   return holds_open_pages(capacity.open_pages, capacity.page_size_bytes()) ? 0 : capacity.open_pages * capacity.page_size_bytes();
 }

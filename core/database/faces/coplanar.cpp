@@ -75,7 +75,7 @@ bool is_smooth(const Conversion& conversion, const Face& face) {
   return found != conversion.smooth.end() && found->primitive == face.id;
 }
 
-/// Of those that are triangles.
+/// The faces of those primitives that are triangles.
 std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::uint32_t> ids) {
   std::vector<Face> faces;
   faces.reserve(ids.size());
@@ -87,7 +87,7 @@ std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::ui
   return faces;
 }
 
-/// Those of a macro cell, except for copies of a mesh, which has been judged by itself.
+/// The pairs of a macro cell, without copies of a mesh, which has been judged by itself.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
   const Conversion& conversion = exactly.conversion;
   Ids apart;
@@ -125,7 +125,7 @@ class FaceSets {
     }
   }
   std::uint32_t least_with(std::uint32_t id) { return sets_.least_with(id); }
-  /// Of all sets, ascending.
+  /// The ids of all sets, ascending.
   const Ids& ids() {
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -339,7 +339,7 @@ void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const 
   std::stable_sort(set.begin(), set.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
-/// Adds what shines and shows whole in a set of one plane, which comes by precedence: of more than a few nothing is known.
+/// Adds the emitters that are fully visible in a set of one plane, in order of precedence, if the set is small.
 void add_whole_lamps(const Ids& set, std::span<const Material> materials, Conversion& conversion) {
   constexpr std::size_t lamps_max = 1024;
   const auto lamps_end = std::find_if(
@@ -383,7 +383,7 @@ class Settler {
     std::iota(from_.begin(), from_.end(), 0U);
   }
 
-  /// Of a set that lies in one plane, for doubles as for floats.
+  /// Assigns a plane to a set that lies in one plane, for doubles as for floats.
   void share(Ids set) {
     settle(set);
     add_whole_lamps(set, materials_, conversion_);
@@ -514,7 +514,7 @@ std::vector<Ids> sets_to_stack(const Exactly& exactly, CoveringSets& found, std:
   return sets_of(found.close, apart);
 }
 
-/// Those that nobody looked at may be swapped with others all over.
+/// Faces that were not tested may be swapped with others everywhere.
 void say_unseen(const Ids& unseen, Conversion& conversion) {
   for (const std::uint32_t id : unseen) {
     const Face face(conversion.primitives[id], id, conversion.sources[id].object);

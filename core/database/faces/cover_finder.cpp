@@ -171,7 +171,7 @@ bool CoverFinder::look_at_pairs(std::size_t axis) {
   return true;
 }
 
-/// Of faces with the same corners, which meet the same others, one is left in place of those that it covers.
+/// Keeps one of several faces with the same corners, which meet the same others, for those that it covers.
 std::span<const CoverFinder::Entry> CoverFinder::without_twins(std::size_t axis, std::span<const Entry> square) {
   const auto corner_of = [&](const Entry& entry) -> const auto& { return faces_[seen_[entry.place].face].corner; };
   distinct_.assign(square.begin(), square.end());
@@ -194,7 +194,7 @@ std::span<const CoverFinder::Entry> CoverFinder::without_twins(std::size_t axis,
   return distinct_;
 }
 
-/// Those of one object come one behind the other, except for what stands for several.
+/// Faces of one object are consecutive, except for a face that represents several.
 bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square) {
   const auto is_one_object = [](const Entry& a, const Entry& b) { return a.object == b.object && a.object != several_objects; };
   for (std::size_t i = 0, others = 0; i < square.size(); ++i) {

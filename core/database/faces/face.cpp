@@ -46,7 +46,7 @@ std::array<Height, 3> heights_above(const Face& base, const Face& face) {
   return heights;
 }
 
-/// Of the corners of the smaller one above the larger one.
+/// Heights of the corners of the smaller face above the larger one.
 std::array<Height, 3> heights_between(const Face& a, const Face& b) {
   return a.altitude >= b.altitude ? heights_above(a, b) : heights_above(b, a);
 }

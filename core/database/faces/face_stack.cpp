@@ -10,13 +10,13 @@
 namespace dmpc::core {
 namespace {
 
-/// Of one stack at most.
+/// Limits for one stack.
 constexpr std::size_t looks_max = std::size_t{1} << 26U, pairs_max = std::size_t{1} << 22U;
 
 /// Lower triangles have no plane that doubles could tell; they keep that of their floats.
 constexpr double altitude_least = 0x1p-40;
 
-using Places = std::vector<std::uint32_t>;  ///< of faces
+using Places = std::vector<std::uint32_t>;  ///< indices of faces
 
 bool is_smaller(const Face& a, const Face& b) { return a.altitude < b.altitude; }
 
@@ -136,8 +136,8 @@ class Layers {
             static_cast<std::uint8_t>(LeafHeader::exact_plane + layer_[plane])};
   }
 
-  /// Of each face the one that it is swapped with first, and so much of it as rays that start there pass; all of planes that were
-  /// not looked at.
+  /// For each face the first one that it is swapped with, and the extent of it that rays pass that start there; all faces of
+  /// planes that were not tested.
   std::vector<CloseFaces> blurred() const {
     std::vector<Blurred> swapped, passed;
     for (const Pair& pair : pairs_) {

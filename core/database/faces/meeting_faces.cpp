@@ -21,7 +21,7 @@ constexpr double leaning_cosine = 0.97;
 
 bool is_low(const Face& face) { return face.altitude < low_altitude; }
 
-/// Of faces, by where their boxes begin along an axis; as arrays, so that many are held against one at once.
+/// Boxes of faces, sorted by their begin along an axis; as arrays, so that many are tested with one at once.
 class Boxes {
  public:
   Boxes(std::span<const Face> all, std::vector<std::uint32_t> some, std::size_t axis)
@@ -105,7 +105,7 @@ std::size_t longest_axis_of(std::span<const Face> faces) {
   return half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
 }
 
-/// Of two faces that meet the one that begins first looks at the other one.
+/// Of two faces that meet, the one that begins first tests the other one.
 class Meetings {
  public:
   using Judge = std::function<void(std::uint32_t, std::uint32_t)>;

@@ -17,8 +17,8 @@ struct Bucket {
   static constexpr std::uint32_t several = 0xffffffffU;
 
   std::uint64_t key;     ///< its place; the lowest bits: the axis
-  std::uint32_t object;  ///< of its faces, or several
-  std::uint32_t count;   ///< of its faces
+  std::uint32_t object;  ///< the object of its faces, if only one
+  std::uint32_t count;  ///< number of its faces
 };
 
 /// That a face is in a bucket.

@@ -72,8 +72,8 @@ class TwinFinder {
   const Conversion& conversion_;
   std::vector<bool>& is_twin_;
   std::vector<std::uint32_t> ids_;
-  std::vector<bool> is_first_;  ///< of those that are alike
-  std::vector<Face> kept_;      ///< of those that are alike
+  std::vector<bool> is_first_;  ///< among equal ones
+  std::vector<Face> kept_;  ///< one for each set of equal ones
 };
 
 }  // namespace

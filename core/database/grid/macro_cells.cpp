@@ -29,7 +29,7 @@ void coarsen(GridFrame& frame) {
 
 namespace {
 
-using CellPlace = std::array<std::int32_t, 3>;  ///< of a macro cell
+using CellPlace = std::array<std::int32_t, 3>;  ///< a macro cell's
 
 /// The first and the last macro cells that boxes touch.
 struct CellRange {

@@ -22,7 +22,7 @@ bool is_below(const Vec3d& v, double coordinate_max) {
   return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
 }
 
-/// Of a mesh, in its own coordinates.
+/// Boxes of a mesh, in its own coordinates.
 struct MeshBoxes {
   Box all;
   std::size_t run = 1;    ///< so many vertices, which a file has one after the other, lie in a box
@@ -44,7 +44,7 @@ class CopiesBounds {
     }
   }
 
-  /// Those that may reach farthest to each side come first, so that most of the others lie within.
+  /// Instances that may reach farthest to each side come first, so that most of the others lie within.
   void include_all(Box& box, const Parallel& parallel) const {
     for (const std::size_t place : farthest()) {
       include(box, kept_.places[place]);
@@ -111,7 +111,7 @@ class CopiesBounds {
 
   const BaseMeshes& kept_;
   double coordinate_max_;
-  std::vector<MeshBoxes> own_;  ///< of each mesh
+  std::vector<MeshBoxes> own_;  ///< by mesh
 };
 
 }  // namespace

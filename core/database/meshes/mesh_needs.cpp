@@ -15,7 +15,7 @@ bool MeshNeeds::add(const Region& region) {
   return !entry.empty() && add_below(bvh_node_at(entry.bvh_node()), region);
 }
 
-/// Of the tree that has the boxes of places.
+/// For the tree that has the boxes of instances.
 bool MeshNeeds::add_below(const BvhNode& bvh_node, const Region& region) {
   bool has_any = false;
   for (std::size_t child = 0; child < bvh_node.child_count; ++child) {

@@ -15,7 +15,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Of a mesh's largest coordinate, so that records, in units of it, keep all the bits that floats have.
+/// Limit for a mesh's largest coordinate, so that records, in units of it, keep all bits of floats.
 constexpr int exponent_max = 100;
 /// Places that one thread takes at a time.
 constexpr std::size_t places_a_part = 64;

@@ -17,7 +17,7 @@ namespace {
 
 /// Places that one thread takes at a time.
 constexpr std::size_t places_together = 64;
-/// Those that are counted before the sum is looked at.
+/// The number that is counted before the sum is tested.
 constexpr std::size_t places_a_group = 4096;
 /// Copies of more triangles would be records of more than 16 GiB.
 constexpr std::uint64_t copied_triangles_end = std::uint64_t{1} << 28U;

@@ -10,7 +10,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Of the mean power: who has less would be drawn as often as the steps of chance allow, and not as it should.
+/// Relative to the mean power: an emitter with less would be drawn as often as the rounding of chances allows, not as it should.
 constexpr double share_min = 0x1p-20;
 
 struct Candidate {

@@ -11,7 +11,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Of the mean strength: what places have at least, so that the least of them are drawn as often as they should be.
+/// Relative to the mean strength: the minimum for all places, so that the weakest are drawn as often as they should be.
 constexpr double sky_share_min = 0x1p-20;
 
 /// Rows close, and beyond the poles is the row that ends there. What lies beyond the last cells is of no account.

@@ -44,7 +44,7 @@ TextureTile tile_at(const TextureLevel& level, const TilePlace& place) {
 /// Tiles along one side, from the first to the last of them.
 using Run = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Those about all places from `low` to `high` on a side of `size` texels; all if they go round the texture's edge.
+/// The tiles around all places from `low` to `high` on a side of `size` texels; all if they cross the texture's edge.
 Run tiles_between(double low, double high, std::uint32_t size, TextureWrap wrap) {
   constexpr double rounding = 0x1p-20;  // places are below 2^20, and sums of three of them in double
   const double first = std::floor((low - rounding) * size - 0.5), last = std::floor((high + rounding) * size - 0.5) + 1;

@@ -117,7 +117,7 @@ struct Bins {
       ++bin.count;
     }
   }
-  /// Those of both halves alternately: neighbours often go into one bin, and each would wait for the one before it.
+  /// Adds the items of both halves alternately: neighbours often go into one bin, and each would wait for the one before it.
   [[gnu::always_inline]] void add_all(std::span<const Bounds> items) {
     const std::size_t half = items.size() / 2;
     for (std::size_t i = 0; i < half; ++i) {
@@ -129,7 +129,7 @@ struct Bins {
     }
   }
   Cut best_cut(std::uint32_t count) const;
-  /// Of all that is in the bins of an axis from `first` on, before `last`.
+  /// The bounds of everything in the bins of an axis from `first` on, before `last`.
   Bounds bounds_of(std::size_t axis, std::uint32_t first, std::uint32_t last) const {
     Gathering all;
     for (std::uint32_t i = first; i < last; ++i) {
@@ -381,7 +381,7 @@ std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
   return whole.first + best.place;
 }
 
-/// Those in the plane of the first, and the others.
+/// Separates the primitives in the plane of the first from the others.
 std::uint32_t Cutter::cut_between_planes(const Group& whole) {
   std::uint64_t is_first = 0;
   for (std::uint32_t place = whole.first; place < whole.last; ++place) {

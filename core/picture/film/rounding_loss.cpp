@@ -15,7 +15,7 @@ namespace {
 
 /// Half a unit in the last place of a float, of its value; of one with a rest, a 256th of that.
 constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
-/// The same of the place and the radius of one that passes by local zero.
+/// The same for the position and the radius of a surface that passes by local zero.
 constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
 /// A unit in the last place of a hit's t, of its value at most.
 constexpr double tie_rounding = 0x1p-23;
@@ -114,7 +114,7 @@ class LossFinder {
     }
   }
 
-  /// Of two planes that cut each other the faces are swapped where they are nearer to each other than t tells.
+  /// Faces of two planes that intersect are swapped where they are nearer to each other than the resolution of t.
   void count_swapped() {
     for (const CloseFaces& faces : database_.close_faces()) {
       const Vec3d offset = Vec3d(faces.place) - camera_.eye();

@@ -16,7 +16,7 @@ constexpr double clearance_share = 1e-4;
 /// few units in the last place of a float, cannot bring it there: the more the more it grazes, down to a cosine of this.
 constexpr double gap_share = 1e-6, rounding_share = 0x1p-21, grazing_cosine = 0x1p-10;
 
-/// Of the axis of the cone in which a sphere is seen with its side, if `distance` is that of its middle. Above 0 outside.
+/// The cosine between axis and side of the cone in which a sphere is seen, if `distance` is that of its middle. Above 0 outside.
 double rim_cosine(double distance, double radius) {
   const double sine = radius / distance;
   return std::sqrt(std::max(0.0, 1.0 - sine * sine));

@@ -35,7 +35,7 @@ double light_sampling_density_at(const EmitterRecord& emitter, const LightSample
 
 }  // namespace
 
-/// Only where the path goes on to look for what shines, too: so a hit at the limit of depth shows the sky alone.
+/// Only where the path continues and may hit emitters, too: so a hit at the limit of depth shows only the sky.
 bool Shader::aims_at_emitter(const HitState& state) const {
   if (!options_.transport.is_by_paths() || !has_emitters(header_) || state.ray.depth > options_.depth_max ||
       is_at_last_depth(state)) {

@@ -11,7 +11,7 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// Of what a ray finds there that surfaces have sent where it goes by chance.
+/// The weight of what a ray scattered by a surface finds there (BSDF sampling).
 double mis_weight(const Ray& ray, const SkyLight& light, const Transport& transport) {
   return ray.density == 0       ? 1.0
          : transport.only_aims  ? 0.0

@@ -28,7 +28,7 @@ constexpr double unknown_pixels = 64;
 struct Falls {
   double usual, least, most;
 };
-/// Of noise at most that of errors that fall as samples^(-4/5).
+/// For noise at most that of errors that fall as samples^(-4/5).
 constexpr Falls edge_falls{1.5, 1, 1.8284271247461903}, noise_falls{1.4, 1, 2.0314331330207964};
 
 const Falls& falls_of(ErrorKind kind) { return kind == ErrorKind::noise ? noise_falls : edge_falls; }
@@ -149,13 +149,13 @@ void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint3
   }
 }
 
-/// Of noise a part of a pixel's change is what was to be expected of it by what it was, as variances fall: who gets more samples
-/// is chosen by large changes, so those that are left have small ones by choice, and a single look at each would take them for
-/// better than they are.
+/// For noise a part of a pixel's change is predicted from earlier changes, as variances fall: pixels get more samples because of
+/// large changes, so those that are left have small ones by selection, and a single observation of each would underestimate their
+/// error.
 ///
-/// The planes were gathered on that of the last sample before the pass; the leaf that follows fell on the other. So the film
-/// tells the mean of the first half to the last bit, but where samples doubled twice: there half of it is that of the first
-/// quarter, rounded to a float.
+/// The planes were gathered on that of the last sample before the pass; the block that follows fell on the other. So the film has
+/// the mean of the first half to the last bit, except where samples doubled twice: there half of it is that of the first quarter,
+/// rounded to a float.
 void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32_t pixel) {
   PixelPast& past = past_[pixel];
   const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
@@ -176,7 +176,7 @@ void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32
   }
 }
 
-/// Of a change times spread(samples), if variances fall by each doubling as they have so far.
+/// The prediction of a change times spread(samples), if variances fall by each doubling as they have so far.
 double ErrorEstimate::expected_growth(std::uint32_t pixel, std::uint32_t before, std::uint32_t now) const {
   double growth = 1;
   for (std::uint32_t samples = before; samples > 0 && samples < now; samples *= 2) {
@@ -258,8 +258,8 @@ double ErrorEstimate::unmet_detail(std::uint32_t pixel, std::uint32_t samples) c
   return contrast_ * detail_->squares(pixel) * power(1 - detail_->coverage(pixel), samples);
 }
 
-/// Of noise a pixel's own samples say nothing of when it has enough: one that has met nothing bright so far would look good and
-/// stop, and pictures would be darker than they are. Its neighbours' samples are drawn apart from its own.
+/// For noise a pixel's own samples are not used to decide when it has enough: a pixel that has hit nothing bright so far would
+/// look good and stop, and pictures would be too dark. Its neighbours' samples are independent of its own.
 double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
   const bool is_detail = has_detail(pixel), counts_itself = kind_ == ErrorKind::edges;
   Surroundings around;

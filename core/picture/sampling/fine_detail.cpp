@@ -36,7 +36,7 @@ double length(const Place& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 struct Strip {
   Place from, to;
   double from_width = 0, to_width = 0;
-  std::optional<double> peak = std::nullopt;  ///< of a triangle along its longest side, which is the middle line
+  std::optional<double> peak = std::nullopt;  ///< for a triangle: its peak along the longest side, which is the middle line
   double peak_height = 0;                     ///< signed, to the right of the way; the strip lies between line and apex
 
   double height(double t) const {

@@ -42,8 +42,8 @@ Vec3d visible_normal(const Vec3d& out, const Vec3d& normal, double alpha, const 
   return normalize(first * x + cross(normal, first) * y + normal * z);
 }
 
-/// That of the normal, (what is seen of it) cosine to `out` / out cosine, over 4 times its cosine with `out`, which is how much
-/// wider a mirror turns what it reflects than itself.
+/// The density of the normal by visibility, (visible area) cosine to `out` / out cosine, over 4 times its cosine with `out`, the
+/// Jacobian of the reflection.
 double reflected_density(double alpha, double out, double half) {
   return normal_density(alpha, half) / (2.0 * (out + roughened(alpha, out)));
 }

@@ -187,7 +187,7 @@ Vec3d MicrofacetLobes::reflected_direction(const SamplePair& direction) const {
   return normalize(mirror * (2.0 * dot(mirror, out_)) - out_);
 }
 
-/// Of a texture the bound of all surfaces that lie between the extremes of its metal and its roughness.
+/// For a texture the bound over all surfaces between the extremes of its metal and its roughness.
 MicrofacetBound bound_of(const Material& material, double texture_max, const Texture* facets) {
   if (facets == nullptr) {
     return bound_of_one(material, texture_max);

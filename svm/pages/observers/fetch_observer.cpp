@@ -67,7 +67,7 @@ class Ends {
   }
   std::uint32_t every() const { return share_.every(); }
   bool is_empty() const { return closed_.empty() && share_.every() == 1; }
-  /// Those that are over.
+  /// Serialises the fetches that have ended.
   void put(nodes::FlatWriter& flat) const {
     flat.put(share_.every());
     flat.put_all(closed_);
@@ -80,7 +80,7 @@ class Ends {
                      [&](std::uint64_t time_ns) { return clock.corrected(time_ns); });
     }
   }
-  /// Those of one of `every`.
+  /// Takes the fetches of one of `every`.
   std::vector<End> take(std::uint32_t every) {
     thin_out(every);
     return std::move(closed_);
