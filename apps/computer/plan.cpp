@@ -87,8 +87,8 @@ std::uint32_t ProgramPlan::places(std::uint32_t source, std::uint32_t target, In
   return needs_.packets[packet].senders(source, target, node_count_);
 }
 
-/// Every packet under way has its place at its target: a request what its sender may have under way, an answer that of its
-/// request. One with a short payload lies in a small place, whatever it might have had.
+/// Every packet in flight has a slot at its target: requests up to the sender's limit in flight, an answer in its request's slot.
+/// A packet with a short payload uses a small slot, even if it could have had a larger payload.
 void ProgramPlan::count_places() {
   std::vector<std::uint64_t> small(node_count_), bulk(node_count_);
   const auto add = [&](std::uint32_t node, Index packet, std::uint64_t count) {

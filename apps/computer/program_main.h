@@ -1,4 +1,4 @@
-// From a program's command line to its exit status, whatever it does in between.
+// Runs a program from its command line to its exit status.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 /// How a program was called.
 struct ProgramCall {
-  std::string name;                ///< of its file
+  std::string name;                ///< the file's
   std::vector<std::string> words;  ///< behind it
 };
 

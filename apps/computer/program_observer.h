@@ -54,8 +54,8 @@ class ProgramObserver {
 
   std::optional<nodes::TraceRecorder> recorder_;
   std::optional<nodes::ActivityProfile> profile_;
-  std::optional<PairObserver> pairs_;          ///< of a program with packets
-  std::optional<svm::FetchObserver> fetches_;  ///< of one of tasks, as what follows
+  std::optional<PairObserver> pairs_;          ///< only for a program with packets
+  std::optional<svm::FetchObserver> fetches_;  ///< only for a program of tasks, as the members below
   std::vector<svm::ReferenceLog> reference_logs_;
   svm::TaskHeat heat_;
   std::vector<nodes::Observer*> members_;

@@ -15,9 +15,9 @@
 
 namespace dmpc::apps {
 
-/// All ranks call agree(), meet() and share() in the same order, as far as agree() does not find that they do not. Throws what
-/// has failed on another rank, on rank 0; nodes::Dismissed, on others, if rank 0 has ended; nodes::LostRank. Thread safety:
-/// belongs to the communicating thread, but for here().
+/// All ranks call agree(), meet() and share() in the same order, unless agree() finds that they do not. On rank 0 an error of
+/// another rank is thrown; on the others nodes::Dismissed, if rank 0 has ended; on all nodes::LostRank. Thread safety: belongs to
+/// the communicating thread, except here().
 class RankRounds {
  public:
   /// `links` outlive this.

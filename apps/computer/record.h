@@ -28,10 +28,10 @@ namespace dmpc::apps {
 struct ProgramNode {
   nodes::NodeCounters counters;
   nodes::Charges charges;
-  nodes::VirtualTimes times;            ///< of a modelled machine
-  svm::PageCounters pages;              ///< of tasks
+  nodes::VirtualTimes times;            ///< modelled machine only
+  svm::PageCounters pages;              ///< tasks only
   nodes::MemoryPlan memory;             ///< in the run that took most
-  std::vector<std::size_t> used_bytes;  ///< of each piece of memory that the program declares
+  std::vector<std::size_t> used_bytes;  ///< per piece of memory that the program declares
 
   /// What there is to add of another run.
   ProgramNode& operator+=(const ProgramNode& more);
@@ -50,17 +50,17 @@ struct TaskRuns {
 
 /// A view, as far as it has references.
 struct ProgramRecord {
-  std::string name;  ///< of the program
+  std::string name;  ///< the program's
   const ProgramOptions& options;
   const Vocabulary& vocabulary;
   std::vector<ProgramNode> nodes;
   std::vector<nodes::RankFigures> ranks;  ///< where there are any: traffic of all runs, the rest of the last one
   double wall_seconds = 0;
-  std::optional<std::uint64_t> virtual_ns, run_hash;  ///< of a modelled machine
+  std::optional<std::uint64_t> virtual_ns, run_hash;  ///< modelled machine only
   std::optional<nodes::VirtualReport> network;        ///< likewise, of a program with packets
   std::string result;                                 ///< what it came to
   TaskRuns tasks;
-  std::optional<nodes::Trace> trace;  ///< of the last run, as what follows
+  std::optional<nodes::Trace> trace;  ///< the last run's, as the members below
   std::optional<RunView> view;        ///< for a report
   std::optional<PacketPairs> pairs;   ///< likewise, of a program with packets and few enough nodes
 

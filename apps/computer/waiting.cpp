@@ -28,7 +28,7 @@ std::string list_text(const std::vector<Unanswered>& list, const std::string& ve
 /// From a node to one that it waits for.
 struct Step {
   std::uint32_t node = 0;
-  std::size_t place = 0;  ///< of what it waits for
+  std::size_t place = 0;  ///< index of what it waits for
 };
 
 /// Goes from node to node, deeper wherever nobody has been yet, until it comes to one on its way.

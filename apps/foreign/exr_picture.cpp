@@ -70,7 +70,7 @@ Imf::FrameBuffer places_for(const RawPicture& picture, const Names& channels, co
   return places;
 }
 
-/// Of what is none OpenImageIO makes a byte in two ways.
+/// OpenImageIO converts NaN to a byte in two different ways.
 bool are_numbers(const RawPicture& picture) {
   for (std::size_t place = 0; place < picture.values.size(); place += sizeof(float)) {
     float value = 0;

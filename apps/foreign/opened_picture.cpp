@@ -41,8 +41,8 @@ void add_floats(const OpenedPicture& opened, int count, core::TexelFormat format
   });
 }
 
-/// Puts what the file says of alpha beside a texture's colours, if some of it is not 1. The colours are those that were read
-/// without it, but for EXR's, which are multiplied by it.
+/// Adds the file's alpha to a texture, unless it is 1 everywhere. The colours are as read without alpha, except for EXR, where
+/// they are multiplied by it.
 void add_alpha(const std::vector<Byte>& alpha, bool is_multiplied, core::Texture& texture) {
   if (alpha.empty()) {
     return;

@@ -18,7 +18,7 @@ struct EncodedPicture {
   std::span<const std::byte> bytes;            ///< the whole file
   std::string name;                            ///< for messages
   std::string format;                          ///< OpenImageIO's name (apps/picture/picture_format.h)
-  TextureAlpha alpha = TextureAlpha::ignored;  ///< of a texture, if some of it is not 1
+  TextureAlpha alpha = TextureAlpha::ignored;  ///< a texture's, unless it is 1 everywhere
 };
 
 /// What a picture is opened for.
@@ -31,9 +31,9 @@ enum class PictureUse : std::uint8_t {
 struct PictureForm {
   std::uint32_t width = 0, height = 0;  ///< pixels
   int channels = 0;
-  /// Of a texture without alpha, by the type of its numbers alone: srgb for bytes, fine_srgb for other integers, shared_exponent
-  /// for floats. What a file says besides of gamma or of a profile does not count for a surface's colour (glTF 2.0, 3.9.2), nor
-  /// for others' textures, whose writers hardly mean it.
+  /// Format of a texture without alpha, by its number type alone: srgb for bytes, fine_srgb for other integers, shared_exponent
+  /// for floats. A gamma or profile in the file does not count for a surface's colour (glTF 2.0, 3.9.2), nor for other textures,
+  /// whose writers rarely intend it.
   core::TexelFormat format{};
 };
 
@@ -48,7 +48,7 @@ class OpenedPicture {
   virtual PictureForm form() const = 0;
   /// The first `count` channels of each pixel, row by row: 255 is 1.
   virtual std::vector<std::uint8_t> bytes(int count) const = 0;
-  /// The same; integers come as 0 to 1.
+  /// As floats; integers are scaled to 0 to 1.
   virtual std::vector<float> floats(int count) const = 0;
   /// One a pixel, 255 is 1; empty if there is none, or if all are.
   virtual std::vector<std::uint8_t> alpha() const = 0;

@@ -119,7 +119,7 @@ Input open_texture(const EncodedPicture& picture) {
   return input;
 }
 
-/// Of the channels from `first` on, `count` of them.
+/// Reads `count` channels from `first` on.
 template <class T>
 std::vector<T> read_values(const Input& input, const std::string& name, OIIO::TypeDesc type, int first, int count) {
   std::vector<T> values(texel_count(input.spec()) * static_cast<std::size_t>(count));

@@ -189,7 +189,7 @@ class PlacedScene {
     }
   }
 
-  /// Of what is made here alone: meshes in place of balls that do not stay round, and backs.
+  /// Accounts for geometry that is made here: meshes that replace balls, and backs.
   void ask_for_more(const PlacedShape& shape, const Transform& world) const {
     const auto where = [&shape] { return shape.mesh.name + ": "; };
     if (shape.is_ball() && (!even_stretch(world) || file_.materials[shape.mesh.material].texture)) {
@@ -372,8 +372,8 @@ class PlacedScene {
     return mesh;
   }
 
-  /// What shines here shines to both sides: so what shines to the front alone has a back of its surface, which does not shine, a
-  /// little behind.
+  /// Emitters of ours emit to both sides: an emitter to the front alone gets a back of its material without emission, slightly
+  /// behind it.
   PolygonMesh behind(const PolygonMesh& front) const {
     PolygonMesh back{.name = front.name, .material = front.material};
     const double size = front.vertices.empty() ? 0 : length(core::Box::around(front.vertices).half());
@@ -445,10 +445,10 @@ class PlacedScene {
   void add_other_lights() {
     core::Scene& scene = result_.scene;
     scene.background = plain_background;
-    // By a sky, or, by paths, by what shines in it: other transports show that, but not what it lights.
+    // Lit by a sky or, with path tracing, by emitters: other transports show emitters, but no light from them.
     const bool is_lit_else =
         options_.is_below_sky || (options_.is_by_paths && std::ranges::any_of(scene.materials, &core::Material::shines));
-    std::vector<std::string> unsaid;  // of lights that others are put in place of
+    std::vector<std::string> unsaid;  // lights that were replaced
     std::vector<std::string>& notes = options_.is_lit_otherwise ? unsaid : result_.notes;
     scene.lights = lights_of(file_.lights, still_bounds(), scale_, options_.is_by_paths, is_lit_else, notes);
     if (options_.is_by_paths) {

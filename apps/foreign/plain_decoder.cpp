@@ -80,7 +80,7 @@ class OpenedPlain final : public OpenedPicture {
     }
     return made;
   }
-  /// Of `count` channels from `first` on.
+  /// Converts `count` channels from `first` on.
   template <class Made, class Make>
   std::vector<Made> made_of_values(int first, int count, const Make& make) const {
     return picture_.value_bytes == sizeof(float)  ? made_of<Made, float>(first, count, make)

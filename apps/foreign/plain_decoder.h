@@ -7,10 +7,10 @@
 
 namespace dmpc::apps {
 
-/// What decode() of apps/foreign/picture_decoder.h opens, to the last bit, but for one alpha of EXR, just below half a byte, of
-/// which it makes 0 or 1 by where it stands in its row; nothing for a picture that is not plain
-/// (apps/foreign/plain_picture.h), or one with alpha that OpenImageIO would multiply or divide by: those are left to OpenImageIO,
-/// and so are all errors.
+/// Bit-identical to decode() of apps/foreign/picture_decoder.h, except for one alpha of EXR just below half a byte, which
+/// decode() rounds to 0 or 1 depending on its place in the row. Returns nothing for a picture that is not plain
+/// (apps/foreign/plain_picture.h), or that has alpha by which OpenImageIO would multiply or divide: these, and all errors, are
+/// left to OpenImageIO.
 std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use);
 
 }  // namespace dmpc::apps

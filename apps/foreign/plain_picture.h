@@ -23,7 +23,7 @@ struct RawPicture {
 /// memory.
 inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 24U;
 
-/// Whether that many pixels, of values of so many bytes, are there and not too many, for a file of so many bytes, either.
+/// Whether this many pixels, of `value_bytes` each, are in a file of `file_bytes` and not more than `pixels_max`.
 bool is_plain_size(std::uint64_t width, std::uint64_t height, std::uint64_t value_bytes, std::uint64_t file_bytes,
                    std::uint64_t pixels_max);
 

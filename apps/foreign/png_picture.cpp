@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Of errors, from which libpng asks for no return, and of warnings.
+/// libpng's error handler, which must not return, and its warning handler.
 [[noreturn]] void leave(png_structp png, png_const_charp) noexcept { png_longjmp(png, 1); }
 
 void take(png_structp png, png_bytep room, std::size_t count) noexcept {

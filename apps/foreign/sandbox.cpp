@@ -108,7 +108,7 @@ bool tie_to_parent() { return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0; }
 
 void be_first_to_end() { std::ofstream("/proc/self/oom_score_adj") << 1000; }
 
-/// Of kernel 5.13 and later. Its later versions know of more that can be done to a file, and of what else can be reached.
+/// Uses Landlock (kernel 5.13 and later). Later versions know more file accesses and other resources.
 Forbidden forbid_by_landlock() {
   const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (version < 1) {

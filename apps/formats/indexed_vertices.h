@@ -10,7 +10,7 @@ namespace dmpc::apps {
 
 struct IndexedVertices {
   std::vector<core::Vec3d> points;     ///< no more than there are indices
-  std::vector<std::uint32_t> indices;  ///< of the point of each vertex, in the order of the scene's
+  std::vector<std::uint32_t> indices;  ///< point of each vertex, in the scene's order
 };
 
 /// As a scene has them.

@@ -18,7 +18,7 @@ struct MeshFile {
   core::Scene scene;
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
   std::vector<MeshSky> skies;      ///< whose lights add up; none unless the options say that they are shown
-  StillScene still;                ///< where an animation is asked for, but for its view: at its moment
+  StillScene still;                ///< where an animation is asked for: the still scene at its moment, without its view
   OpenedFiles opened;              ///< with those of the textures
 };
 
@@ -26,18 +26,18 @@ struct MeshFile {
 const std::vector<std::string>& mesh_extensions();
 /// Whether the path ends as mesh files do, whatever the case of its letters, also those of formats that are refused by name.
 bool is_mesh_path(const std::string& path);
-/// Of these, whether it is a whole scene, with lights and a sky of its own (pbrt's): by paths that is what it is shown by.
+/// Whether the mesh file is a whole scene with its own lights and sky (pbrt's), by which path tracing shows it.
 bool has_own_sky(const std::string& path);
-/// Of these, whether its animations can be played (glTF's).
+/// Whether the mesh file can contain animations that are played (glTF's).
 bool is_played(const std::string& path);
 /// "obj, ply, ...", for messages.
 std::string known_mesh_formats();
 
-/// What apps/foreign/mesh_reader.h makes of the file, in a process that opens nothing itself, may take but so much memory and
-/// time, and whose crash is an error of the file's. Of what the file refers to only ordinary files beside or below it are opened,
-/// unless `options` allow others. Throws core::InputError "PATH: ..." for what cannot be read or makes no scene
-/// (apps/foreign/mesh/geometry.h, apps/foreign/gltf/places.h), has no triangle at all, or refers to files that cannot be had,
-/// unless `options` allow that; core::CapacityError or std::bad_alloc if memory ends. `shows_progress` on stderr.
+/// Reads the file by apps/foreign/mesh_reader.h in a process that cannot open files itself and has limited memory and time; its
+/// crash is reported as an error of the file. Only ordinary files beside or below the file are opened for it, unless `options`
+/// allow others. Throws core::InputError "PATH: ..." for a file that cannot be read or makes no scene
+/// (apps/foreign/mesh/geometry.h, apps/foreign/gltf/places.h), has no triangle at all, or refers to missing files, unless
+/// `options` allow that; core::CapacityError or std::bad_alloc if memory is exhausted. `shows_progress` on stderr.
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options = {}, bool shows_progress = false);
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits);
 

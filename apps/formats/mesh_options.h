@@ -15,13 +15,13 @@ namespace dmpc::apps {
 
 /// What a file without a camera or lights is seen and lit by: else they would sway with what moves. All at 0 seconds.
 struct StillScene {
-  BoundingSphere bounds;   ///< of all
+  BoundingSphere bounds;   ///< bounds the whole scene
   core::View view;         ///< the file's or ours
   double light_share = 1;  ///< by which lights of its own shine that are too bright
 };
 
 struct AnimationMoment {
-  std::string name;                 ///< of the file's animation; empty: the first
+  std::string name;                 ///< name of the animation in the file; empty: the first
   double seconds = 0;               ///< from 0 on; behind its end it stands still
   double frames_per_second = 24;    ///< for what is said of its length
   std::optional<StillScene> still;  ///< nothing: this moment is it
@@ -38,10 +38,10 @@ struct MeshOptions {
   /// Another view is taken, or other lights, so that nothing is said of the file's.
   bool is_seen_otherwise = false, is_lit_otherwise = false, is_below_sky = false;
   bool is_below_own_sky = false;  ///< the sky that the file says itself
-  /// What shines by itself is a light, and textures of metal and roughness are read, which no other transport shows.
+  /// Emissive surfaces become lights, and metal and roughness textures are read; only path tracing shows these.
   bool is_by_paths = false;
-  core::Copies copies = core::Copies::put;   ///< of meshes that stand in several places
-  std::optional<AnimationMoment> animation;  ///< of glTF; nothing: nodes stand as the file says
+  core::Copies copies = core::Copies::put;   ///< for meshes with several instances
+  std::optional<AnimationMoment> animation;  ///< glTF only; nothing: nodes stand as the file says
 };
 
 }  // namespace dmpc::apps

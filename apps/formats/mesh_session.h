@@ -56,10 +56,10 @@ class MeshSession {
   bool shows_progress_ = false;
   Progress progress_;
   PictureReader pictures_;
-  ReadingBudget budget_;  ///< of the scene's own files, and of all questions about others
+  ReadingBudget budget_;  ///< covers the scene's own files and all requests for others
   ReaderProcess process_;
   SceneReceiver receiver_;
-  std::string bytes_;     ///< of the texture that is sent
+  std::string bytes_;     ///< the texture that is being sent
   bool can_copy_ = true;  ///< lists from where they lie in its reader
   std::uint64_t note_bytes_ = 0;
   MeshFile result_;

@@ -43,7 +43,7 @@ Vec3d light_from(const MeshSky& sky, const Vec3d& world) {
   return (row(top) * (1 - down) + row(top + 1) * down) * sky.scale;
 }
 
-/// Of a picture as core/scene/sky_texels.h has them, whose middle lies along `middle`, its left half to the left.
+/// Directions of a picture as in core/scene/sky_texels.h: its middle lies along `middle`, its left half to the left.
 struct Directions {
   Vec3d up, middle, right;
 

@@ -55,8 +55,8 @@ class NffTokens {
   std::string_view text_;                           ///< the current line
   std::string_view token_;                          ///< in text_; empty if it is not cut yet
   std::size_t position_ = 0;                        ///< in text_, behind token_
-  std::size_t line_ = 0;                            ///< of text_, from 1
-  std::size_t taken_line_ = 0;                      ///< of the token taken last
+  std::size_t line_ = 0;                            ///< line in text_, from 1
+  std::size_t taken_line_ = 0;                      ///< line of the token taken last
   std::uint64_t bytes_read_ = 0, token_bytes_ = 0;  ///< up to the end of the current line, and of that of the last token
 };
 

@@ -10,7 +10,7 @@ namespace dmpc::apps {
 /// ("OBJ"): half to twice as much for triangles that share vertices. 0 for formats whose files name others that hold the meshes.
 std::uint64_t estimated_reading_bytes(const std::string& format, std::uint64_t file_bytes);
 
-/// Throws core::CapacityError, with both figures, if so many triangles cannot have a database.
+/// Throws core::CapacityError, with both figures, if a database of this many triangles does not fit.
 void check_database(std::uint64_t triangles);
 
 }  // namespace dmpc::apps

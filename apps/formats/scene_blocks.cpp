@@ -48,7 +48,7 @@ class BlockSender {
       if (!migration(part, saying) && !send_messages(part, sizeof(T), saying)) {
         return false;
       }
-      const std::size_t before = std::min(first, page);  // of the page that the last part ended in
+      const std::size_t before = std::min(first, page);  // bytes in the page in which the last part ended
       core::give_back(all.subspan(first - before, before + part.size()));
     }
     core::forget(pool);
@@ -98,7 +98,7 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   return true;
 }
 
-/// Of a file that does not say how many.
+/// For a file that does not say its number of bounces.
 constexpr int no_bounces = -1;
 
 /// Calls take(saying, list) for each that is announced, in order.
@@ -247,7 +247,7 @@ bool SceneReceiver::append_vertices(std::uint64_t bytes, const Fill& fill) {
   return true;
 }
 
-/// Of triangles of one colour, as most objects are, a few comparisons tell what check_object() would.
+/// Most objects are triangles of one colour: a few comparisons replace check_object() for them.
 void SceneReceiver::check_objects() const {
   const bool is_textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                        [](const core::Material& material) { return material.microfacets.have_texture(); });
@@ -359,7 +359,7 @@ void SceneReceiver::settle_instances() {
   check_copies();
 }
 
-/// Of those that are left out no corner lies beyond what is allowed, either.
+/// Copies that are left out must have all corners within the allowed range, too.
 void SceneReceiver::check_copies() const {
   if (!leaves_copies_out(scene_)) {
     return;

@@ -48,8 +48,8 @@ class SceneReceiver {
   bool take(const Message& message);
   /// Fills some room, and returns whether it could.
   using Fill = std::function<bool(std::span<std::byte>)>;
-  /// Takes so many bytes of a list's entries, as from a message of `saying`, from `fill`, piece by piece. Returns false, and has
-  /// none of them, if that does.
+  /// Reads `bytes` of a list's entries from `fill`, piece by piece, as from a message of `saying`. Returns false, and keeps none
+  /// of them, if `fill` does.
   bool take_from(Saying saying, std::uint64_t bytes, const Fill& fill);
   /// Throws Nonsense if there are too many.
   void add(core::Texture texture);
@@ -77,7 +77,7 @@ class SceneReceiver {
   core::Copies copies_;
   core::Scene scene_;
   core::Instances instances_;
-  std::vector<core::Vec3d> points_;            ///< of the scene's vertices
+  std::vector<core::Vec3d> points_;            ///< the scene's vertices
   std::map<Saying, std::uint64_t> announced_;  ///< how many entries there will be of each list
   bool has_head_ = false;
 };

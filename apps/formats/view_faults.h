@@ -20,7 +20,7 @@ bool is_in_reach(const core::Box& box, const core::Transform& world);
 enum class ViewFault : std::uint8_t {
   angle,      ///< not between 0 and 180 degrees, both excluded
   far_from,   ///< `from` has a coordinate beyond view_coordinate_max, or not a number
-  far_at,     ///< the same of `at`
+  far_at,     ///< `at` is too far away
   direction,  ///< from and at are one point
   up          ///< zero, or parallel to the line from `from` to `at`
 };

@@ -13,8 +13,8 @@
 
 namespace dmpc::apps {
 
-/// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them, with that
-/// of the spheres; without any, of radius 1 about 0. A point that no vertex has is none.
+/// A sphere around the middle of the bounding box of `objects`, of all instances and of the spheres; of radius 1 about 0 if there
+/// are none. Points that no vertex uses do not count.
 BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
                              const core::Instances& instances, std::span<const core::Sphere> spheres = {});
 

@@ -54,9 +54,9 @@ Senders to_node(std::uint32_t target, std::uint32_t count = 1);
 /// A kind of packet. Either it has senders, or it is the answer to one that has.
 struct PacketNeed {
   std::string name;                         ///< for counters and traces
-  std::size_t bytes_max = small_bytes_max;  ///< of the payload
-  /// What may be sent. Where an answer is declared the right to send comes back with each answer; else so many are all that a
-  /// node can send to another in a run.
+  std::size_t bytes_max = small_bytes_max;  ///< payload's maximum
+  /// Who may send. If the packet has an answer, the right to send returns with each answer; otherwise this is the number of
+  /// packets that a node can send to another in a run.
   Senders senders = {};
   /// The name of the packet that it answers: its place is kept from the moment when that is sent.
   std::string answers = {};
@@ -79,13 +79,13 @@ struct MemoryNeed {
 struct Needs {
   std::vector<PacketNeed> packets = {};
   std::vector<OperationNeed> operations = {};
-  std::vector<MemoryNeed> memory = {};  ///< of each node
+  std::vector<MemoryNeed> memory = {};  ///< per node
 };
 
 /// A received packet: valid only during the call of Program::receive().
 struct Packet {
   std::uint32_t source = 0;
-  Index kind = 0;  ///< of Needs::packets
+  Index kind = 0;  ///< index in Needs::packets
   std::span<const std::byte> payload;
 
   /// The payload as a value. Throws ProgramError if it has another size.
@@ -132,7 +132,7 @@ class Node {
   /// none.
   virtual void answer(std::uint32_t target, Index packet, std::span<const std::byte> payload = {}) = 0;
 
-  /// Counts so many operations: on a modelled machine they take their time.
+  /// Counts `count` operations, which take time on a modelled machine.
   virtual void charge(Index operation, std::uint64_t count = 1) = 0;
 
  protected:
@@ -193,8 +193,8 @@ template <class P>
 struct Application {
   std::string description;  ///< what it does, a sentence
   std::vector<NumberOption> options = {};
-  /// What so many nodes need. Called once the options are read, on every rank. Throws UsageError for options that do not go
-  /// together.
+  /// The needs of `node_count` nodes. Called on every rank once the options are read. Throws UsageError for options that
+  /// contradict each other.
   std::function<Needs(std::uint32_t node_count)> needs;
   /// A node's program, on the rank where the node is.
   std::function<std::unique_ptr<P>(Node&)> make = [](Node& node) { return std::make_unique<P>(node); };
@@ -208,7 +208,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An application whatever its programs' type; what they leave as bytes.
+/// An application with its programs' type erased; results are bytes.
 struct AnyApplication {
   std::string description;
   std::vector<NumberOption> options;

@@ -48,14 +48,14 @@ class Pages {
     }
     return place != nullptr;
   }
-  /// Counts so many operations: on a modelled machine they take their time. Look-ups are counted without it.
+  /// Counts `count` operations, which take time on a modelled machine. Look-ups are counted without it.
   virtual void charge(Index operation, std::uint64_t count = 1) = 0;
 
  protected:
   ~Pages() = default;
 };
 
-/// A kind of task whatever its type: bytes in a node's memory.
+/// A kind of task with its type erased: bytes in a node's memory.
 struct AnyTask {
   std::size_t task_bytes = 0, result_bytes = 0;
   std::function<void(std::byte* task, std::uint32_t number)> make;

@@ -9,7 +9,7 @@
 
 namespace dmpc {
 
-/// Of what follows; dmpc refuses a library that was made for another.
+/// Version of this interface; dmpc refuses a library that was built for another one.
 inline constexpr std::uint32_t policy_version = 1;
 
 /// Decides which page leaves a full cache when another one arrives. Made anew for each cache, by Class(frame_count, node): a
@@ -30,7 +30,7 @@ class Policy {
 /// What a library exports. A function returns nullptr, or what went wrong, in words that last until the next call.
 struct PolicyTable {
   std::uint32_t version;  ///< policy_version
-  const char* name;       ///< of its column: up to 32 letters, digits, "-", "_" or "."; none of dmpc's own policies
+  const char* name;       ///< column name: up to 32 letters, digits, "-", "_" or "."; no name of dmpc's own policies
   const char* (*make)(std::uint32_t frame_count, std::uint32_t node, void** policy);
   const char* (*hit)(void* policy, std::uint32_t page, std::uint32_t frame);
   const char* (*insert)(void* policy, std::uint32_t page, std::uint32_t frame);

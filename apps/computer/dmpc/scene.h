@@ -14,7 +14,8 @@
 
 namespace dmpc {
 
-/// What Pages::find() gives a pixel must be readable for so many bytes behind the end of its page, whatever is there.
+/// A page from Pages::find() that is given to a pixel must be readable for this many bytes behind its end; their values do not
+/// matter.
 inline constexpr std::size_t overread_bytes = 32;
 
 /// A scene and a picture of it, one sample a pixel. Never changes: the programs of nodes may refer to it for what is no record.

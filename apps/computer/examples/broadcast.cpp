@@ -19,7 +19,7 @@ enum Memory : dmpc::Index { pieces, order };
 struct Tree {
   std::uint32_t bytes = 65536, children = 0, pieces = 1;
 
-  /// Of a piece with its number in front.
+  /// Size of a piece with its number in front.
   std::size_t piece_bytes() const { return sizeof(std::uint32_t) + (bytes + pieces - 1) / pieces; }
 
   /// The `i`-th to whom `node` sends, if that is below the number of nodes. In a binomial tree all nodes below 2^r send to the

@@ -62,7 +62,7 @@ class StaticMap {
   std::uint32_t first_pixel(std::uint32_t node) const {
     return static_cast<std::uint32_t>(std::uint64_t{scene_.pixel_count()} * node / node_count_);
   }
-  /// Those at home at the node, and those that it keeps.
+  /// The pages that have their home at the node, and those that it keeps.
   const std::vector<PageNumber>& pages(std::uint32_t node) const { return pages_[node]; }
 
   /// The bytes of the node with the most; the last place is for a page that is asked for.
@@ -173,11 +173,11 @@ class ImageParallel final : public dmpc::Program, private dmpc::Pages {
   dmpc::Node& node_;
   const StaticMap& map_;
   std::size_t page_bytes_;
-  std::uint32_t first_, count_;  ///< of its pixels
+  std::uint32_t first_, count_;  ///< the node's pixels
   std::span<std::byte> bytes_;
   std::span<std::uint32_t> slot_of_;  ///< by page
   dmpc::PixelTask task_;
-  std::span<dmpc::Light> light_;  ///< of the pixels done
+  std::span<dmpc::Light> light_;  ///< results of the pixels done
   std::uint32_t slot_count_ = 0, done_ = 0;
   PageNumber wanted_ = 0;
   std::optional<PageNumber> passing_page_;  ///< in the last slot

@@ -22,7 +22,7 @@ constexpr double damping = 0.85;
 
 /// A few vertices point at many.
 struct Graph {
-  std::vector<std::vector<std::uint32_t>> sources;  ///< of the edges to each vertex
+  std::vector<std::vector<std::uint32_t>> sources;  ///< sources of the edges to each vertex
   std::vector<std::uint32_t> out_degrees;
 };
 

@@ -95,7 +95,7 @@ struct PixelTask::State {
   core::Operations operations;
   nodes::Charges charged;
 
-  /// Those that have come since the last call.
+  /// Charges the operations since the last call.
   void charge(Pages& pages) {
     const nodes::Charges all{core::charges_of(operations)};
     for (Index i = 0; i < scene_charges.size(); ++i) {

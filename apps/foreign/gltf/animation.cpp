@@ -41,7 +41,7 @@ double dot(const Numbers& a, const Numbers& b) {
   return sum;
 }
 
-/// Of length 1; `where` is told of one that has no direction.
+/// Normalizes a rotation; `where` reports one that has no direction.
 Numbers unit(const Numbers& rotation, const Part& where) {
   const double length = std::sqrt(dot(rotation, rotation));
   if (!(length > 0 && std::isfinite(length))) {
@@ -172,7 +172,7 @@ const Part& animation_called(const std::string& name, const std::vector<Part>& a
   return *found;
 }
 
-/// Of an animation, as it goes on after its name. Some last longer than anybody counts frames.
+/// Length of an animation as text after its name. Some last longer than frames can be counted.
 std::string length_text(double seconds, double frames_per_second) {
   const double last = std::ceil(seconds * frames_per_second) + 1;
   return " takes " + rounded(seconds) + " seconds" +

@@ -20,12 +20,13 @@ struct NodePose {
 /// By places in the document's list of nodes; those that no channel moves are not in it.
 using Pose = std::map<std::size_t, NodePose>;
 
-/// The pose at a moment of the animation that it names: between keyframes as the sampler says (glTF 2.0, appendix C: STEP,
-/// LINEAR, of rotations spherical, CUBICSPLINE), before the first and behind the last as there. By + - * / and roots alone, so
-/// that it is the same on every computer. `notes` gets how long the animation is, and what of it is not played: morph weights,
-/// and what extensions move. Throws core::InputError, by its place in the document, for an animation that is not there (with the
-/// names of those that are) or does not hold together: keyframes whose times are no numbers from 0 on that ascend, other counts
-/// of values than of times, numbers that are not finite, a node that does not exist, has a matrix, or is moved twice in one way.
+/// The pose at a moment of the named animation: between keyframes as the sampler says (glTF 2.0, appendix C: STEP, LINEAR,
+/// spherical for rotations, CUBICSPLINE), before the first and after the last as at these. It uses + - * / and roots alone, so
+/// that it is the same on every computer. `notes` gets the animation's length and what is not played: morph weights, and
+/// properties that extensions animate. Throws core::InputError, with the place in the document, for an animation that does not
+/// exist (with the names of those that do) or is inconsistent: keyframe times that are not ascending numbers from 0, different
+/// numbers of values and times, numbers that are not finite, a node that does not exist, has a matrix, or is moved twice in one
+/// way.
 Pose pose_at(const AnimationMoment& moment, const Document& document, Accessors& accessors, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps::gltf

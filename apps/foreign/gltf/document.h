@@ -12,7 +12,7 @@ namespace dmpc::apps::gltf {
 
 struct Document {
   nlohmann::json json;
-  std::optional<std::span<const std::byte>> chunk;  ///< of the file's bytes
+  std::optional<std::span<const std::byte>> chunk;  ///< part of the file's bytes
 
   Part root() const { return Part(json); }
 };

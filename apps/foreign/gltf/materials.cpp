@@ -135,7 +135,7 @@ class MaterialReader {
   Buffers& buffers_;
   SceneTotals& totals_;
   PlacedFile& file_;
-  std::map<std::size_t, std::size_t> numbers_;  ///< of images within the document among the file's pictures
+  std::map<std::size_t, std::size_t> numbers_;  ///< images within the document -> the file's pictures
   std::uint64_t without_picture_ = 0;
 };
 

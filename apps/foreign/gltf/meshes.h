@@ -27,9 +27,9 @@ struct PrimitiveMesh {
 
 struct Meshes {
   std::vector<std::pair<std::size_t, std::size_t>>
-      ranges;  ///< of each mesh of the document: its first primitive, one past its last
+      ranges;  ///< per mesh of the document: its first primitive, one past its last
   std::vector<PrimitiveMesh> list;
-  std::uint64_t corners_left_over = 0;  ///< of lists whose length is no multiple of three
+  std::uint64_t corners_left_over = 0;  ///< in lists whose length is no multiple of three
 };
 
 /// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by

@@ -17,7 +17,7 @@ constexpr int shorter_side = 512;
 constexpr double aspect_max = 16;
 constexpr double pi = std::numbers::pi, degrees_of_radian = 57.295779513082320877;
 
-/// Translation after rotation after scale. `where` names it. A quaternion that is rounded to bytes is of length 1 but for this.
+/// Translation after rotation after scale. `where` names it. A quaternion rounded to bytes has length 1 within this tolerance.
 Transform transform_of(const std::vector<double>& translation, const std::vector<double>& q, const std::vector<double>& scale,
                        const Part& where) {
   constexpr double rounding = 0.02;
@@ -115,7 +115,7 @@ std::vector<Transform> Tree::instances(const Part& instancing, const Transform& 
   read("SCALE", 3, scales);
   const auto where = [&instancing] { return instancing.where() + ": "; };
   totals_.add({.bytes = count * sizeof(Transform)}, where);
-  totals_.ask(size_of_places(count), where);  // of one primitive at least
+  totals_.ask(size_of_places(count), where);  // a mesh has at least one primitive
   std::vector<Transform> places;
   places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {

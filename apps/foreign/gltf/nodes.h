@@ -19,22 +19,22 @@ namespace dmpc::apps::gltf {
 struct MeshUse {
   std::string node;  ///< its name
   std::size_t mesh = 0;
-  std::vector<Transform> places;            ///< in the world: one, but for instances
+  std::vector<Transform> places;            ///< to world space: one, or more for GPU instances
   std::optional<Part> skin = std::nullopt;  ///< the member that names what holds it
 };
 
 struct Nodes {
-  std::map<std::size_t, Transform> worlds;  ///< of the scene's nodes, by their places in the document
+  std::map<std::size_t, Transform> worlds;  ///< the scene's nodes, by their indices in the document
   std::vector<MeshUse> uses;                ///< in the tree's order
   std::vector<FileView> views;              ///< in the document's order of cameras, and so are lights
   std::vector<FileLight> lights;
 };
 
-/// Of the document's scene, the first if it names none; what hidden ones (KHR_node_visibility) would show is left out, and
-/// instances (EXT_mesh_gpu_instancing) are one use in many places. What `pose` says of a node takes the place of what it says
-/// itself. A camera's own picture has 512 pixels on its shorter side; its angle spans the vertical of a picture of `size`, its
-/// own if none is given, from edge to edge (core::View's goes between the middles of pixels). Throws core::InputError, by its
-/// place in the document, for nodes that are no tree, and for transforms that are none.
+/// Reads the nodes of the document's scene, the first if it names none, without the contents of hidden nodes
+/// (KHR_node_visibility); instances (EXT_mesh_gpu_instancing) are one use with many transforms. `pose` overrides nodes' own
+/// transforms. A camera's own picture has 512 pixels on its shorter side; its angle spans the vertical of a picture of `size`,
+/// its own if none is given, from edge to edge (core::View's goes between the middles of pixels). Throws core::InputError, with
+/// the place in the document, for nodes that are no tree and for invalid transforms.
 Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose,
                  const std::optional<Resolution>& size, SceneTotals& totals);
 

@@ -104,7 +104,7 @@ std::vector<Hold> holds_of(const Influences& influences, std::size_t vertex, std
   return holds;
 }
 
-/// Of each vertex.
+/// The skin's transform for each vertex.
 std::vector<Transform> Skins::transforms_of(const PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const {
   const Part& skin = skins_[use.skin->as_index(skins_.size(), "skins")];
   const std::vector<Transform> joints = joints_of(skin);

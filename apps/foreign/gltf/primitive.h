@@ -13,7 +13,7 @@ namespace dmpc::apps::gltf {
 struct Primitive {
   /// POSITION, NORMAL, all TEXCOORD_n, JOINTS_n and WEIGHTS_n, and COLOR_0, those that it has, with as many vectors each.
   std::map<std::string, Values> attributes;
-  std::vector<std::uint32_t> indices;  ///< of vertices that exist; 0, 1, 2, ... where the file has none
+  std::vector<std::uint32_t> indices;  ///< valid vertices; 0, 1, 2, ... where the file has none
 };
 
 /// Numbers of a colour: with alpha, and without.

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// glTF's numbers are floats, but for those of nodes.
+/// glTF's numbers are floats, except those of nodes.
 constexpr double float_rounding = 0x1p-25;
 
 PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options, SceneTotals& totals) {

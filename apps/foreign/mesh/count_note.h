@@ -21,7 +21,7 @@ inline void note_count(std::vector<std::string>& notes, const std::string& what,
   }
 }
 
-/// Counts of each kind, in the order in which they come first: of so many kinds each, as a file may name as many as it has lines.
+/// Counts per kind in the order of first occurrence; the number of kinds is limited, as a file may name as many as it has lines.
 class Notes {
  public:
   static constexpr std::size_t kinds_max = 100;

@@ -199,7 +199,7 @@ void GeometryWriter::add(const core::Sphere& sphere, core::Material material) {
   builder_.sphere(sphere.center, sphere.radius);
 }
 
-/// Of a mesh that has but a few of the vertices that it names each corner gets its own, for others may name them, too.
+/// If a mesh has far fewer vertices than it names, each corner gets its own, since others may name them, too.
 void GeometryWriter::keep_vertices(std::vector<Vec3d> points, std::vector<std::uint32_t> indices) {
   if (points.size() > indices.size()) {
     points = expanded({std::move(points), indices});

@@ -21,10 +21,10 @@ namespace dmpc::apps {
 /// As many colours of faces become materials; what has others has them at its corners.
 inline constexpr std::size_t face_colors_max = 256;
 
-/// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured
-/// ones if the material has a texture and the mesh has places on it, coloured ones if it has none and the mesh has colours. Faces
-/// of one colour have a material of that colour, as long as there are few such. What stands in several places is added once, by
-/// add_shared(), and then has its places, by place(): instances, which whoever takes the scene has to expand.
+/// Adds meshes to a scene. Faces become polygons, or patches where vertex normals differ from the face's own; textured ones if
+/// the material has a texture and the mesh has texture coordinates, coloured ones if it has no texture and the mesh has colours.
+/// Faces of one colour share a material of that colour, as long as there are few. A mesh with several instances is added once by
+/// add_shared() and then instanced by place(); whoever takes the scene has to expand the instances.
 class GeometryWriter {
  public:
   /// The scene has no vertices, which go to `vertices`, and nobody else adds to it. `smooth_degrees`: vertex normals are reckoned
@@ -43,7 +43,7 @@ class GeometryWriter {
   /// Puts a shared mesh in a place, behind all that came before in the file's order. Throws core::InputError with the mesh's name
   /// if that takes it beyond 1e30.
   void place(std::uint32_t mesh, const core::Transform& world);
-  /// Of all shared meshes.
+  /// The instances of all shared meshes.
   const core::Instances& instances() const { return instances_; }
 
   /// A sphere, about which a texture says nothing.
@@ -92,10 +92,10 @@ class GeometryWriter {
   std::vector<Shared> shared_;  ///< by Instances::meshes
   bool is_shared_ = false;      ///< what is being added
   bool has_area_ = false;
-  bool has_places_ = false, hides_colors_ = false;  ///< of the run that is being added
+  bool has_places_ = false, hides_colors_ = false;  ///< the current run's
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0, strays_ = 0;
   std::string first_stray_;
-  std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
+  std::set<std::array<double, 3>> face_colors_;  ///< colours of single-coloured faces
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::Vec3d> smooth_;  ///< normals that were reckoned anew, a corner of the mesh each
   std::vector<core::TexturedCorner> face_corners_;

@@ -21,7 +21,7 @@ constexpr double far_radii = 1000, near_radii = 1.0 / 1000;
 
 double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z}); }
 
-/// Of channels whose squares are numbers.
+/// Limits channels to values whose squares are finite.
 Vec3d clean(const Vec3d& color) {
   const auto channel = [](double share) { return std::isfinite(share) ? std::clamp(share, 0.0, 1e100) : 0.0; };
   return {channel(color.x), channel(color.y), channel(color.z)};
@@ -43,7 +43,7 @@ void scale_down(std::vector<PointLight>& lights) {
   }
 }
 
-/// Of ours an irradiance of pi is 1.
+/// Our lights' intensity 1 is an irradiance of pi.
 PointLight falling(const FileLight& light, const BoundingSphere& bounds, double scale) {
   constexpr double least = 1e-29;
   return {.position = light.position * scale,

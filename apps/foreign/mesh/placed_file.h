@@ -30,12 +30,12 @@ struct TextureUse {
   TextureEdges edges{.alpha = TextureAlpha::said};
 };
 
-/// A material as one of ours, but for its textures, which are still to be read.
+/// A material converted to ours, without its textures, which are still to be read.
 struct FileMaterial {
   core::Material material;
   std::optional<TextureUse> texture = std::nullopt;  ///< that `material`'s colour is multiplied by
   TexturePlace place{};                              ///< on that
-  std::optional<TextureUse> facets = std::nullopt;   ///< of metal and roughness: what glTF's metallicRoughnessTexture says
+  std::optional<TextureUse> facets = std::nullopt;   ///< metal and roughness: glTF's metallicRoughnessTexture
   bool lie_facets_there = false;                     ///< where `texture` does
   bool is_cut_away = false;                          ///< nothing of the surface is there
 };
@@ -49,13 +49,13 @@ struct ShapePlace {
 /// In its own coordinates.
 struct PlacedShape {
   PolygonMesh mesh;                 ///< with a material; without faces where it is round
-  std::optional<RoundShape> round;  ///< becomes a mesh where it stands, but for balls that stay balls
+  std::optional<RoundShape> round;  ///< becomes a mesh where it stands, unless it stays a ball
   std::optional<std::size_t> back;  ///< the material of what it shows behind, where it shines to the front alone
   bool is_turned = false;           ///< its faces look to the other side
   std::uint64_t uses = 0;           ///< how many places it has
 
   bool is_ball() const { return round && round->is_ball(); }
-  /// Of a ball that of one that stays.
+  /// Size of a copy; for a ball, as if it stays one.
   GeometrySize size_of_copy() const {
     return is_ball() ? GeometrySize{.bytes = sizeof(core::Object) + sizeof(core::Sphere)}
            : round   ? apps::size_of_copy(*round)
@@ -72,9 +72,9 @@ enum class FileLightKind : std::uint8_t { point, spot, distant };
 
 struct FileLight {
   FileLightKind kind{};
-  core::Vec3d position;    ///< of a distant one: the way that its light goes, of unit length if it goes anywhere
-  core::Vec3d intensity;   ///< of a distant one: what a surface gets that faces it
-  core::LightCone cone{};  ///< of what does not shine all round
+  core::Vec3d position;    ///< for a distant light: the direction of its light, normalized unless zero
+  core::Vec3d intensity;   ///< for a distant light: what a surface receives that faces it
+  core::LightCone cone{};  ///< for a light that does not shine in all directions
   bool has_range = false;  ///< beyond which its file has it not shine
 };
 
@@ -95,7 +95,7 @@ struct PlacedFile {
   /// Its lights are all that there is, and as physics has them: a point's intensity falls off with the square of the distance.
   /// Else those of other files do not fall off, and ours take the place of none.
   bool is_lit_whole = false;
-  core::Vec3d background;            ///< of what is lit whole: light from everywhere
+  core::Vec3d background;            ///< ambient light, from everywhere
   std::vector<FileSky> skies;        ///< beside that
   std::vector<std::string> notes;    ///< what of the file is not shown as it is, a sentence each
   std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once

@@ -17,7 +17,7 @@ namespace dmpc::apps {
 /// Polygons over a list of vertices, one after the other.
 struct FaceList {
   std::vector<std::uint32_t> corners;  ///< indices of vertices
-  std::vector<std::uint32_t> ends;     ///< of each face: one past its last corner
+  std::vector<std::uint32_t> ends;     ///< per face: one past its last corner
 
   std::size_t begin_of(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
 };
@@ -45,10 +45,10 @@ struct PolygonMesh {
   std::vector<core::Vec3d> vertices;         ///< in coordinates of its own
   FaceList faces;                            ///< each of at least 3 corners, of vertices that exist
   bool is_by_vertex = false;                 ///< what follows is each vertex's, not each corner's
-  std::vector<core::Vec3d> normals;          ///< of any length, or none; where all of a face are 0 it is flat
+  std::vector<core::Vec3d> normals;          ///< not normalized, or none; a face whose normals are all 0 is flat
   std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards, or none
   std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied, or none
-  std::vector<double> alphas;                ///< of `colors`, 0 to 1, or none where all are 1
+  std::vector<double> alphas;                ///< alpha of `colors`, 0 to 1; none where all are 1
   std::vector<FaceRun> runs;                 ///< all faces, in order; or none
 
   /// The index of what a corner has among normals, places, colors and alphas.

@@ -18,7 +18,7 @@ enum class RoundKind : std::uint8_t { sphere, cylinder, ring };
 struct RoundShape {
   RoundKind kind{};
   double radius = 1;
-  double least_z = -1, most_z = 1;  ///< of a sphere within the radius
+  double least_z = -1, most_z = 1;  ///< clips a sphere, in units of its radius
   double degrees = 360;             ///< above 0
   double inner = 0;                 ///< a ring's hole
 

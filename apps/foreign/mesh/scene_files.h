@@ -46,7 +46,6 @@ class SceneFiles {
   /// Whether add_texture() adds none, but has those weighed that come later: where they have no room, that ends all.
   virtual void only_weigh_textures(bool /*does*/) {}
 
-  /// Of the whole scene.
   SceneTotals& totals() { return totals_; }
   /// 0 to 1.
   virtual void show_progress(float share) = 0;

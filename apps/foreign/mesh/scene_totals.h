@@ -41,7 +41,7 @@ class SceneTotals {
     ask(more, where);
     size_ += more;
   }
-  /// The same of what is not there yet.
+  /// As above, for geometry that is not added yet.
   template <class Where>
   void ask(const GeometrySize& more, const Where& where) const {
     try {
@@ -51,7 +51,7 @@ class SceneTotals {
     }
   }
   void ask(const GeometrySize& more) const { check(GeometrySize(size_) += more); }
-  /// What a further place of a mesh takes, whose copy would take so much.
+  /// Size of a further instance of a mesh whose copy has size `copy`.
   GeometrySize size_of_place(const GeometrySize& copy) const;
 
  private:

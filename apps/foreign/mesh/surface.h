@@ -18,7 +18,7 @@ inline constexpr double light_max = 1e12;
 /// The largest exponent of a highlight; more is as much.
 inline constexpr std::uint32_t shine_max = 10'000;
 
-/// Phong's, as MTL has it. Colours are linear, in 0 to 1 but for emission.
+/// Phong surface as in MTL. Colours are linear, in 0 to 1 except for emission.
 struct PhongSurface {
   core::Vec3d diffuse, specular, emission;  ///< Kd, Ks, Ke
   double shine = 0;                         ///< Ns; 0 or less: there is no highlight
@@ -27,19 +27,19 @@ struct PhongSurface {
   std::optional<int> illumination;          ///< illum, if the file says it: 0 and 1 have no highlight, 3 to 9 mirror
 };
 
-/// glTF's. Colours are linear, in 0 to 1 but for emission.
+/// glTF's surface. Colours are linear, in 0 to 1 except for emission.
 struct MetallicSurface {
   core::Vec3d base{1, 1, 1}, emission;
   double metallic = 1, roughness = 1;
   double transmission = 0;
   double refraction_index = 1.5;  ///< 1 or less counts as 1.5
-  double opacity = 1;             ///< of what is blended; 1 of all else
+  double opacity = 1;             ///< of a blended surface; otherwise 1
 };
 
 /// By the table in apps/foreign/README.md. They mirror and transmit no more light than arrives, in any channel.
 core::Material material_of(const PhongSurface& surface);
 core::Material material_of(const MetallicSurface& surface);
-/// Of what says no more of itself than its colour, or nothing at all.
+/// Material of a surface that has at most a colour.
 core::Material plain_material(const core::Vec3d& color = {plain_grey, plain_grey, plain_grey});
 
 /// Phong's exponent for glTF's roughness, 0 to 1: half-vector exponent 2 / alpha^2 - 2 with alpha = roughness^2 (B. Walter and

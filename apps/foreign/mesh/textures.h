@@ -19,8 +19,8 @@ namespace dmpc::apps {
 /// Reads each texture once, from beside the mesh file or from within it.
 class TextureReader {
  public:
-  /// Of a file at `path` that holds `pictures` itself, which its materials call "*0", "*1", ... These and `files` outlive the
-  /// reader. `textures` get names alone.
+  /// For a file at `path` that embeds `pictures`, which its materials call "*0", "*1", ... These and `files` outlive the reader.
+  /// `textures` get names only.
   TextureReader(std::span<const MadePicture> pictures, const std::filesystem::path& path, SceneFiles& files,
                 std::vector<core::Texture>& textures)
       : pictures_(pictures), path_(path), files_(files), textures_(textures) {}
@@ -30,7 +30,7 @@ class TextureReader {
 
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
-  /// The same of one whose texels are numbers, no colours: one of the scene's by itself, whatever else shows its picture.
+  /// As above for a texture of numbers instead of colours: a separate texture, even if another one shows the same picture.
   std::optional<std::uint32_t> find_numbers(const TextureUse& use);
 
   /// "a.png: ...": what could not be had and why, once each, in the order of their names.

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t none = 0xffffffffU;
 struct Faces : FaceList {
   std::vector<std::uint32_t> places;   ///< a corner each, or `none`; empty until a corner has one
   std::vector<std::uint32_t> normals;  ///< a corner each, or `none`; empty until a corner has one
-  std::vector<std::uint32_t> groups;   ///< of each face: its smoothing group, 0 for none; empty if there is none in the file
+  std::vector<std::uint32_t> groups;   ///< smoothing group per face, 0 for none; empty if the file has none
 
   bool has_places(std::size_t face) const { return !places.empty() && places[begin_of(face)] != none; }
   bool has_normals(std::size_t face) const { return !normals.empty() && normals[begin_of(face)] != none; }

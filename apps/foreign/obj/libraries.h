@@ -13,8 +13,8 @@
 
 namespace dmpc::apps::obj {
 
-/// Of all materials in these files those that are asked for. A name is looked for as it stands, then without what looks like a
-/// remark behind it; of several materials with one name the first counts.
+/// Finds materials in these files by name: first the name as it stands, then without a trailing remark; of several materials with
+/// one name the first counts.
 class Libraries {
  public:
   /// `wanted`: names as usemtl says them.

@@ -20,7 +20,7 @@ bool is_beyond_unit(const Vec3d& v) { return is_beyond_unit(v.x) || is_beyond_un
 
 constexpr Vec3d white{1, 1, 1};
 
-/// What of a material is not shown.
+/// A feature of a material that is not shown.
 struct Loss {
   std::string what;
   bool (*is_there)(const MtlMaterial&);
@@ -58,7 +58,7 @@ const std::vector<Loss>& losses() {
   return all;
 }
 
-/// Of materials that some face has.
+/// Notes losses of materials that are used by a face.
 void note_losses(const std::vector<MtlMaterial>& materials, std::vector<std::string>& notes) {
   std::set<std::string> textures;
   std::map<std::string, std::uint64_t> options;
@@ -134,7 +134,7 @@ std::uint32_t Resolver::add(const MtlMaterial& source) {
   return static_cast<std::uint32_t>(result_.list.size() - 1);
 }
 
-/// Of the run's name. All without a material share one, whose key is null.
+/// Index of a run's material. All runs without a material share one, with a null key.
 std::uint32_t Resolver::index_of(std::uint32_t name) {
   const MtlMaterial* const source = source_of(name);
   if (name != none && source == nullptr) {

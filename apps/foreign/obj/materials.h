@@ -12,8 +12,8 @@
 namespace dmpc::apps::obj {
 
 struct Materials {
-  std::vector<FileMaterial> list;    ///< those that some face has, in the order of the faces
-  std::vector<TexturePlace> places;  ///< of each: where its faces' places lie on its texture
+  std::vector<FileMaterial> list;    ///< used materials, in the order of the faces
+  std::vector<TexturePlace> places;  ///< per material: how its texture coordinates are mapped
   std::vector<std::uint32_t> of_runs;
   std::vector<std::string> notes;  ///< what is not shown of them, a sentence each
 };

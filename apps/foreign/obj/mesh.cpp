@@ -23,7 +23,7 @@ std::vector<FaceRun> runs_of(const Geometry& geometry, const Materials& material
   return runs;
 }
 
-/// Of corners that have none of their own; empty if no face is smooth.
+/// Normals for corners that have none of their own; empty if no face is smooth.
 std::vector<Vec3d> group_normals(const Geometry& geometry) {
   constexpr double any_angle = 180;
   std::vector<std::uint32_t> groups = geometry.faces.groups;

@@ -25,7 +25,7 @@ Vec3d in_unit(const Vec3d& v) { return {in_unit(v.x), in_unit(v.y), in_unit(v.z)
 /// More than any file's name has.
 constexpr std::size_t name_bytes_max = 4096;
 
-/// Those that a picture of ours does not need, or cannot show beside the ones that are read.
+/// Keywords that our pictures do not need, or cannot show together with those that are read.
 constexpr std::array<std::string_view, 8> passed_over{"ka",    "sharpness", "ps",      "pcr",
                                                       "aniso", "anisor",    "map_aat", "ke_intensity"};
 

@@ -93,7 +93,7 @@ class Parser {
 
   /// 0 for what is none, which makes the vertex, place or normal a stray.
   double number(LineWords& words);
-  /// Of the last vertex, place or normal, if a number of it was none.
+  /// Remembers the last vertex, texture coordinate or normal that contains NaN.
   void keep_stray(Named what, std::size_t count, const LineWords& words);
   /// Throws if a face has a stray; notes the others.
   void judge_strays();
@@ -109,8 +109,8 @@ class Parser {
   CornerReader corner_reader_;
   std::vector<Corner> face_;  ///< the one that is read
   SceneTotals& totals_;
-  std::uint32_t group_ = 0;        ///< of smoothing, for the faces that follow
-  std::uint32_t material_ = none;  ///< the same
+  std::uint32_t group_ = 0;        ///< smoothing group of the faces that follow
+  std::uint32_t material_ = none;  ///< material of the faces that follow
   std::unordered_map<std::string, std::uint32_t> names_;
   std::unordered_set<std::string> libraries_;
   Notes tally_;
@@ -240,7 +240,7 @@ void Parser::vertex(LineWords& words) {
   }
 }
 
-/// Of the vertex that is read.
+/// Sets the current vertex's colour.
 void Parser::color(const Vec3d& color) {
   const auto clamped = [](double channel) { return std::clamp(channel, 0.0, 1.0); };
   const Vec3d shown{clamped(color.x), clamped(color.y), clamped(color.z)};

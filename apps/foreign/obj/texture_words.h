@@ -17,7 +17,7 @@ struct TextureWords {
   std::vector<std::string> left_out;  ///< other options, "-mm", that change the picture
 };
 
-/// From what follows the keyword. The last word is the name, whatever it looks like.
+/// Parses the text after the keyword. The last word is the file name, even if it looks like an option.
 TextureWords texture_words(std::string_view text);
 
 }  // namespace dmpc::apps::obj

@@ -39,7 +39,7 @@ double window_half(const Parameters& parameters, Notes& notes) {
   return half;
 }
 
-/// Of its light before the shutter opens: ISO over 100, and white made of a light's temperature.
+/// Exposure before the shutter: ISO over 100, and the white point from a temperature.
 Exposure exposure_of(const Parameters& parameters, Notes& notes) {
   Exposure exposure{.factor = parameters.number("iso", 100) / 100};
   if (!(exposure.factor > 0 && exposure.factor < 1e12)) {

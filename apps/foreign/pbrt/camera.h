@@ -23,14 +23,14 @@ struct Exposure {
 
 struct Film {
   Resolution size{1280, 720};
-  Exposure exposure;  ///< but for the camera's shutter
+  Exposure exposure;  ///< without the camera's shutter
 };
 
 /// Throws core::InputError for a film of pbrt-v3, and for more pixels than a picture may have.
 Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes);
 
 struct Camera {
-  double degrees = 90;      ///< of the shorter side, from edge to edge; 0 where it has no perspective
+  double degrees = 90;      ///< field of view of the shorter side, from edge to edge; 0 without perspective
   Transform from_world;     ///< to where x is right, y up and z ahead
   double open_seconds = 1;  ///< its shutter
 };

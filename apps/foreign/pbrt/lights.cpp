@@ -64,7 +64,7 @@ core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
   return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .edge = core::ConeEdge::smooth};
 }
 
-/// That of a square picture, as if it were round, of as many directions.
+/// Cone of a projector's square picture, as a circular cone of equal solid angle.
 core::LightCone projector_of(const Parameters& parameters, const Transform& world) {
   const double fov = parameters.number("fov", 90);
   const Vec3d ahead = world.direction({0, 0, 1});

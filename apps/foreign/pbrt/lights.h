@@ -15,7 +15,7 @@ namespace dmpc::apps::pbrt {
 /// What shapes shine with that follow an AreaLightSource statement.
 struct AreaLight {
   core::Vec3d radiance;
-  std::optional<double> power;  ///< of the whole shape: then `radiance` is of 1 for each unit of it that a white one would need
+  std::optional<double> power;  ///< of the whole shape; `radiance` is then relative to the power that a white light would need
   bool is_twosided = false;
 };
 

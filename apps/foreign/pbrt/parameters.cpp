@@ -33,12 +33,12 @@ constexpr std::array<TypeName, 13> type_names{{{"float", number},
                                                {"rgb", rgb},
                                                {"spectrum", spectrum},
                                                {"blackbody", blackbody}}};
-/// Of pbrt-v3.
+/// Types of pbrt-v3.
 constexpr std::array<std::string_view, 5> old_types{"point", "vector", "color", "xyz", "point4"};
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-/// Of how many numbers each value is.
+/// Numbers per value.
 std::size_t width_of(ParameterType type) {
   return type == point2 || type == vector2 ? 2 : type == point3 || type == vector3 || type == normal || type == rgb ? 3 : 1;
 }

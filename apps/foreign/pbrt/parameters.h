@@ -33,8 +33,8 @@ struct Parameter {
   ParameterType type{};
   std::string name;
   Place place;
-  std::vector<double> numbers;     ///< of what is none of text; booleans as 0 and 1
-  std::vector<std::string> texts;  ///< of strings, textures and spectra by name
+  std::vector<double> numbers;     ///< values other than text; booleans as 0 and 1
+  std::vector<std::string> texts;  ///< strings, and names of textures and spectra
   mutable bool is_used = false;
 };
 
@@ -51,7 +51,8 @@ class Parameters {
   void add_defaults(const Defaults& defaults) { defaults_ = defaults; }
   std::vector<Parameter> take_list() { return std::move(list_); }
 
-  /// Of this name and one of these types the last; nothing if there is none. Of another type it stays unused.
+  /// The last parameter with this name and one of these types; nothing if there is none. A parameter of another type stays
+  /// unused.
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types) const;
 
   bool name_textures() const;

@@ -264,7 +264,7 @@ PolygonMesh patch_mesh(const Parameters& parameters, const Tokens& tokens, Scene
 }
 
 PolygonMesh loop_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
-  constexpr std::uint64_t edge_bytes = 40;  // of a table while it is made
+  constexpr std::uint64_t edge_bytes = 40;  // per entry of a table during subdivision
   const std::vector<Vec3d> points = parameters.points("P", {point3});
   if (points.empty()) {
     parameters.fail("has no \"point3 P\"");

@@ -11,9 +11,9 @@
 
 namespace dmpc::apps::pbrt {
 
-/// Of a Shape statement; nothing for one that is not shown (curves), which is counted. Throws core::InputError, with its place,
-/// for indices of what does not exist, counts that do not match, numbers out of range, kinds that pbrt-v4 does not have, and
-/// files that cannot be had or read. `has_pictures`: some texture may ask where on a picture it lies.
+/// Makes the shape of a Shape statement; nothing for one that is not shown (curves), which is counted. Throws core::InputError,
+/// with its place, for invalid indices, counts that do not match, numbers out of range, kinds that pbrt-v4 does not have, and
+/// missing or unreadable files. `has_pictures`: a texture may need texture coordinates.
 std::optional<PlacedShape> shape_of(const std::string& kind, const Parameters& parameters, const Tokens& tokens,
                                     SceneFiles& files, Notes& notes, bool has_pictures);
 

@@ -49,7 +49,7 @@ Vec3d integral(const Value& value) {
 
 Vec3d without_negative(const Vec3d& color) { return {std::max(color.x, 0.0), std::max(color.y, 0.0), std::max(color.z, 0.0)}; }
 
-/// Of luminance 1.
+/// Normalizes to luminance 1.
 Vec3d light_of(const Vec3d& xyz) {
   const Vec3d color = xyz.y > 0 ? without_negative(rgb_of(xyz * (1 / xyz.y))) : Vec3d{};
   const double bright = luminance(color);
@@ -111,7 +111,7 @@ Vec3d blackbody_light(double kelvin) {
 
 Vec3d times(const std::array<Vec3d, 3>& rows, const Vec3d& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
 
-/// Of daylight of this temperature (CIE 15), by today's radiation constant; of a black body where it is redder than daylight is.
+/// White of daylight at this temperature (CIE 15), by today's radiation constant; of a black body below daylight's range.
 Vec3d white_of(double kelvin) {
   const double t = kelvin * (1.4388 / 1.4380);
   if (t < 4000) {

@@ -10,19 +10,19 @@
 
 namespace dmpc::apps::pbrt {
 
-/// What a spectrum is meant for. A reflectance is what a white light comes back as; light that is no rgb has the luminance 1,
-/// whatever its numbers, as pbrt-v4 scales it; an index is a number in each channel.
+/// A reflectance is the colour that white light comes back as; light that is not given as rgb has luminance 1, as pbrt-v4 scales
+/// it; an index is a number per channel.
 enum class SpectrumUse : std::uint8_t { reflectance, light, index };
 
-/// Of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances by daylight (D65). A spectrum is 0 beyond
-/// its points. Throws core::InputError at its place for numbers out of range, and for a light that is to be no light.
+/// Colour of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances under daylight (D65). A spectrum is
+/// 0 beyond its points. Throws core::InputError, with its place, for numbers out of range, and for a light without light.
 core::Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use);
 /// Whether pbrt-v4 knows a light, a metal or a glass by this name; else it is a file's.
 bool is_named_spectrum(const std::string& name);
 
 /// What a metal reflects straight ahead by its index eta + i k, below what has the index `below` (Fresnel).
 double straight_reflection(double n, double k);
-/// Of spectra, wavelength by wavelength; of copper where there is none.
+/// Metal's colour from spectra, wavelength by wavelength; copper's where there is none.
 core::Vec3d metal_color(const Parameter* eta, const Parameter* k, double below);
 
 /// Rows of what makes white of a light's temperature, in linear sRGB.

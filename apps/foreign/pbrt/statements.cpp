@@ -19,7 +19,7 @@ namespace {
 using core::Vec3d;
 
 constexpr double number_max = 1e30, degrees_max = 1e6;
-/// Of an integrator that does not say it.
+/// Depth of an integrator that does not give one.
 constexpr std::int64_t depth_unsaid = 5;
 /// pbrt's numbers are floats, in text and in files of meshes.
 constexpr double float_rounding = 0x1p-25;
@@ -343,7 +343,7 @@ void Statements::object_instance(const Token& name) {
   }
 }
 
-/// Of objects that began behind them.
+/// Adds instances of objects that were defined later.
 void Statements::add_awaited() {
   for (const Awaited& one : awaited_) {
     const auto found = objects_.find(one.object);

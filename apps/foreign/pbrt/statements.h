@@ -45,7 +45,7 @@ class Statements {
     std::optional<AreaLight> light;
     bool is_reversed = false;
     bool moves_start = true;                               ///< what moves things holds when the shutter opens
-    std::map<std::string, Parameters::Defaults> defaults;  ///< of shapes, lights, materials, ...
+    std::map<std::string, Parameters::Defaults> defaults;  ///< per kind of owner: shapes, lights, materials, ...
   };
   enum class Opening : std::uint8_t { attribute, object, import };
   struct Saved {
@@ -57,7 +57,7 @@ class Statements {
   /// What an object's shapes are, each where its own CTM puts it.
   struct Object {
     std::vector<ShapePlace> places;
-    GeometrySize anew;  ///< of all of them in each instance but the first
+    GeometrySize anew;  ///< geometry that is made anew for each instance but the first
     bool is_there = false;
   };
 

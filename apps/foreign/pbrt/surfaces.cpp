@@ -14,7 +14,7 @@ namespace {
 using core::Vec3d;
 using enum ParameterType;
 
-/// Of pbrt-v3.
+/// Kinds of pbrt-v3.
 constexpr std::array<std::string_view, 11> old_kinds{"matte",     "plastic",     "metal",  "glass",        "mirror", "uber",
                                                      "substrate", "translucent", "disney", "kdsubsurface", "fourier"};
 
@@ -24,8 +24,9 @@ Vec3d clamped(const Vec3d& color) {
   return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
 }
 
-/// Of diffuse light within what has this index its smooth surface sends so much back inwards: all but 1/n^2 of what it lets in
-/// (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection outside).
+/// Share of diffuse light inside a medium of this index that its smooth surface reflects back inwards: all but 1/n^2 of what it
+/// lets in (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection
+/// outside).
 double inner_reflection(double index) {
   constexpr double index_min = 1.001;  // below which there is no telling
   if (!(index > index_min)) {
@@ -126,7 +127,7 @@ Surfaces::Mixture Surfaces::mixture_of(const Parameters& parameters) {
   return {named(names->texts[0], names->place), named(names->texts[1], names->place), amount};
 }
 
-/// Of glTF's kind: its square is alpha.
+/// Roughness as glTF has it: its square is alpha.
 double Surfaces::roughness(const Parameters& parameters, const std::string& prefix, double fallback) const {
   const auto find = [&](const char* name) { return textures_.number(parameters, (prefix + name).c_str()); };
   const double both = find("roughness").value_or(fallback);

@@ -19,7 +19,7 @@ struct Surface {
   TextureValue color;
   bool has_facets = false, is_thin = false;
   bool is_drawn = true;    ///< what only parts one medium from another is not
-  MetallicSurface facets;  ///< but for its base, which is `color`
+  MetallicSurface facets;  ///< without its base, which is `color`
 };
 
 /// By the table in apps/foreign/README.md. What a shape shows is made of a surface, its own light and how much of it is there.

@@ -31,8 +31,8 @@ struct Token {
   Place place;
 };
 
-/// So many files may be open one within the other, and be opened in all; and so many times the bytes of all files may be read, or
-/// bytes_read_min if that is more.
+/// Limits: nested open files, files opened in all, and bytes read as a multiple of all files' bytes, or bytes_read_min if that is
+/// more.
 inline constexpr std::size_t include_levels_max = 64, includes_max = 100'000;
 inline constexpr std::uint64_t rereadings_max = 64, bytes_read_min = std::uint64_t{1} << 20U;
 
@@ -87,7 +87,7 @@ class Tokens {
   struct Source {
     std::unique_ptr<SourceText> bytes;
     std::string_view rest;
-    Place place;  ///< of the first of `rest`
+    Place place;  ///< place of the first of `rest`
     std::string normal_path;
   };
 

@@ -12,7 +12,7 @@
 namespace dmpc::apps::pbrt {
 namespace {
 
-/// Of a byte that is packed; zlib's own limit is 1032.
+/// Limit of unpacked bytes per packed byte; zlib's own limit is 1032.
 constexpr std::uint64_t growth_max = 1000;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20U;
 /// zlib's largest window, and 16 for gzip's heads and sums.

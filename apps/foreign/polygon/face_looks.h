@@ -16,7 +16,7 @@ struct FaceLooks {
   std::vector<Color> colors;             ///< linear
   std::vector<std::uint32_t> materials;  ///< indices into a file's materials; without any all have material 0
 
-  /// Of vertices and faces that have colours the vertices' are shown, which `notes` gets.
+  /// If both vertices and faces have colours, the vertices' are shown; `notes` gets a note.
   void give_way_to(const PolygonMesh& mesh, std::vector<std::string>& notes);
 };
 

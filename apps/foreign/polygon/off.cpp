@@ -35,14 +35,14 @@ class OffReader {
   void read_counts(std::string_view first);
   std::uint64_t count_of(std::string_view word, const char* what) const;
   double number_of(std::string_view word, const char* what) const;
-  /// The same; what stands for no number is none.
+  /// As above; a word for NaN gives NaN.
   double number_or_none(std::string_view word, const char* what) const {
     return is_no_number(word) ? std::numeric_limits<double>::quiet_NaN() : number_of(word, what);
   }
   void read_vertex(std::uint64_t number);
   void read_face(std::uint64_t number);
   std::uint32_t read_corner(std::uint64_t face);
-  /// Of the numbers that end a line, after its first `begin`.
+  /// Colour from the numbers that end a line, after its first `begin`.
   std::optional<Color> off_color(std::size_t begin);
   void read_rest_of_line();
   std::uint64_t room() const { return (bytes_ - words_.position()) / 2 + 1; }
@@ -56,7 +56,7 @@ class OffReader {
   std::size_t first_stray_ = 0;  ///< its line
   PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
   FaceLooks looks_;
-  std::vector<double> numbers_;  ///< of the line
+  std::vector<double> numbers_;  ///< the current line's
   std::vector<std::uint32_t> corners_;
 };
 

@@ -30,7 +30,7 @@ Color row_color(const PlyRow& row) {
   return {channel(red), channel(green), channel(blue)};
 }
 
-/// Of a channel; 0 if the type does not say it.
+/// Maximum of a channel; 0 if the type does not imply it.
 double full_light_of(PlyType type) {
   constexpr double byte_max = 255;
   return !is_whole(type) ? 0 : type == PlyType::uint16 ? most_of(type) : byte_max;
@@ -63,7 +63,7 @@ class PlyReader {
   void read_element(const PlyElement& element);
   void read_vertices(const PlyElement& element);
   void note_left_out(const PlyElement& element, const PlyRow& row);
-  /// Of properties that mean something together alone.
+  /// Notes incomplete groups of properties, which only mean something together.
   void note_incomplete(const PlyElement& element, const PlyRow& row);
   void set_precision(const PlyRow& row);
   void take_vertex(const PlyRow& row, bool has_normals, bool has_places);
@@ -75,7 +75,7 @@ class PlyReader {
   void take_strip(const PlyRow& row, std::uint64_t number);
   void read_materials(const PlyElement& element);
   void skip(const PlyElement& element);
-  /// Of number `number` of what is called `what`, for errors.
+  /// Converts index number `number` of a list called `what`, which error messages use.
   std::uint32_t vertex_of(double index, const char* what, std::uint64_t number) const;
   void extension_colors();
   void add_to(PlacedFile& file);

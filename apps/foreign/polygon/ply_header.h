@@ -21,7 +21,7 @@ double most_of(PlyType type);
 struct PlyProperty {
   std::string_view name;
   PlyType type{};
-  std::optional<PlyType> count_type;  ///< of a list's length
+  std::optional<PlyType> count_type;  ///< type of a list's length
 };
 
 struct PlyElement {

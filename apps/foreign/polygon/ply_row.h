@@ -51,7 +51,7 @@ class PlyRow {
   std::vector<std::string> left_out() const;
   bool has(PlyRole role) const { return types_[static_cast<std::size_t>(role)].has_value(); }
   bool has_all(std::initializer_list<PlyRole> roles) const;
-  /// Of one that is there.
+  /// Requires that the role is there.
   PlyType type_of(PlyRole role) const { return *types_[static_cast<std::size_t>(role)]; }
 
   /// Reads the next element. Throws as PlyValues does.

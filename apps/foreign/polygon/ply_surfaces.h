@@ -17,7 +17,7 @@ class PlySurfaces {
  public:
   explicit PlySurfaces(std::vector<std::string> textures) : textures_(std::move(textures)) {}
 
-  /// Of an `element material`. Colours are linear, as MTL's.
+  /// Adds an `element material`. Colours are linear, as MTL's.
   void add_material(const PlyRow& row);
   bool has_materials() const { return !materials_.empty(); }
   std::size_t texture_count() const { return textures_.size(); }

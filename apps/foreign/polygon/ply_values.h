@@ -23,11 +23,10 @@ class PlyValues {
   virtual void begin_element() = 0;
   /// Throws PlyIsShort at the end, core::InputError, with the place, for what is no value of the type.
   virtual double next(PlyType type) = 0;
-  /// Of a list whose values are of `type`: no more than there are bytes for. Throws as next() does.
+  /// Length of a list of `type`: at most as many as there are bytes for. Throws as next() does.
   virtual std::uint64_t next_length(PlyType count_type, PlyType type) = 0;
   /// A list's values, in place of what is in `values`. Throws as the others do.
   virtual void next_list(PlyType count_type, PlyType type, std::vector<double>& values) = 0;
-  /// Passes over so many.
   virtual void skip(PlyType type, std::uint64_t count) = 0;
 
   /// How many of these there are bytes for, at most.

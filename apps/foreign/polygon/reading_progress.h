@@ -18,7 +18,7 @@ class ReadingProgress {
   /// `files` outlives it. `bytes`: of the whole file.
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
-  /// Throws core::CapacityError where the scene has no room for so much. Cheap.
+  /// Throws core::CapacityError if the scene has no space for this size. Cheap.
   void ask(const GeometrySize& size) const { files_.totals().ask(size); }
   void ask_for_triangles(std::uint64_t count) const { ask(size_of_faces(count, 3 * count)); }
   /// So many bytes are read. Cheap.

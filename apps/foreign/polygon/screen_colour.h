@@ -12,10 +12,10 @@ namespace dmpc::apps {
 /// Red, green and blue, floats.
 using Color = core::Vec3d;
 
-/// Of what has none beside others that have one: linear.
+/// Colour of elements without one beside others that have one: linear.
 inline constexpr Color colour_of_none = {double{0.6F}, double{0.6F}, double{0.6F}};
 
-/// Of what has none, until all are read.
+/// Placeholder for a missing colour until all are read.
 inline constexpr Color not_yet = {-std::numeric_limits<double>::max(), 0, 0};
 
 /// Gives the last of `count` faces or vertices a colour; those before it that have none stay without.

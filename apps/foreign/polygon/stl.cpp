@@ -25,7 +25,7 @@ bool is_same(std::string_view a, std::string_view b) {
                     [](unsigned char letter, char other) { return std::tolower(letter) == other; });
 }
 
-/// Words may be written in letters of any case and on any lines, but for a solid's name, which ends its line.
+/// Keywords may be in any case and on any lines, except a solid's name, which ends its line.
 class StlTextReader {
  public:
   StlTextReader(std::string_view text, ReadingProgress& progress)
@@ -76,7 +76,7 @@ void StlTextReader::read_solid(PlacedFile& file) {
 void StlTextReader::read_facet(PolygonMesh& mesh) {
   take("normal");
   for (int i = 0; i < 3; ++i) {
-    words_.next();  // be it -nan(ind)
+    words_.next();  // including -nan(ind)
   }
   take("outer");
   take("loop");

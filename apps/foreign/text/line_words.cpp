@@ -68,7 +68,7 @@ bool LineWords::is_at_remark() const {
   return rules_.remark != '\0' && text_[at_] == rules_.remark && (at_ == 0 || text_[at_ - 1] != '.');
 }
 
-/// Of a file, whose end may be far: each byte is a word of its own.
+/// Handles NUL bytes in a file whose end may be far: each byte is a word of its own.
 bool LineWords::is_in_hole() const { return !rules_.are_one && at_ < text_.size() && text_[at_] == '\0'; }
 
 void LineWords::skip_line_end() {

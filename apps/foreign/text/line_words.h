@@ -38,7 +38,7 @@ class LineWords {
   /// What is left of the line, without the blanks around it, with what looks like a remark: names may have both in them.
   std::string_view rest_of_line();
 
-  /// Of the last word; at the end that of the text's end.
+  /// Line of the last word; at the end, of the text's end.
   std::size_t line() const { return line_; }
   /// How many bytes are read.
   std::size_t position() const { return at_; }
@@ -69,7 +69,7 @@ class LineWords {
 
 /// A name without the remark behind it: what follows a # at the begin of a word.
 std::string_view without_remark(std::string_view name);
-/// The same, and without quotes around it.
+/// As above, without quotes around the name.
 std::string_view plain_name(std::string_view name);
 
 }  // namespace dmpc::apps

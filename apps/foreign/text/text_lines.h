@@ -22,7 +22,7 @@ class TextLines {
 
   /// Without its end. Joined lines are one, with the backslash and the line end between them, which LineWords takes for blanks.
   std::string_view line() const { return line_; }
-  /// Of the line, or of the first of those that are joined, as editors count, from 1.
+  /// Number of the line, or of the first of joined lines, counted from 1.
   std::size_t number() const { return number_; }
   /// How much of the file lies behind, with the line and its end: where the next line begins.
   std::size_t bytes_passed() const { return passed_; }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int picture_side_max = 4096;
-/// The ground below trees is so much larger than their number, and at most as large as there is need for.
+/// The ground below trees is this many sizes larger than the grove, up to the second number.
 constexpr int ground_beyond_grove = 3, ground_of_grove_max = 10;
 
 /// The size that a name of a family says.

@@ -21,10 +21,10 @@ inline constexpr int grove_size_max = 10, grove_size_default = 5;
 /// that begins so, but has no size from 1 to landscape_size_max.
 std::optional<int> landscape_size(std::string_view name);
 
-/// The same of "grove-5" or "grove".
+/// The size in "grove-5" or "grove".
 std::optional<int> grove_size(std::string_view name);
 
-/// Of the ground below a grove of this size: 4^size triangles.
+/// Size of the ground below a grove of this size; it has 4^size triangles.
 int ground_size(int grove_size);
 /// Texels along each side of the picture on a ground of this size.
 int ground_picture_side(int size);

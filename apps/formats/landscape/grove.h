@@ -16,7 +16,7 @@ struct TreePlaces {
 
 struct Grove {
   std::array<Tree, tree_kinds> trees;
-  std::array<TreePlaces, tree_kinds> places;  ///< of each
+  std::array<TreePlaces, tree_kinds> places;  ///< per kind of tree
 };
 
 /// One tree near each point of a lattice of 2^(size + 1) by 2^size over the ground, but in the lake, high up, where it is steep,

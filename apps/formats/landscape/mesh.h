@@ -10,7 +10,7 @@
 
 namespace dmpc::apps {
 
-/// Is told from the calling thread, now and then, how many rows of so many are done: of the ground, then of its picture. May be
+/// Called now and then from the calling thread with the number of rows done: first of the ground, then of its picture. May be
 /// empty.
 using RowsDone = std::function<void(std::uint64_t done, std::uint64_t total)>;
 

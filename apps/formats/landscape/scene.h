@@ -13,9 +13,10 @@ namespace dmpc::apps {
 /// otherwise.
 bool is_landscape_name(std::string_view name);
 
-/// What write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same place, but for what files
-/// round; the sun stands high on the right. Each kind of tree is one mesh, which `copies` says what becomes of. Requires a name
-/// that is_landscape_name(). Throws core::CapacityError if the trees' copies are more than a database or memory hold.
+/// The scene that write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same camera, except
+/// for rounding in the files; the sun stands high on the right. Each kind of tree is one mesh; `copies` says whether its copies
+/// are made. Requires a name that is_landscape_name(). Throws core::CapacityError if the trees' copies are more than a database
+/// or memory can hold.
 core::Scene landscape_scene(std::string_view name, core::Copies copies, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

@@ -15,7 +15,7 @@ using core::Vec3d;
 
 constexpr int octaves = 10;
 
-/// Places are moved by so much before they are cut to whole numbers, which rounds down what is above 0.
+/// Coordinates are shifted by this before they are truncated to integers, because truncation rounds down only above 0.
 constexpr double lattice_shift = 4096;
 
 /// One of eight directions that belongs to a point of the lattice, times the way from there.

@@ -142,7 +142,7 @@ bool occurs_as(std::string_view form, std::string_view text) {
   }
 }
 
-/// Its words on lines that begin with `margin`, but for the first.
+/// The text wrapped to lines that begin with `margin`, except the first.
 std::string wrapped(std::string_view text, const std::string& margin) {
   std::string lines;
   std::size_t used = margin.size();

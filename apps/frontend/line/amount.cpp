@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// In the unit in which amounts are shown, a whole number of so many digits is as long as people like to read.
+/// Amounts up to this limit are shown as whole numbers of their unit; more digits are hard to read.
 constexpr double shown_max = 10'000;
 
 constexpr std::array<std::pair<const char*, double>, 4> times = {{{"ns", 1}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}}};
@@ -83,7 +83,7 @@ std::string amount_text(double amount, std::string_view unit) {
 }
 
 std::vector<Tick> amount_ticks(double least, double largest, bool is_logarithmic, std::string_view unit) {
-  const bool has_words = shown_units(unit).size() > 1;  // of any other unit an axis speaks itself
+  const bool has_words = shown_units(unit).size() > 1;  // an axis shows any other unit itself
   std::vector<Tick> ticks;
   const ShownUnit common = has_words ? shown_unit(unit, 10 * largest) : ShownUnit{};
   const NumberScale scale{is_logarithmic, least / common.size, largest / common.size};

@@ -25,7 +25,7 @@ ShownUnit shown_unit(std::string_view unit, double largest);
 /// In a unit of its own, with three significant digits: "1.44 MB", "64 B", "1,234,567".
 std::string amount_text(double amount, std::string_view unit);
 
-/// KiB of so many bytes, for columns that count in KiB.
+/// Bytes as KiB, for columns in KiB.
 inline double kibibytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1024; }
 
 /// Round numbers from `least` to `largest`, as a legend has them, each with its text: whole counts grouped.

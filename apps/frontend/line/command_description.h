@@ -12,7 +12,7 @@ struct Suggestion {
   std::vector<std::string> words;  ///< one that ends in a colon is followed by a file
   bool files = false;
   bool folders = false;
-  std::vector<std::string> endings;  ///< of the files; none: all files
+  std::vector<std::string> endings;  ///< extensions of the files; none: all files
 };
 
 /// An option, or an argument, which has no names.

@@ -64,7 +64,7 @@ class OptionSet {
   template <class T, class Field>
   void add_choice(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
                   const std::string& description);
-  /// Such an option whose default is what `value` is now.
+  /// Adds a choice whose default is the current `value`.
   template <class T>
   void add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description);
 

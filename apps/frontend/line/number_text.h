@@ -11,13 +11,13 @@ namespace dmpc::apps {
 
 /// 1234567 as 1,234,567.
 std::string grouped(std::uint64_t value);
-/// With so many digits after the point: 1,234.5.
+/// With `digits` digits after the point: 1,234.5.
 std::string grouped(double value, int digits);
 /// The shortest text that reads back as the same number.
 std::string shortest(double value);
 /// To six significant digits.
 std::string rounded(double value);
-/// With so many digits after the point.
+/// With `digits` digits after the point.
 std::string fixed(double value, int digits);
 /// "3.142 s", from 10 s on "31.4 s".
 std::string seconds_text(double seconds);
@@ -30,7 +30,7 @@ template <class Number>
 double percent_of(Number part, Number whole) {
   return whole > Number{} ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
-/// With so many digits after the point: "12.3 %".
+/// With `digits` digits after the point: "12.3 %".
 std::string percent_text(double percent, int digits = 1);
 /// What each part is of the whole, in percent with one decimal place: rounded so that they add up to 100 as they stand. All 0 if
 /// there is nothing.

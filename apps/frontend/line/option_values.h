@@ -31,7 +31,7 @@ double amount_in(std::string_view text);
 /// "4,8,16": whole numbers from 1 to `most`. Throws core::UsageError naming `option` for anything else.
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 
-/// Such numbers from small to large, each once.
+/// Parses a list of distinct numbers in ascending order.
 std::vector<std::uint32_t> parse_different_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 
 /// A whole number from 0 to 2^64 - 1. Throws core::UsageError naming `option` for anything else.

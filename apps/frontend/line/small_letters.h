@@ -16,7 +16,7 @@ inline std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-/// Of a file's name, without its point: "gltf".
+/// Extension of a file's name in small letters, without the point: "gltf".
 inline std::string ending_of(const std::filesystem::path& path) {
   const std::string ending = in_small_letters(path.extension().string());
   return ending.substr(ending.empty() ? 0 : 1);

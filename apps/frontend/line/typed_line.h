@@ -14,7 +14,7 @@ namespace dmpc::apps {
 struct TypedLine {
   std::string command;            ///< "study balance"
   bool asks_for_help = false;     ///< about `command`, which may be empty; nothing else of the line counts
-  bool asks_for_version = false;  ///< of the program
+  bool asks_for_version = false;  ///< the program's version
   /// The line in one form: the commands, each option as --name or --name=value, --, and all arguments.
   std::vector<std::string> words;
 };

@@ -12,8 +12,8 @@ struct ForeignOption {
   const char* note;  ///< what of it is meant: "the pixels of both sides"
 };
 
-/// Of `name`, as somebody used to pbrt, Mitsuba, Blender, POV-Ray or YafaRay types it: "--fov", "-fov", "-j8", "+W640". Nothing
-/// if it is none of those known.
+/// Our option for `name` as pbrt, Mitsuba, Blender, POV-Ray or YafaRay spell it: "--fov", "-fov", "-j8", "+W640". Nothing if it
+/// is not known.
 std::optional<ForeignOption> foreign_option(const std::string& name);
 
 /// What to say in place of an option that commands had, "--preview", one of them alone, "bench error --pictures", or a word of an

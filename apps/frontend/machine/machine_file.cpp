@@ -144,7 +144,7 @@ nodes::MessageCost message_of(const Fields& fields) {
           .byte_ps = fields.number("byte_ps", byte_ps_max)};
 }
 
-/// Of `operation_ps`; a file from before questions had a price of their own charges one as a ray, as it was then: half of that at
+/// Reads `operation_ps`. Old files have no price for questions; these then cost as much as a ray did: half of a ray's price at
 /// either end.
 std::array<std::uint64_t, nodes::charge_count> operations_of(const Fields& fields) {
   constexpr auto newest = static_cast<std::size_t>(core::Charge::question_setup);
@@ -217,7 +217,7 @@ MachineDescription description_of(const Fields& fields) {
           .sources = sources_of(fields)};
 }
 
-/// "line:column" of the last of so many bytes.
+/// "line:column" of the last of the first `byte_count` bytes.
 std::string position(std::string_view text, std::size_t byte_count) {
   const std::string_view before = text.substr(0, std::min(text.size(), byte_count == 0 ? 0 : byte_count - 1));
   const std::size_t line_begin = before.rfind('\n') + 1;  // 0 without one

@@ -33,7 +33,7 @@ struct Preset {
   Figure<MessageCost> long_message;
   Figure<std::uint64_t> hop_ns;
   Figure<std::uint64_t> service_ns;
-  Figure<std::uint64_t> slowdown;  ///< of an operation, against the core on which the prices were measured
+  Figure<std::uint64_t> slowdown;  ///< an operation's, against the core on which the prices were measured
   /// Where the price of a cached look-up comes from, which all machines have times their slowdown.
   const char* cached_lookup_source =
       "the iPSC/2's, fitted there, carried over by the slowdown: not measured on this machine, low";

@@ -14,8 +14,8 @@ struct Leaf {
   const CommandDescription* command = nullptr;
 };
 
-/// Those of `outer` that have no commands of their own, in the order of their declaration; `outer` outlives them. `path` stands
-/// before each.
+/// The commands in `outer` that have no subcommands, in the order of their declaration; `outer` outlives them. `path` is put
+/// before each name.
 inline std::vector<Leaf> leaves_of(const CommandDescription& outer, const std::string& path = "") {
   std::vector<Leaf> leaves;
   for (const CommandDescription& command : outer.commands) {

@@ -49,7 +49,8 @@ std::string usage_of(const CommandDescription& command) {
 /// A line of `examples` that shows a call.
 bool is_call(const std::string& line) { return line.rfind("  dmpc ", 0) == 0; }
 
-/// What `command` says in the end but for its calls and the line that announces them: paragraphs, with the breaks of their lines.
+/// The end of the description of `command` without its calls and the line that announces them: paragraphs, with their line
+/// breaks.
 std::vector<std::string> remarks_of(const CommandDescription& command) {
   std::vector<std::string> paragraphs(1);
   for (const std::string& line : lines_of(command.examples)) {

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 /// What is compared, and what one rank has of it, as text.
 using Compatibility = std::vector<std::pair<std::string, std::string>>;
 
-/// This process's, whatever it runs: version, build, byte order.
+/// This process's version, build and byte order.
 Compatibility build_compatibility();
 
 /// That, and the words that this process was called with.

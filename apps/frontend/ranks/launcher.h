@@ -12,7 +12,7 @@ namespace dmpc::apps {
 struct Launcher {
   std::string name;  ///< "mpirun", "mpiexec", "srun"
   std::uint32_t rank = 0, rank_count = 1;
-  bool tells_mpi = true;  ///< of its ranks: srun may not
+  bool tells_mpi = true;  ///< whether ranks learn of MPI: srun may not pass it on
 };
 
 /// A variable's value; nothing if it is not set.

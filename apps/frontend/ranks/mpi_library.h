@@ -25,7 +25,8 @@ struct MpiLibrary {
   std::string (*host)();
   /// What each rank says, by rank. Waits until all have said it.
   std::vector<std::string> (*exchange)(const std::string& own);
-  /// Frames have so many bytes on all ranks, which are called `names` in messages. Once, and it lasts until finish().
+  /// Makes the fabric. Frames have `frame_bytes` bytes on all ranks, which messages call `names`. Called once; the fabric lives
+  /// until finish().
   nodes::Fabric& (*make_fabric)(std::size_t frame_bytes, const std::vector<std::string>& names);
   /// Waits so long until all ranks have called it, and ends MPI. Frames that come meanwhile are dropped. False, and MPI goes on,
   /// if not all have.

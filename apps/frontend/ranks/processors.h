@@ -12,7 +12,7 @@ namespace dmpc::apps {
 /// The processors of one rank.
 struct RankProcessors {
   std::string host;
-  std::vector<int> numbers;  ///< of those that the launcher or the system allows it, ascending
+  std::vector<int> numbers;  ///< processors that the launcher or the system allows it, ascending
   bool operator==(const RankProcessors&) const = default;
 };
 

@@ -44,9 +44,9 @@ class RankGroup {
   /// What this rank's communicating thread does while nothing comes, of such a computer, where nobody says.
   nodes::Idle default_idle(const nodes::ComputerRequest& computer) const;
 
-  /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws
-  /// core::InputError, alike on all ranks, if they want frames of different sizes, or differ in `more` that they must have in
-  /// common.
+  /// Waits for all ranks and makes the fabric, for packets of up to `payload_bytes_max` bytes; it lives as long as this object.
+  /// Called once. Throws core::InputError, alike on all ranks, if they want frames of different sizes or differ in `more`, which
+  /// must be equal.
   nodes::Fabric& connect(std::size_t payload_bytes_max, Compatibility more = {});
 
  private:

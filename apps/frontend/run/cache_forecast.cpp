@@ -9,7 +9,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t sizes_an_octave = 4;
-constexpr double deviations = 2;  ///< of a sample, on each side
+constexpr double deviations = 2;  ///< half-width of a sample's interval, in standard deviations
 
 /// In ascending order, each once.
 std::vector<std::uint32_t> sizes_up_to(std::uint32_t least, std::uint32_t most, std::uint32_t own) {
@@ -82,7 +82,7 @@ TimeBand band_of(const ForecastRun& run, std::uint32_t size, double low, double 
 
 CacheForecast forecast_caches(const ForecastRun& run, const MissEstimate& misses, std::uint32_t pages_max) {
   CacheForecast forecast{.run = run, .sizes = {}, .every = misses.every};
-  const std::uint32_t least = misses.cache_pages_min() * (misses.every == 1 ? 1 : 2);  // of half a sample, too
+  const std::uint32_t least = misses.cache_pages_min() * (misses.every == 1 ? 1 : 2);  // half of the sample needs as many
   const double own = misses.misses(run.cache_pages);
   if (run.faults == 0 || run.parts.total_ns() == 0 || own == 0 || run.cache_pages < least) {
     return forecast;

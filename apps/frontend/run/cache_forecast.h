@@ -15,10 +15,10 @@ namespace dmpc::apps {
 
 /// The run that tells, on a modelled machine.
 struct ForecastRun {
-  TimeParts parts;                ///< of all nodes together
+  TimeParts parts;                ///< sums over all nodes
   std::uint32_t node_count = 1;   ///< without the host
-  std::uint32_t cache_pages = 0;  ///< of a node
-  std::uint64_t faults = 0;       ///< of all nodes together
+  std::uint32_t cache_pages = 0;  ///< per node
+  std::uint64_t faults = 0;       ///< sum over all nodes
 
   double total_ns() const { return static_cast<double>(parts.total_ns()) / node_count; }
 };
@@ -27,7 +27,7 @@ struct ForecastRun {
 struct TimeBand {
   std::uint32_t cache_pages = 0;
   double faults = 0;                 ///< by the run's own curve, held against its own faults
-  double least_ns = 0, most_ns = 0;  ///< of both readings, as wide as the curve is uncertain
+  double least_ns = 0, most_ns = 0;  ///< interval of both readings, as wide as the curve is uncertain
 
   double width() const { return most_ns / least_ns - 1; }
   /// Wider ones say too little to be shown.
@@ -38,9 +38,9 @@ struct TimeBand {
 struct CacheForecast {
   ForecastRun run;
   std::vector<TimeBand> sizes;  ///< four for each doubling, powers of two among them, and the run's own
-  std::uint32_t every = 1;      ///< of the curve: MissEstimate::every
+  std::uint32_t every = 1;      ///< the curve's MissEstimate::every
   double curve_error = 0;       ///< by how much the curve misses the run's own faults, as a share of them
-  double sample_error = 0;      ///< of the curve, where it is from a sample: the largest at these sizes, as a share
+  double sample_error = 0;      ///< for a curve from a sample: the largest error at these sizes, as a share
 };
 
 /// For caches of up to `pages_max` pages. Of no sizes where nothing can be told: the run had no faults, its cache is too small

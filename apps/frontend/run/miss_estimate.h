@@ -10,19 +10,19 @@
 
 namespace dmpc::apps {
 
-/// About so many references are kept for an estimate, of all nodes together.
+/// About this many references of all nodes together are kept for an estimate.
 inline constexpr std::size_t references_usual = std::size_t{1} << 22U;
 /// So many references of each node are kept, if all are to keep about `references_max`.
 std::size_t references_of_node(std::uint32_t node_count, std::size_t references_max = references_usual);
 
 /// The curve of a sample's references.
 struct MissEstimate {
-  svm::MissCurve curve;      ///< of the references of one page of `every`
+  svm::MissCurve curve;      ///< from the references of one page in `every`
   std::uint32_t every = 1;   ///< a power of two; 1: of all
-  svm::MissCurve half = {};  ///< of one page in two of them, for the error of the sample; of none if every page counts
-  /// The misses of all nodes together, each with a cache of so many pages.
+  svm::MissCurve half = {};  ///< from every second page of `curve`, for the sampling error; empty if every page counts
+  /// The misses of all nodes together, each with a cache of `cache_pages` pages.
   double misses(std::uint32_t cache_pages) const;
-  /// The same from `half`.
+  /// As misses(), from `half`.
   double half_misses(std::uint32_t cache_pages) const;
   /// The smallest cache of which the sample tells something: it has some of the sample's pages.
   std::uint32_t cache_pages_min() const;

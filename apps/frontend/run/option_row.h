@@ -36,7 +36,7 @@ struct OptionRow {
   const char* why;  ///< why strategies have no such field that have none; nullptr: it is not their strategy that matters
   const char* key;  ///< in --stats; nullptr where what became of it is told by whoever knows
   OptionValue (*reported)(const Plan& plan);  ///< what it became
-  const char* meaning = "";                   ///< of what is told, where the key does not say it all
+  const char* meaning = "";                   ///< what the reported value means, where the key does not say it all
 
   void add_to(const OptionSet& set, Options& options, const std::string& shown_default = "") const {
     takes.declare(set, name, help, options, shown_default);

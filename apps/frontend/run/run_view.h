@@ -16,8 +16,8 @@ struct RunView {
   nodes::ActivitySteps steps;
   std::optional<nodes::WaitRecord> waits;          ///< on modelled machines
   std::optional<nodes::ExchangeProfile> exchange;  ///< likewise
-  std::optional<svm::Fetches> fetches;             ///< of svm
-  std::optional<MissEstimate> misses;              ///< of svm, unless it counts different pages
+  std::optional<svm::Fetches> fetches;             ///< svm only
+  std::optional<MissEstimate> misses;              ///< svm only, unless it counts different pages
 };
 
 }  // namespace dmpc::apps

@@ -23,7 +23,7 @@ constexpr const char* name_of(RunnerKind runner) {
 /// A pool has as many threads as there are processors, unless somebody has said how many.
 void choose_pool(RunnerKind runner, nodes::ComputerRequest& computer);
 
-/// The same for pages, with the machine that is modelled or what nodes have of threads. `where`: as " on 2 ranks", or nothing.
+/// As above for pages, with the modelled machine or the nodes' threads. `where`: as " on 2 ranks", or nothing.
 std::string runner_text(const nodes::ComputerRequest& computer, const std::string& where);
 
 }  // namespace dmpc::apps

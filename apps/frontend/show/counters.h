@@ -19,7 +19,7 @@ namespace dmpc::apps {
 struct CounterText {
   const char* key = "";      ///< in --stats
   const char* help = "";     ///< what stats.schema.json says of it, where the key does not say it all
-  const char* column = "";   ///< of a table with a row for each node; empty: there it is not
+  const char* column = "";   ///< column of a table with a row per node; empty: not in such tables
   bool may_be_null = false;  ///< in --stats, as its help says
 };
 
@@ -70,7 +70,7 @@ inline constexpr auto counters_of<svm::PageCounters> = std::array{
         {"distinct", "pages of each pixel, summed; null unless counted (option count_pages)", "", true}),
 };
 
-/// What of a node's counters is no traffic.
+/// A node's counters other than traffic.
 template <>
 inline constexpr auto counters_of<nodes::NodeCounters> = std::array{
     counter<&nodes::NodeCounters::refused>({"refused", "tried without credit", "refused"}),

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 struct AvailableMemory {
   std::uint64_t bytes = 0;
   std::string source;     ///< who says so, as a part of a sentence: "this computer's memory"
-  bool is_limit = false;  ///< of a container or a shell, where the computer may have more
+  bool is_limit = false;  ///< a limit of a container or a shell; the computer may have more
 };
 
 /// The least of this computer's memory, the limits of this process's address space and data (ulimit -v, -d), and those of its

@@ -19,8 +19,8 @@ struct ChildSettings {
   std::filesystem::path folder = ".";  ///< where it runs
   bool gets_ctrl_c = true;             ///< the terminal's Ctrl-C reaches it, too
   int input = -1, output = -1;         ///< opened files that are its stdin and stdout; below 0: /dev/null
-  /// Nothing of it outlives us, whatever it does: what it has started and left behind is killed when it ends, and it is, not
-  /// asked to end, when we do. Not with gets_ctrl_c.
+  /// Nothing of it outlives us: what it has started and left behind is killed when it ends, and it is killed, not asked to end,
+  /// when we end. Not with gets_ctrl_c.
   bool leaves_nothing = false;
 };
 

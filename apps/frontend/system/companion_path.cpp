@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the program itself, which comes first: the text of its run path, as its dynamic section has it.
+/// Copies the run path from the dynamic section of the program itself, which is reported first.
 int take_run_path(dl_phdr_info* info, std::size_t /*bytes*/, void* text) {
   for (std::size_t i = 0; i < info->dlpi_phnum; ++i) {
     const ElfW(Phdr)& header = info->dlpi_phdr[i];

@@ -17,7 +17,7 @@ struct InstallationError : core::InternalError {
 /// Whose companion a file is.
 enum class CompanionOf : std::uint8_t {
   dmpc,        ///< lies beside dmpc where it is built, and in a folder beside its own where it is installed
-  own_program  ///< of a program of one's own, which may lie anywhere: in the absolute folders of its run path alone
+  own_program  ///< only in absolute folders of the run path: for a user's own program, which may lie anywhere
 };
 
 /// A file in one of its places, absolute and without links; nowhere else, whatever the environment says. For `dmpc` these are the

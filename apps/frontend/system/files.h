@@ -35,7 +35,7 @@ class Files {
   virtual void take_mode(int /*file*/, const std::filesystem::path& /*like*/) {}
 };
 
-/// Those of this computer.
+/// This computer's file system.
 Files& real_files();
 
 }  // namespace dmpc::apps

@@ -19,7 +19,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// All that end a process unless it says otherwise, but for crashes and those that cannot be kept waiting.
+/// All signals that end a process by default, except crashes and those that cannot be deferred.
 constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2};
 
 sigset_t stop_signals() {

@@ -250,7 +250,7 @@ void OutputFile::make(const fs::path& temporary) {
   removed_at_once_.reset();
   removed_at_once_.emplace(temporary_);
   if (settings_.name == TemporaryName::of_target) {
-    files_.remove(temporary_);  // of a process that was killed
+    files_.remove(temporary_);  // left by a process that was killed
   }
   file_ = open_patiently(files_, temporary_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
   if (file_ >= 0) {

@@ -18,7 +18,7 @@ namespace dmpc::apps {
 /// Throws core::UsageError or core::InputError unless such a file can be made at the path; the option's name is for the message.
 using OutputCheck = void (*)(const std::filesystem::path&, std::string_view);
 
-/// What a set is tried by, whatever its files hold.
+/// An output file's name, without its contents, by which a set is checked.
 struct OutputName {
   NamedFile file;
   OutputCheck check = check_output_path;

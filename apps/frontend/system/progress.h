@@ -30,7 +30,7 @@ class Progress {
 
   /// Less done than before: another stretch has begun, with a total and a rate of its own.
   void update(std::uint64_t done, std::uint64_t total);
-  /// The same under another label, of what has no rate.
+  /// As above under another label, without a rate.
   void show(const std::string& label, std::uint64_t done, std::uint64_t total);
 
  private:

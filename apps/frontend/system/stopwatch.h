@@ -47,7 +47,7 @@ class ProcessorStopwatch {
 /// What something took.
 struct Times {
   double wall_seconds = 0;
-  double processor_seconds = 0;  ///< of all threads of the process together
+  double processor_seconds = 0;  ///< sum over all threads of the process
 };
 
 /// Both clocks at once. Runs from its making.

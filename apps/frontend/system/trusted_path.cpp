@@ -74,10 +74,10 @@ bool is_own_group(gid_t id) {
   return name == members.gr_name && !is_group_of_others(id);
 }
 
-/// What of a folder where everybody may write, but remove only what is his own.
+/// Whether a sticky folder, where everybody may write but remove only their own files, is trusted.
 enum class Sticky { keeps_apart, is_open };
 
-/// Of one file or folder.
+/// Checks one file or folder.
 class Trust {
  public:
   explicit Trust(Sticky sticky) : sticky_(sticky) {

@@ -187,8 +187,8 @@ class Script {
                     : "";
   }
 
-  /// 1, 2 or 5 times a power of ten, so that there is room for the name of each so many-th place; all names are shown in a
-  /// picture by itself.
+  /// 1, 2 or 5 times a power of ten, so that every name at a multiple of it has space; a picture that is shown by itself has all
+  /// names.
   std::size_t name_step() const {
     for (std::size_t power = 1; is_small(); power *= 10) {
       for (const std::size_t digit : {1U, 2U, 5U}) {
@@ -200,7 +200,7 @@ class Script {
     return 1;
   }
 
-  /// Those of bars, from 1 on.
+  /// Positions of bars, from 1 on.
   std::string places() const {
     const std::string count = std::to_string(places_.size());
     const std::size_t step = name_step();
@@ -366,7 +366,7 @@ class Script {
   std::string data_;
   bool is_bars_ = false;
   std::vector<const PlotSeries*> drawn_;  ///< that have a row
-  std::vector<std::string> places_;       ///< of bars
+  std::vector<std::string> places_;       ///< names of bars
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 /// Looks that people who are colour-blind can tell apart: eight colours, then the first four of them again, dashed or hatched.
 inline constexpr std::size_t plot_color_count = 12;
 
-/// The colours as #rrggbb. They are legible on white and on black, but for black, which a page in the dark makes white.
+/// The colours as #rrggbb. All but black are legible on white and on black; a dark page turns black into white.
 extern const std::array<const char*, 8> plot_colors;
 
 /// One column, or those of its rows that are meant.
@@ -48,14 +48,14 @@ enum class PlotSize : std::uint8_t { large, small };
 
 /// What is drawn. The series are all bars or bands, or none is.
 struct Plot {
-  std::string name;  ///< of its files, without an extension
+  std::string name;  ///< file name without an extension
   std::string title;
   /// The column along x. For bars the columns whose texts, one after the other, name a place; series with the same name stand
   /// side by side there.
   std::vector<std::string> places;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
-  std::optional<double> bar_width = {};  ///< of bars that stand at numbers along x, each to the right of its own
+  std::optional<double> bar_width = {};  ///< width of bars at numbers along x, each to the right of its number
   bool is_stacked = false;               ///< bars upon one another, the first at the bottom
   PlotSize size = PlotSize::large;
 };

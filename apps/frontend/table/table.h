@@ -20,7 +20,7 @@ struct Column {
   std::string name;  ///< in words, unlike any other column's: "average load"
   std::string unit;  ///< "%", "bytes"; empty for mere numbers and texts
   int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all there are
-  /// Of the first column, of texts: in Markdown rows with the same text in it stand in a table of their own, under that text.
+  /// For a first column of texts: in Markdown, rows with the same text form a table of their own below it.
   bool is_heading = false;
 };
 

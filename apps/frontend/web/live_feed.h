@@ -23,7 +23,8 @@ namespace dmpc::apps {
 /// Thread safety: any thread; follow() on each viewer's own.
 class LiveFeed {
  public:
-  /// The first `important` places go to a viewer at once; of the others so many bytes at a time, and at least one event.
+  /// The first `important` slots go to a viewer at once; the others in batches of up to `bytes_at_once` bytes, but at least one
+  /// event.
   explicit LiveFeed(std::size_t important, std::size_t bytes_at_once = bytes_usual,
                     std::chrono::milliseconds interval = interval_usual)
       : important_(important), bytes_at_once_(bytes_at_once), interval_(interval) {}
@@ -33,7 +34,7 @@ class LiveFeed {
   /// What is new goes out, then this event, and nothing more. Only the first call counts.
   void close(std::string_view name, std::string_view data);
 
-  /// A viewer's, as long as it is one; nullptr if so many look on already. It does not outlive the feed.
+  /// A seat for a viewer, held as long as it views; nullptr if all `seats` are taken. It does not outlive the feed.
   std::shared_ptr<const void> take_seat(std::size_t seats);
   std::size_t seats_taken() const { return taken_.load(std::memory_order_relaxed); }
   /// Sends until the feed is closed or the viewer gone.

@@ -33,13 +33,13 @@ class PageServer {
   struct Service {
     std::string option;  ///< that names the port, such as "--serve"
     Page page;
-    std::size_t important;  ///< of the feed, as it takes them
+    std::size_t important;  ///< the feed's important slots
     std::chrono::milliseconds interval = LiveFeed::interval_usual;
     /// By the place to which it is sent: what a page may send, as JSON of at most 4 KiB. Called by several threads at a time.
     std::map<std::string, std::function<WebAnswer(const std::string&)>> takes = {};
   };
 
-  /// Who comes when so many look on is told to come later.
+  /// Further viewers are asked to come back later.
   static constexpr std::size_t viewers_max = 48;
 
   /// Listens, on any port if that is 0. Throws core::InputError, naming the option, if the port cannot be had, and as

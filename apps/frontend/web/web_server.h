@@ -17,7 +17,7 @@ namespace dmpc::apps {
 /// As far as somebody looks at it. Headers that are not there are empty.
 struct WebRequest {
   std::string method, path;
-  std::string host, origin, fetch_site;  ///< of the headers Host, Origin, Sec-Fetch-Site
+  std::string host, origin, fetch_site;  ///< headers Host, Origin and Sec-Fetch-Site
   bool brings_json = false;              ///< a POST whose type is application/json, of at most 4 KiB, as it says beforehand
   std::string json = {};                 ///< what it brings; whatever else brings something is not listened to
 };

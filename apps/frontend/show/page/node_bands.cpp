@@ -16,7 +16,7 @@ namespace {
 
 struct Band {
   const char* name;
-  double share;  ///< of the nodes that have as much at most
+  double share;  ///< share of nodes with at most this value
 };
 constexpr std::array<Band, 5> bands = {{{"least", 0}, {"5 %", 0.05}, {"50 %", 0.5}, {"95 %", 0.95}, {"most", 1}}};
 
@@ -36,7 +36,7 @@ std::size_t node_count(const Table& table) {
       std::count_if(table.rows().begin(), table.rows().end(), [](const auto& row) { return is_node(row.front()); }));
 }
 
-/// Of all nodes, from the least to the most.
+/// The cells of all nodes in ascending order.
 std::vector<Cell> sorted_cells(const Table& table, std::size_t column) {
   std::vector<Cell> cells;
   for (const std::vector<Cell>& row : table.rows()) {
@@ -48,7 +48,7 @@ std::vector<Cell> sorted_cells(const Table& table, std::size_t column) {
   return cells;
 }
 
-/// The nearest rank: the first that so many have at most.
+/// Nearest-rank percentile: the first cell that a share of `share` of the nodes does not exceed.
 const Cell& ranked(const std::vector<Cell>& sorted, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
   return sorted.at(std::max<std::size_t>(rank, 1) - 1);

@@ -9,13 +9,13 @@
 
 namespace dmpc::apps::html {
 
-/// Bars are shown of so many nodes.
+/// Up to this many nodes are shown as bars.
 inline constexpr std::size_t bars_max = 64;
 
 /// A row for each series of a plot by node: what the node with the least has, with the most, and those between which 90 % lie and
 /// half (nearest rank). Rows of `table` that are no node's, such as sums, are left out; there must be one that is.
 Table band_table(const Plot& plot, const Table& table);
-/// Of such a table.
+/// The plot of a band table.
 Plot band_plot(const Plot& plot);
 
 /// A plot by node: bars of up to bars_max nodes, bands of more.

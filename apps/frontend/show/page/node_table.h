@@ -20,7 +20,6 @@ struct NodeColumn {
 };
 using NodeColumns = std::vector<NodeColumn>;
 
-/// Of so many nodes.
 Table node_table(const std::string& title, std::size_t node_count, const NodeColumns& columns);
 
 /// A number of each node.
@@ -31,7 +30,7 @@ NodeColumn kibibyte_column(const std::string& name, std::function<std::size_t(st
 /// What each node sent and received.
 NodeColumns traffic_columns(const std::function<const nodes::NodeCounters&(std::size_t node)>& counters);
 
-/// Of each counter that such tables have. `counters` are a node's.
+/// A column per counter that has one. `counters` returns a node's.
 template <class Counters>
 NodeColumns counter_columns(const std::function<const Counters&(std::size_t node)>& counters) {
   NodeColumns columns;
@@ -46,7 +45,7 @@ NodeColumns counter_columns(const std::function<const Counters&(std::size_t node
 /// Puts columns behind others.
 void append(NodeColumns& columns, const NodeColumns& more);
 
-/// Of a table with the columns of page counters.
+/// The plot of a table with the columns of page counters.
 Plot fault_plot();
 
 }  // namespace dmpc::apps::html

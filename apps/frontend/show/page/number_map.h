@@ -13,13 +13,13 @@ namespace dmpc::apps::html {
 /// What is shown. Rows are counted from 0, at the top.
 struct NumberMap {
   std::string title;
-  std::string row_label, column_label;  ///< of the axes
-  std::string value_label;              ///< of the scale, with its unit where `unit` is none that amounts know
+  std::string row_label, column_label;  ///< axis labels
+  std::string value_label;              ///< label of the scale, with its unit where `unit` is not one that amounts know
   std::string unit;                     ///< as amount_ticks() takes it
   std::size_t rows = 0, columns = 0;
   std::vector<double> values;         ///< row by row, not negative
   std::optional<double> column_ns{};  ///< columns are steps of time from 0 on, so long each; nothing: they are counted
-  std::optional<double> most{};       ///< of the scale; nothing: the largest number
+  std::optional<double> most{};       ///< upper end of the scale; nothing: the largest number
 };
 
 /// Requires rows * columns numbers. Few and large squares have their numbers written in them.

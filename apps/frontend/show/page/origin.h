@@ -17,13 +17,13 @@ struct Origin {
   std::string date;      ///< "2026-11-22 21:40 UTC"
   std::string computer;  ///< its processors
   std::optional<std::uint64_t> scene_digest = {};
-  std::vector<std::string> words = {};  ///< of the command, each as a shell takes it
+  std::vector<std::string> words = {};  ///< the command's words, quoted for a shell
 };
 
 /// The origin of what this process makes now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.
 Origin this_origin(std::optional<std::uint64_t> scene_digest = {});
 
-/// Those of the command line, as this process was given them; none if the system does not tell.
+/// This process's command line; empty if the system does not give it.
 std::vector<std::string> own_words();
 
 /// The words as a shell takes them, in quotes where they need some; the program without its folder.

@@ -22,13 +22,13 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /// Whose page it is.
 struct PageSpeaker {
-  std::string name = "dmpc";  ///< of the program, before what it complains of
+  std::string name = "dmpc";  ///< program's name in front of error messages
   /// What words mean that may occur; outlives the page.
   std::span<const GlossaryEntry> words = glossary();
 };
 
-/// A document under way. All texts are shown as they are, whatever they contain, but for code between backticks in paragraphs,
-/// cells and notes. Pictures, plots and tables have links that save them. Not thread-safe.
+/// A document under construction. All texts are shown literally, except code between backticks in paragraphs, cells and notes.
+/// Pictures, plots and tables have links that save them. Not thread-safe.
 class Page {
  public:
   /// `complaints` as Charts.
@@ -59,7 +59,7 @@ class Page {
   /// What the page looks like beyond its own style, and what it does once it is read, in order.
   void add_style(const WebPart& style);
   void add_script(const WebPart& script);
-  /// For scripts, which find it by its id: `json` is a whole JSON text, whatever its texts contain.
+  /// Data for scripts, which find it by its id: `json` is a whole JSON text; its strings may contain anything.
   void add_data(const std::string& id, const std::string& json);
 
   /// The whole document, with what its words mean at the end.

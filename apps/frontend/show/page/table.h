@@ -16,7 +16,7 @@ std::string words_of(const Table& table);
 
 /// A link that saves what is at `url` under a name made of `title` and `ending`: "CSV".
 std::string save_link(const std::string& title, const std::string& ending, const std::string& url);
-/// The same within a figure, of what that shows: save.js gives it its address, without which it is hidden.
+/// A save link within a figure, for the figure's content: save.js sets its address; without a script it is hidden.
 std::string shown_save_link(const std::string& title, const std::string& ending);
 
 }  // namespace dmpc::apps::html

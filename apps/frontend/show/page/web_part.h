@@ -9,7 +9,7 @@ namespace dmpc::apps::html {
 /// A style or a script. CMake makes it of files (web_part() in apps/CMakeLists.txt).
 struct WebPart {
   const char* text;
-  const char* sha256;  ///< of the text: 64 hexadecimal digits
+  const char* sha256;  ///< the text's digest: 64 hexadecimal digits
 };
 
 extern const WebPart page_style;   ///< page.css

@@ -104,7 +104,7 @@ class ReferenceReader {
   int guarded(const Look& look) {
     try {
       return look();
-    } catch (const core::InputError& error) {  // of a pipe that gives nothing, or too much
+    } catch (const core::InputError& error) {  // a pipe that delivers nothing, or too much
       throw named(name_, error);
     }
   }
@@ -215,7 +215,7 @@ ReferenceTrace read_packed(std::istream& text, const std::string& name, const Re
 bool is_packed(std::istream& input, const std::string& name) {
   try {
     return input.peek() == first_of_gzip;
-  } catch (const core::InputError& error) {  // of a pipe that gives nothing
+  } catch (const core::InputError& error) {  // a pipe that delivers nothing
     throw named(name, error);
   }
 }

@@ -19,7 +19,7 @@ namespace dmpc::apps {
 /// Who referenced what, in order.
 struct ReferenceTrace {
   std::vector<std::vector<svm::PageId>> nodes;  ///< by node; of one page in a row the first
-  std::uint64_t reference_count = 0;            ///< those that are left out, too
+  std::uint64_t reference_count = 0;            ///< including those left out
   std::uint32_t page_count = 0;                 ///< different pages, numbered from 0 on
 };
 

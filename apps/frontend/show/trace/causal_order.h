@@ -14,7 +14,7 @@ struct TraceItem {
   std::uint32_t node = 0;
   std::uint64_t call = 0;
   TraceMoment moment = TraceMoment::span_begin;
-  std::uint32_t index = 0;  ///< of the node's span or level, the message or the wait
+  std::uint32_t index = 0;  ///< index of the node's span or level, the message or the wait
 };
 
 /// Moves the beginning of each message before its end. Requires items in order of time, those of one time in order of node, and

@@ -53,7 +53,7 @@ enum : std::uint32_t { name_id = 1, truth = 2, number = 3, text = 6, name = 10, 
 namespace interned_field {
 enum : std::uint32_t { event_names = 2, argument_names = 3, argument_texts = 29 };
 }
-namespace entry_field {  // of what is interned
+namespace entry_field {  // interned strings
 enum : std::uint32_t { id = 1, text = 2 };
 }
 enum class EventType : std::uint8_t { slice_begin = 1, slice_end, instant, counter };
@@ -111,7 +111,7 @@ class NodeOrder {
       open_.pop_back();
     }
   }
-  /// Those before a time, and then those of calls before one.
+  /// Writes the ends before `time_ns`; at the same time those of earlier calls.
   void notify_ends(std::uint64_t time_ns, std::uint64_t call) {
     for (; reported_ < ends_.size() && std::tie(ends_[reported_].time_ns, ends_[reported_].call) < std::tie(time_ns, call);
          ++reported_) {
@@ -139,7 +139,7 @@ class Tracks {
   static std::uint64_t of_node(std::uint64_t node) { return node + 1; }
   std::uint64_t of_run() const { return node_count_ + 1; }
   std::uint64_t of_times() const { return node_count_ + 2; }
-  /// Of a node, or of the run, which is behind them.
+  /// Id of the process of a node; the run follows the nodes.
   std::uint64_t of_process(std::uint64_t node) const { return node_count_ + 3 + node; }
   std::uint64_t of_level(std::uint64_t node, std::uint64_t number) const { return levels_[node] + number; }
   std::uint64_t next() { return next_++; }

@@ -21,9 +21,9 @@ inline constexpr std::array<const char*, 9> span_names = {"trace",   "shade",   
 /// What was recorded, and what its numbers mean. A view.
 struct TraceView {
   const nodes::Trace& trace;
-  std::span<const char* const> kind_names;  ///< of the strategy's packets
+  std::span<const char* const> kind_names;  ///< kinds of the strategy's packets
   bool has_pages = false;                   ///< pages travel
-  std::uint32_t width = 1;                  ///< of the picture
+  std::uint32_t width = 1;                  ///< width of the picture, in pixels
   std::string clock;                        ///< "virtual time" or "wall clock"
   /// What else there is to say of the run, with its name. Written as it is: without line ends.
   std::vector<std::pair<std::string, std::string>> remarks;
@@ -48,7 +48,7 @@ struct PageWait {
   std::uint32_t node = 0, page = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
 };
-/// In the order in which they end, but for those during which something was forgotten. Empty unless pages travel.
+/// Waits in the order of their ends, without those during which events were dropped. Empty unless pages travel.
 std::vector<PageWait> page_waits(const TraceView& view);
 
 /// From a time to another.
@@ -62,7 +62,7 @@ std::uint64_t end_ns(const nodes::Trace& trace);
 
 /// "1234.567": a thousandth of a number of nanoseconds, without rounding.
 std::string thousandths(std::uint64_t value);
-/// Of a time in nanoseconds, so many, to the microsecond.
+/// Nanoseconds as milliseconds, to the microsecond.
 std::string milliseconds(std::uint64_t time_ns);
 /// What was lost of a trace, and so what is there. Requires that something was.
 std::string lost_text(const nodes::Trace& trace);
