@@ -30,7 +30,7 @@ std::uint64_t peak_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// What of a system a forecast knows.
+/// Sets the options of a system that a forecast knows.
 void settle(const OptionSet& options, InfoOptions& info) {
   StrategyOptions run;
   run.pages = info.pages;

@@ -26,7 +26,7 @@ struct InfoOptions {
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64, 128, 256};    ///< ascending
   dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< that nothing be rendered unasked
   std::optional<System> system;                                                   ///< whose database and pages are looked at
-  svm::PageOptions pages;                                                         ///< of svm
+  svm::PageOptions pages;                                                         ///< for svm
   InfoFormat format = InfoFormat::text;
   bool quiet = false;  ///< no progress and no remarks of the scene's reader
 };

@@ -22,14 +22,14 @@ struct DatabaseFigures {
   std::uint64_t primitives = 0;  ///< what objects became, without those left out
   std::uint64_t dropped = 0;     ///< primitives left out: no area or length, radius 0, or not finite
   std::uint64_t duplicates = 0;  ///< triangles left out that have the corners of others
-  std::uint64_t copies = 0;      ///< of primitives in leaves, one at least of each
+  std::uint64_t copies = 0;      ///< primitives in leaves, counted once per leaf
   std::array<std::int32_t, 3> cells{}, macro_cells{};
   std::uint64_t occupied_macro_cells = 0;
   std::uint64_t levels_max = 0;                                    ///< BVH nodes from a macro cell to a leaf, at most
   bool has_voxels = false;                                         ///< which are the macro cells then
-  std::uint64_t references = 0;                                    ///< of voxels
+  std::uint64_t references = 0;                                    ///< voxels' references
   std::uint64_t instances = 0;                                     ///< places of base meshes
-  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of these places
+  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of base meshes; of instances
   std::vector<RecordFigures> records;
   std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
 

@@ -46,7 +46,7 @@ class Forecaster {
     }
   }
 
-  /// All computers added. The primary rays are assigned to all at one go.
+  /// Results of all computers together. All primary rays are assigned at once.
   Forecast result() {
     stopwatch_.lap();
     const auto shares = dataflow::measure_shares(settings_, partitions_, parts_, {}, true, request_for({}).pixel_order());
@@ -99,8 +99,8 @@ class Forecaster {
   dataflow::ColumnLoads loads_;
   double region_seconds_;
   std::vector<ComputerForecast> computers_;
-  std::vector<dataflow::Regions> partitions_;   ///< of those computers that dataflow goes on
-  std::vector<dataflow::MeasuredParts> parts_;  ///< of the same
+  std::vector<dataflow::Regions> partitions_;   ///< for the computers on which dataflow continues
+  std::vector<dataflow::MeasuredParts> parts_;  ///< likewise
 };
 
 }  // namespace

@@ -16,18 +16,18 @@ namespace dmpc::apps {
 
 /// What one strategy asks for, in bytes.
 struct MemoryForecast {
-  std::size_t least_bytes = 0;  ///< of a node: with less a render is refused
-  std::size_t usual_bytes = 0;  ///< of the largest node, if nothing is said about memory
-  std::size_t all_bytes = 0;    ///< of all nodes and the host in this case: what the real computer is asked for
+  std::size_t least_bytes = 0;  ///< minimum of a node: with less a render is refused
+  std::size_t usual_bytes = 0;  ///< default of the largest node, without options about memory
+  std::size_t all_bytes = 0;    ///< sum over all nodes and the host in this case: what the real computer needs
 };
 
-/// A computer of so many nodes.
+/// Forecast for a computer of `nodes` nodes.
 struct ComputerForecast {
   std::uint32_t nodes = 1;
   MemoryForecast svm, replicated;
   std::optional<MemoryForecast> dataflow;  ///< nothing for more nodes than its regions are for
   std::optional<MemoryForecast> forest;    ///< nothing unless the database is one tree
-  double dataflow_copies = 1;              ///< of a primitive, over all regions
+  double dataflow_copies = 1;              ///< copies per primitive, over all regions
 };
 
 struct Forecast {
@@ -35,7 +35,7 @@ struct Forecast {
   dataflow::Balance balance{};  ///< by which regions were made
   dataflow::CutOrder cuts{};    ///< and which way
   std::uint32_t regions_a_node = 1;
-  svm::PageHomes homes{};     ///< of svm's pages
+  svm::PageHomes homes{};     ///< for svm's pages
   double region_seconds = 0;  ///< that it took to make them, by the wall clock
 };
 

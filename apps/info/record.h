@@ -21,7 +21,7 @@ struct InfoRecord {
   std::optional<System> system;                ///< that was asked about
   std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
   AvailableMemory room;                        ///< for a render here
-  int width = 1, height = 1;                   ///< of the picture, in pixels
+  int width = 1, height = 1;                   ///< picture size in pixels
   double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
 };
 

@@ -27,7 +27,7 @@ struct TextureFigures {
   std::uint32_t width = 1, height = 1, levels = 1;
   core::TexelFormat format{};
   std::uint64_t tiles = 0, tile_bytes = 0;
-  std::uint64_t entries = 0, table_bytes = 0;  ///< of its table of tiles
+  std::uint64_t entries = 0, table_bytes = 0;  ///< table of tiles
 };
 /// "srgb", "srgb of 10 bits", "srgb with alpha" or "shared exponent".
 const char* name_of(core::TexelFormat format);
@@ -35,14 +35,14 @@ const char* name_of(core::TexelFormat format);
 /// Meshes of a scene that stand in several places of it (core/scene/base_meshes.h).
 struct MeshFigures {
   std::uint64_t count = 0, places = 0;
-  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< of all of them once; of all places
-  double stored_share = 1;  ///< of the scene's corners, with each mesh once (core/scene/base_meshes.h)
+  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< of each mesh once; of all instances
+  double stored_share = 1;  ///< share of the scene's corners that is stored with each mesh once (core/scene/base_meshes.h)
 };
 
 struct SceneFigures {
   std::string name;
   std::array<std::uint64_t, object_kind_count> objects{};  ///< by core::ObjectKind
-  core::Box bounds;                                        ///< of what is finite, in the world; empty if nothing is
+  core::Box bounds;                                        ///< bounds of finite objects, in the world; empty if there are none
   core::View view;
   core::Vec3d background;
   std::vector<core::PointLight> lights;  ///< with the colours in which they shine

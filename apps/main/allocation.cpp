@@ -35,7 +35,7 @@ void keep_freed_memory() {
 
 }  // namespace dmpc::apps
 
-/// As the standard has it, but for the pages of large blocks. The standard library's operator delete calls free().
+/// Standard behaviour, except for the pages of large blocks. The standard library's operator delete calls free().
 void* operator new(std::size_t bytes) {
   for (;;) {
     if (void* const first = dmpc::apps::block(bytes); first != nullptr) {

@@ -67,7 +67,7 @@ bool is_number(const std::string& shown) {
   return values.find("..") != std::string::npos && values.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-/// Of one value.
+/// Type of one value.
 std::string type_of(const OptionDescription& option) {
   Words choices = choices_in(option.value);
   for (std::string& word : choices) {

@@ -33,9 +33,9 @@ using Clock = std::chrono::steady_clock;
 // As apps/frontend/web/web_server.h has them.
 constexpr std::chrono::seconds request_timeout{2}, deaf_timeout{1}, end_timeout{2};
 constexpr std::size_t request_bytes_max = std::size_t{32} << 10U, bytes_a_second_least = std::size_t{16} << 10U;
-/// Of what a request brings.
+/// Limit of a request's body.
 constexpr std::size_t payload_bytes_max = 4096;
-/// Of those that may bring something: paths of ours are short.
+/// Limit of the path of requests with a body: our paths are short.
 constexpr std::size_t path_bytes_max = 256;
 /// Longer ones are sent in parts, between which a stream may end.
 constexpr std::size_t part_bytes = std::size_t{16} << 10U;

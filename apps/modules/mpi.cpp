@@ -2,7 +2,7 @@
 // a time: what every MPI does well.
 
 #define OMPI_SKIP_MPICXX 1   // the C++ bindings, which MPI has given up
-#define MPICH_SKIP_MPICXX 1  // the same
+#define MPICH_SKIP_MPICXX 1  // no C++ bindings here either
 #include <mpi.h>
 #include <time.h>
 
@@ -157,7 +157,7 @@ class MpiFabric final : public nodes::Fabric {
   std::vector<Way> ways_;  ///< by rank, this one included
   std::vector<std::byte> arrivals_;
   std::array<MPI_Request, receives_posted> receives_;
-  std::size_t oldest_ = 0;  ///< of the receives
+  std::size_t oldest_ = 0;  ///< oldest receive
   bool is_held_ = false;    ///< the frame of the oldest one
 };
 

@@ -131,7 +131,7 @@ struct CurvedQuery {
   std::uint32_t id;
   RTCRayN* ray;
   unsigned ray_count;  ///< side by side in `ray`
-  unsigned index;      ///< of the one that is meant
+  unsigned index;      ///< index of the primitive
   Context* context;
 };
 /// Where the ray meets the primitive; nothing if nowhere, or if the query does not want it.

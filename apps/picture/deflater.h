@@ -17,7 +17,7 @@ class Deflater {
   /// `level`: from 1, which is fast, to 12. Takes up to a mebibyte. Throws std::bad_alloc.
   explicit Deflater(int level);
 
-  /// The most that so many bytes take when they are packed.
+  /// Upper bound for the packed size of `byte_count` bytes.
   std::size_t packed_bytes_max(std::size_t byte_count) const;
   /// Packs `bytes` into `room`, and returns how much of it that took; 0 if there is less than it takes and some bytes to spare.
   std::size_t pack(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept;

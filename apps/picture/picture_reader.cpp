@@ -192,7 +192,7 @@ void PictureReader::check_time() const {
   }
 }
 
-/// Of a texel, and with all levels, which are a third more: once as it is read, and once more when records are made of it.
+/// Space per texel with all levels, which add a third: once as it is read, and once for the records made of it.
 void PictureReader::take_room(const Head& head, std::uint64_t& taken) const {
   const std::uint64_t most = memory_bytes_max();
   taken += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);

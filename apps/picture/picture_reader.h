@@ -37,7 +37,7 @@ class PictureReader {
  public:
   explicit PictureReader(const ReaderLimits& limits = {}) : budget_(limits) {}
 
-  /// Of files that pictures lie in: time for these.
+  /// Adds reading time for the bytes of files that pictures lie in.
   void add_bytes(std::uint64_t bytes) { budget_.add_bytes(bytes); }
 
   /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its
@@ -54,7 +54,7 @@ class PictureReader {
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }
   /// As apps/picture/image_file.h says.
   Image read_image(const PictureFile& file);
-  /// The same of a sky, which is not too large for a scene and for this computer: that is looked at before there is room for it.
+  /// As above for a sky; that it is not too large for a scene and for this computer is checked before memory is allocated.
   Image read_sky(const PictureFile& file);
 
  private:

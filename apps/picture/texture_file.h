@@ -16,8 +16,8 @@ enum class TextureAlpha : std::uint8_t { ignored, said, kept };
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
   TextureAlpha alpha = TextureAlpha::ignored;
-  double cutoff = 0;  ///< of alpha that cuts out what is less, up to 1; 0: it cuts nothing out
-  /// Of a smooth coat over what has these colours: what it sends back inwards of the light of white, up to coat_max.
+  double cutoff = 0;  ///< alpha below this is cut out, up to 1; 0: nothing is cut out
+  /// For a smooth coat over these colours: the share of white light that it reflects inwards, up to coat_max.
   double coat = 0;
 };
 inline constexpr double coat_max = 0.99;

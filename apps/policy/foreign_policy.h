@@ -21,7 +21,7 @@ class ForeignPolicy {
   /// a name of dmpc's own policies, or a policy that does not start.
   ForeignPolicy(const std::string& place, const std::function<void()>& check);
 
-  /// Of its column: printable, and none of dmpc's own policies.
+  /// Name of its column: printable, and different from dmpc's own policies.
   const std::string& name() const { return name_; }
 
   /// The faults of a node's caches of several sizes, each as svm::policy_misses() counts them. `check` is called all the time,

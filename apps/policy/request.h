@@ -16,9 +16,9 @@ namespace dmpc::apps {
 /// its name alone.
 struct PolicyRequest {
   std::uint32_t node = 0;
-  std::vector<std::uint32_t> cache_pages;  ///< of each cache
+  std::vector<std::uint32_t> cache_pages;  ///< per cache
   std::vector<svm::PageId> references;
-  std::string source;  ///< of a policy in Python
+  std::string source;  ///< source text of a Python policy
 };
 
 /// Four numbers (node, caches, bytes of the source, references), then the caches, the references, and the source: numbers of 32

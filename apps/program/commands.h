@@ -83,9 +83,9 @@ class Commands {
   Declare declare_;
   std::optional<Words> line_words_;  ///< nothing: any
   CommandLine line_;
-  std::optional<std::pair<std::string, OptionSet>> group_;  ///< of the commands being added
+  std::optional<std::pair<std::string, OptionSet>> group_;  ///< group of the commands being added
   std::map<std::string, std::function<Command()>> rows_;    ///< by the words of a line that name them
-  std::vector<std::string> topic_;                          ///< of `help`
+  std::vector<std::string> topic_;                          ///< topic of `help`
   Suggestion topics_;                                       ///< that `help` explains
 };
 

@@ -11,10 +11,10 @@ namespace dmpc::apps {
 
 /// So much at first, and more for each byte of the files that are read.
 struct ReaderLimits {
-  std::uint64_t seconds = 10;              ///< of processor time
-  std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
-  std::uint64_t wall_factor = 30;       ///< so many times the processor time may pass on the wall: others want the processor, too
-  std::uint64_t texture_bytes_max = 0;  ///< of all textures of a scene, with their levels; 0: what there is room for
+  std::uint64_t seconds = 10;              ///< processor time
+  std::uint64_t bytes_a_second = 500'000;  ///< one more second for this many more bytes of files
+  std::uint64_t wall_factor = 30;       ///< limit of wall clock over processor time: other processes want the processor, too
+  std::uint64_t texture_bytes_max = 0;  ///< for all textures of a scene, with their levels; 0: as much memory as there is
   Sandbox sandbox = Sandbox::available;
 };
 
@@ -27,7 +27,7 @@ class ReadingBudget {
   explicit ReadingBudget(const ReaderLimits& limits) : limits_(limits) {}
 
   void add_bytes(std::uint64_t bytes) { bytes_ += bytes; }
-  /// Of the processor: what a process took that is no more, or dmpc itself.
+  /// Adds processor time that an ended process or dmpc itself has used.
   void spend(Time time) { spent_ += time; }
   /// Passed on the wall.
   void wait(Time time) { waited_ += time; }

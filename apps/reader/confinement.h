@@ -12,7 +12,7 @@ namespace dmpc::apps {
 /// What holds of one process, or of several together.
 struct Confinement {
   bool are_calls_filtered = false;   ///< seccomp refuses it all calls of the system but a few
-  bool are_limits_set = false;       ///< of memory, files and processes
+  bool are_limits_set = false;       ///< limits of memory, files and processes
   bool are_files_forbidden = false;  ///< Landlock lets it open none, whatever calls it may make
 
   bool is_reach_forbidden = false;  ///< and by Landlock's later versions TCP, devices, others' signals and abstract sockets

@@ -69,7 +69,7 @@ void open_input_file(InputFile& file) {
 }
 
 std::uint64_t bytes_without_holes(const Descriptor& file, std::uint64_t bytes) {
-  constexpr int pieces_max = 1000;  // of a file that is more of a sieve the rest counts as it is
+  constexpr int pieces_max = 1000;  // the rest of a file with more pieces counts in full
   std::uint64_t holes = 0, at = 0;
   for (int piece = 0; piece < pieces_max && at < bytes; ++piece) {
     const off_t data = ::lseek(file.number(), static_cast<off_t>(at), SEEK_DATA);

@@ -25,7 +25,7 @@ InputFile find_input_file(const std::filesystem::path& path);
 /// Opens what was found, and nothing else, for reading. Throws core::InputError likewise.
 void open_input_file(InputFile& file);
 
-/// How many bytes of a file that is open for reading, and has so many, are there: holes are none.
+/// Allocated bytes, without holes, of an open file of `bytes` bytes.
 std::uint64_t bytes_without_holes(const Descriptor& file, std::uint64_t bytes);
 
 }  // namespace dmpc::apps

@@ -72,7 +72,7 @@ class Unpacker {
     require(value <= 1);
     return value == 1;
   }
-  /// Of what is believed, alone: T may have flags.
+  /// Only for trusted data: T may have flags.
   template <class T>
   std::optional<T> take_optional() {
     const bool has_value = take_flag();

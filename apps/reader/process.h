@@ -21,10 +21,10 @@ struct ReaderDeath : core::InputError {
 /// Ended and waited for in the end.
 class ReaderProcess {
  public:
-  /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start, and from then on
-  /// the time that `budget` has, which outlives it. What this computer does not confine it by is said, once. Throws
-  /// core::InternalError if there is no such program or if it does not get ready, ComputerCapacityError if this computer lets it
-  /// not, core::InputError where it is confined by less than the budget's sandbox asks for.
+  /// Starts the program and waits until it is ready. It may use `memory_bytes` beyond its memory at the start, and from then on
+  /// the time of `budget`, which outlives it. Limits that this computer cannot set are reported once. Throws core::InternalError
+  /// if the program is missing or does not get ready, ComputerCapacityError if this computer does not let it, core::InputError if
+  /// it is confined by less than the budget's sandbox asks for.
   ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
@@ -36,9 +36,9 @@ class ReaderProcess {
   void send_bytes(std::span<const std::byte> bytes);
   /// The next message. Throws ReaderDeath if it has ended or takes too long, core::CapacityError if its memory ended.
   Message receive();
-  /// Fills `room` with what lies at `address` of its memory, once and for all: what the reader does to it meanwhile may show,
-  /// what it does later does not. Returns false if there is not so much, if what all becomes of which a byte becomes `growth` is
-  /// more than its memory may hold, or if this computer does not let dmpc look there.
+  /// Copies the memory of the process at `address` into `room`. Changes that the reader makes meanwhile may show; later ones do
+  /// not. Returns false if there are not so many bytes, if the data would exceed its memory limit when each byte becomes `growth`
+  /// bytes, or if this computer does not let dmpc read the memory.
   bool copy(std::uint64_t address, std::span<std::byte> room, std::uint64_t growth = 1);
 
  private:
@@ -48,7 +48,7 @@ class ReaderProcess {
   void stop();
   /// Has the system end it where its time ends.
   void allow();
-  /// Of the processor, since its start.
+  /// Processor time since its start.
   ReadingBudget::Time taken() const;
   void wait_for_message();
   [[noreturn]] void end(const char* unless_by_signal);

@@ -37,7 +37,7 @@ enum class Saying : std::uint8_t {
   progress,        ///< share, 0 to 1
   bytes,           ///< more of the picture that is talked of
   texture_file,    ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
-  texture_bytes,   ///< of the bytes sent, or the first where it is weighed: that, name, format hint, edges; answered likewise
+  texture_bytes,   ///< number of bytes sent; the first time to be weighed: that, name, format hint, edges; answered likewise
   picture,         ///< width, height, format; its bytes follow, then done
   scene,           ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,
@@ -47,7 +47,7 @@ enum class Saying : std::uint8_t {
   normals,
   corners,
   meshes,     ///< which of the objects stand in places of their own: core::SharedMesh
-  places,     ///< of meshes: core::Instance
+  places,     ///< instances of meshes: core::Instance
   vertices,   ///< indices of the points that have come
   note,       ///< a text
   done,       ///< the last message about what was asked for
@@ -55,9 +55,9 @@ enum class Saying : std::uint8_t {
   no_room,    ///< a text
   out_of_memory,
   lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has them from there, or no
-  spheres,    ///< of a scene that has some
+  spheres,    ///< if the scene has spheres
   sky,        ///< the last of all: a picture's path, the rows of what turns the world's directions into its own, a factor
-  bounds,     ///< of a scene at an animation's moment: a centre and a radius
+  bounds,     ///< for an animation's moment: a centre and a radius
   left_to_another,  ///< the picture that is asked for: this program does not read it
 };
 

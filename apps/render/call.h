@@ -28,9 +28,9 @@ struct RenderCall {
   RenderCall(const RenderCall&) = delete;
   RenderCall& operator=(const RenderCall&) = delete;
 
-  /// Those of `notes` that say something, unless quiet.
+  /// Prints the notes that are not empty, unless quiet.
   void say(const std::vector<std::string>& notes) const;
-  /// Those of `notes` that say something, and have not been said of a frame before.
+  /// Prints the notes that are not empty and have not been printed for an earlier frame.
   void report_once(const std::vector<std::string>& notes);
   /// What an interruption means from now on, while a picture comes.
   void set_consequence();

@@ -80,7 +80,7 @@ void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, con
 void Checkpoints::finish() {
   has_one_ = false;
   files_.remove(file_);
-  files_.remove(next_name(file_));  // of a process that was killed
+  files_.remove(next_name(file_));  // left by a process that was killed
 }
 
 void remove_checkpoint_of(const PictureIdentity& identity, const CheckpointOptions& options, Files& files) {

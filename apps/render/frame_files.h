@@ -22,9 +22,9 @@ struct DueFrame {
 /// The frames of a call whose pictures are not there. Thread safety: none.
 class DueFrames {
  public:
-  /// `asked`, with names for all frames, outlives it. Throws core::UsageError unless each output of several frames has a place
-  /// for the frame's number (apps/run/frame_name.h), but for the checkpoint, of which there is one; core::InputError if the
-  /// folder cannot be read, or if a picture is there already that nobody wants to leave out.
+  /// `asked`, with names for all frames, outlives it. Throws core::UsageError unless each output of several frames has a field
+  /// for the frame's number (apps/run/frame_name.h), except the checkpoint, of which there is one; core::InputError if the folder
+  /// cannot be read, or if a picture exists already that is not to be skipped.
   explicit DueFrames(const RenderOptions& asked);
 
   /// How many are there, in a sentence; empty if there is none.
@@ -37,8 +37,8 @@ class DueFrames {
   /// there that nobody wants to leave out.
   std::optional<DueFrame> after(const DueFrame& last) const;
 
-  /// A sentence if their pictures, of so many pixels, may take more than is free where they go, however well they can be packed;
-  /// empty if not, or if that is not known.
+  /// A warning if the pictures of `pixel_count` pixels may need more disk space than is free, even if they are compressed well;
+  /// empty if not, or if that is unknown.
   std::string disk_note(std::uint64_t pixel_count) const;
 
  private:

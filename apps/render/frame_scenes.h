@@ -40,7 +40,7 @@ class FrameScenes {
   const RenderOptions& asked_;
   std::optional<CameraPath> path_;
   core::View own_view_, moved_view_;  ///< the latter of the frame loaded last
-  std::optional<StillScene> still_;   ///< of an animation, once it is known
+  std::optional<StillScene> still_;   ///< an animation's, once it is known
 };
 
 }  // namespace dmpc::apps

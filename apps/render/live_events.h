@@ -14,20 +14,20 @@ namespace dmpc::apps {
 /// What does not change while a picture comes.
 struct LiveHead {
   std::uint32_t width = 0, height = 0;
-  std::uint32_t node_count = 0;  ///< of those of which is shown what they do; 0: of none
+  std::uint32_t node_count = 0;  ///< nodes whose activity is shown; 0: none
   bool is_modelled = false;
   std::uint64_t frame = 0;            ///< its number; 0 where there is one picture alone
-  std::string home = {}, pivot = {};  ///< of a camera that may be moved: at first, and the point about which it turns
+  std::string home = {}, pivot = {};  ///< for a movable camera: its first position, and the point around which it turns
 };
 
 /// How far it is.
 struct LiveState {
   std::string said;      ///< as a sentence
-  std::uint64_t ms = 0;  ///< of the wall clock
+  std::uint64_t ms = 0;  ///< wall clock
   std::uint64_t ns = 0;  ///< on the nodes' clock
   std::uint32_t done = 0, total = 0, pass = 1;
   std::uint64_t packets = 0, bytes = 0;  ///< sent by nodes
-  std::vector<double> shares = {};       ///< of the nodes' time since the one before, by kind of work; empty: none has passed
+  std::vector<double> shares = {};       ///< shares of the nodes' time since the last step, by kind of work; empty: no time has passed
 };
 
 /// A picture that is done, where there are many.
@@ -44,7 +44,7 @@ std::string json_of(const LiveState& state);
 /// In bytes of sRGB, by base64.
 std::string json_of(const PictureTile& tile);
 std::string json_of(const LiveShot& shot);
-/// Of a frame, by base64.
+/// A step of a frame as base64.
 std::string json_of(const LiveSteps& steps, std::size_t step, std::uint64_t frame);
 /// That it is over, with lines of `figures`. `has_page`: another page is to be had now at the same place.
 std::string json_of_end(const std::string& said, const std::string& figures = "", bool has_page = false);

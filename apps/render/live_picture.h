@@ -14,8 +14,8 @@ namespace dmpc::apps {
 
 /// A rectangle of a picture.
 struct PictureTile {
-  std::uint32_t index = 0;     ///< of the tiles of a picture, row by row
-  std::uint32_t x = 0, y = 0;  ///< of its upper left pixel
+  std::uint32_t index = 0;     ///< index of the tile, row by row
+  std::uint32_t x = 0, y = 0;  ///< upper left pixel
   std::uint32_t width = 0, height = 0;
   std::vector<float> rgb;  ///< linear, row by row
 };
@@ -50,7 +50,7 @@ class LivePicture {
 
   std::uint32_t width_, height_, columns_;
   std::vector<std::uint8_t> is_dirty_;      ///< tile by tile: to be handed over
-  std::vector<std::uint32_t> new_samples_;  ///< of each pixel, in the pass under way: those that light has come of
+  std::vector<std::uint32_t> new_samples_;  ///< samples per pixel that have arrived in the current pass
   std::uint32_t next_tile_ = 0;             ///< at which to look first, so that each has its turn
   std::uint32_t pass_ = 0;
   std::atomic<bool> is_asked_for_ = false;

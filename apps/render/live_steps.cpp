@@ -8,7 +8,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// Which part of so many nanoseconds that was.
+/// Share of `passed_ns` that was busy.
 double part_of(std::uint64_t busy_ns, std::uint64_t passed_ns) {
   return passed_ns == 0 ? 0 : std::min(1.0, static_cast<double>(busy_ns) / static_cast<double>(passed_ns));
 }

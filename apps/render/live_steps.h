@@ -13,9 +13,9 @@ namespace dmpc::apps {
 
 /// What had been counted by when.
 struct LiveMoment {
-  std::uint64_t ms = 0;                ///< of the wall clock
+  std::uint64_t ms = 0;                ///< wall clock
   std::uint64_t ns = 0;                ///< on the nodes' clock
-  std::vector<nodes::WorkTimes> busy;  ///< of each node, the host left out
+  std::vector<nodes::WorkTimes> busy;  ///< per node, without the host
 
   /// Now, of what was read of the nodes.
   LiveMoment(std::uint64_t now_ms, const std::vector<nodes::LiveNode>& nodes);

@@ -32,8 +32,8 @@ std::uint32_t pair_kinds(Strategy strategy) {
   }
 }
 
-/// Those that files ask for, and those that a page plays, all of which cost little. Different pages are not among them: they
-/// would take memory of the nodes.
+/// Kinds for files and for a page, which are all cheap. Different pages are not among them, since they would take memory of the
+/// nodes.
 std::vector<core::HeatKind> heat_kinds_of(const RenderOptions& options) {
   using core::HeatKind;
   std::vector<HeatKind> kinds = kinds_of(options.heat_maps);

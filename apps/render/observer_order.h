@@ -19,16 +19,16 @@
 namespace dmpc::apps {
 
 struct ObserverOrder {
-  std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< of computer, database and picture
+  std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< sizes of computer, database and picture
   std::vector<core::HeatKind> heat_kinds = {};                    ///< empty: no heat map
   std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
   bool has_profile = false;
   nodes::WaitOf wait_of = {};  ///< for the profile
-  // Of modelled machines, which have no ranks: not told to others.
+  // Only for modelled machines, which have no ranks: not sent to other ranks.
   bool follows_paths = false;  ///< what led to the end of each wait
   std::optional<nodes::ExchangeChoice> exchange = {};
   std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched
-  std::optional<std::size_t> references_max = {};  ///< of one node
+  std::optional<std::size_t> references_max = {};  ///< per node
   bool has_all_references = false;                 ///< for a file: none is left out
 
   bool is_empty() const { return heat_kinds.empty() && !trace && !has_profile && !fetches && !references_max; }

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 
 namespace {
 
-// Waits that are kept: of all nodes while a run goes on, 9 MB, but of each so many; and at its end, for a page.
+// Limits of stored waits: of all nodes during a run, 9 MB, with a minimum per node; and at its end, for a page.
 constexpr std::size_t waits_max = std::size_t{1} << 17U, waits_of_node_least = 64, waits_shown_max = 8192;
 
 }  // namespace
@@ -67,7 +67,7 @@ nodes::Watching Observers::watching() {
   return watching;
 }
 
-/// Those there are of which other ranks have their share, but for the logs.
+/// Visits the observers that are shared by ranks, except the logs.
 template <class Self, class Visit>
 void Observers::visit_shared(Self& self, const Visit& visit) {
   const auto visit_if_there = [&visit](auto&... each) { ((each ? visit(each) : void()), ...); };

@@ -19,7 +19,7 @@
 
 namespace dmpc::apps {
 
-/// What they have seen, as far as somebody wants to know it, but for the heat map.
+/// The observations that were asked for, except the heat map.
 struct RunProfile {
   std::optional<nodes::Trace> trace;          ///< for --trace
   std::optional<RunView> view;                ///< for --report

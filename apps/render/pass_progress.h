@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// Passes become one stretch that never goes back: each has an equal share of it, whatever its pixels, and a picture that is good
-/// enough before the last one ends early. Not thread-safe.
+/// Combines passes into one monotonic progress: each pass has an equal share, whatever its number of pixels; a picture that is
+/// good enough before the last pass ends early. Not thread-safe.
 class PassProgress {
  public:
   /// `progress` outlives it. `first`: the pass with which it begins, from 1 on.

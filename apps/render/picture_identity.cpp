@@ -131,7 +131,7 @@ std::string materials_text(const core::Scene& scene) {
   return text_of(digest);
 }
 
-/// Of colours: others are told with what they say of materials.
+/// Digest of colour textures; others are part of their materials' text.
 std::string textures_text(const core::Scene& scene) {
   Digest digest;
   for (const core::Texture& texture : scene.textures) {
@@ -189,7 +189,7 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
   }
 }
 
-/// Of a picture what it shows, whatever its file is called.
+/// Digest of a picture's contents, whatever its file is called.
 std::string sky_text(const core::SkyTexels& sky) {
   Digest digest;
   digest.add(std::uint64_t{sky.width} << 32U | sky.height);
@@ -198,7 +198,7 @@ std::string sky_text(const core::SkyTexels& sky) {
   return text_of(digest);
 }
 
-/// Of a picture whose texels are all alike the colour, which is the background's.
+/// A picture whose texels are all alike counts as a sky of its colour, which is the background's.
 std::string sky_text(const SkyChoice& sky, const core::Scene& scene) {
   return text_of(sky.is_picture() ? SkyChoice{.horizon = scene.background, .zenith = {}} : sky);
 }

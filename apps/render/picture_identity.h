@@ -34,7 +34,7 @@ struct PictureIdentity {
 /// `scene` as it is rendered: staged, and not yet built from.
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
 
-/// That of a frame: the picture from `view`, in a scene whose own view, which the sky and lights go by, is another one.
+/// Identity of a frame: the picture from `view`, in a scene whose own view, on which the sky and lights depend, may differ.
 PictureIdentity identity_from(const core::View& view, PictureIdentity own);
 
 /// A digest of all that the scene is: equal scenes, equal digests, whatever file or name they come from.

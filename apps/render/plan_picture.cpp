@@ -34,7 +34,7 @@ SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
   return facts;
 }
 
-/// That of the frame before, of which `own` is the scene's own picture.
+/// Removes the checkpoint of the frame before; `own` is the identity of the scene's own picture.
 void remove_old_checkpoint(const RenderCall& call, const DueFrame& frame, const PictureIdentity& own) {
   remove_checkpoint_of(identity_from(call.scenes.view(*frame.number - 1), own), call.asked.checkpoint, call.files);
 }
@@ -49,7 +49,7 @@ void begin_checkpoint(RenderCall& call, const DueFrame& frame, const PictureIden
   }
 }
 
-/// Of the first frame a checkpoint is read, too.
+/// Reads the scene; for the first frame a checkpoint, too.
 ReadScene read_scene(RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
   Stopwatch stopwatch;
   const bool follows = follows_checkpoint(call, frame, frames);
@@ -141,7 +141,7 @@ core::Continuation continuation_of(RenderCall& call) {
 
 void plan(RenderCall& call, PlannedPicture& picture) {
   nodes::Watching watching = picture.observers.watching();
-  if (!call.asked.frames.are_several()) {  // of which each looks at the database for where it shows nothing
+  if (!call.asked.frames.are_several()) {  // where each frame checks the database itself where it shows nothing
     watching.distributed = [&picture] { picture.built.subject.database.forget_records(); };  // the nodes have theirs
   }
   Stopwatch stopwatch;

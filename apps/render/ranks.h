@@ -20,9 +20,9 @@ void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count
 /// Renders: reads, plans, writes and prints, and returns the status of the process.
 using RenderOnRanks = std::function<int(nodes::RankLinks&)>;
 
-/// All ranks of `fabric` call it with the options of one line. Rank 0 calls render(links), whose end, be it by an exception, ends
-/// all; the others follow, write and print nothing, and return rank 0's status. A rank that stops, by `stop`, stops the run of
-/// all. Throws what render() throws, on rank 0; nodes::LostRank if a rank is lost.
+/// Called on all ranks of `fabric` with the options of one command line. Rank 0 calls render(links), whose end, also by an
+/// exception, ends all; the others work, write and print nothing, and return rank 0's status. A rank that stops by `stop` stops
+/// the whole run. Throws what render() throws, on rank 0; nodes::LostRank if a rank is lost.
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render, const std::stop_token& stop);
 
 }  // namespace dmpc::apps

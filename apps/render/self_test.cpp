@@ -20,7 +20,7 @@ namespace {
 constexpr int side = 48;
 constexpr std::uint32_t pixels_together = core::BundleTask::pixels_max;
 
-/// As core::render(), but for rays that walk together.
+/// As core::render(), but traverses bundles of rays.
 core::Film render_in_bundles(core::GridTracer<core::LocalRecords>& tracer, const core::RenderSettings& settings,
                              core::Operations& operations) {
   core::Film film(side, side);

@@ -58,10 +58,10 @@ struct WrittenPicture {
   std::string page, closing;  ///< for who looks on, in the end
 };
 
-/// Reads, builds and plans for the frame, or goes on with the nodes of the one before, if there are such and the scene is the
-/// same but for the camera; else those end before another scene is built. A checkpoint, and whoever looks on, begin anew. While
-/// something is read a signal ends the process here and now. Throws as FrameScenes::load(), Checkpoints, build_subject() and
-/// make_ready() do, and core::UsageError if an output is a file that the scene was read from.
+/// Reads, builds and plans the frame, or reuses the nodes of the last one if they exist and only the camera has changed;
+/// otherwise those end before another scene is built. Checkpoints and observers begin anew. While a file is read, a signal ends
+/// the process at once. Throws as FrameScenes::load(), Checkpoints, build_subject() and make_ready() do, and core::UsageError if
+/// an output is a file that the scene was read from.
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,
                                              std::unique_ptr<PlannedPicture> last);
 

@@ -10,7 +10,7 @@ namespace dmpc::apps {
 
 struct CheckpointOptions {
   std::optional<std::filesystem::path> file;  ///< where what is done is kept; without it nothing is
-  double every_seconds = 120;                 ///< of wall clock; above 0
+  double every_seconds = 120;                 ///< wall clock; above 0
   bool resumes = false;                       ///< goes on from what the file has
 };
 

@@ -29,7 +29,7 @@ struct FrameOptions {
   bool are_several() const { return range && range->count() > 1; }
   /// The camera moves by more than the file's own animation.
   bool has_camera_path() const { return turntable_degrees || camera_path; }
-  /// Of an animation, when a frame is.
+  /// Time of a frame in an animation.
   double seconds_at(std::uint64_t frame) const { return static_cast<double>(frame - 1) / per_second; }
 };
 

@@ -26,8 +26,8 @@ struct RunView;
 /// Seconds of wall clock by phase, and of processor time.
 struct Seconds {
   double load = 0, build = 0, prepare = 0, render = 0, write = 0;
-  double user = 0, system = 0;                ///< of the whole process so far
-  double render_user = 0, render_system = 0;  ///< of the phase `render` alone
+  double user = 0, system = 0;                ///< whole process so far
+  double render_user = 0, render_system = 0;  ///< phase `render` alone
 };
 
 /// All that is known about one render.
@@ -40,7 +40,7 @@ struct RenderRecord {
   const nodes::Trace* trace = nullptr;                         ///< what options.trace asks for
   const RunView* view = nullptr;                               ///< what options.report asks for
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< what options.references asks for
-  std::uint64_t samples_found_done = 0;                        ///< of all pixels, in the checkpoint that the run went on from
+  std::uint64_t samples_found_done = 0;                        ///< sum over all pixels, in the checkpoint from which the run continued
   std::optional<std::uint64_t> scene_digest = {};              ///< what options.report asks for
   std::uint64_t film_hash = account_of(report).film.hash();
 };

@@ -22,7 +22,7 @@ namespace dmpc::apps {
 /// svm and replicated report alike.
 using Report = std::variant<svm::Report, dataflow::Report>;
 
-/// Of the packets of a strategy.
+/// Kinds of waits by a strategy's packets.
 WaitKinds wait_kinds(Strategy strategy);
 
 /// What every strategy says of a node. A view.
@@ -41,11 +41,11 @@ struct Account {
   const std::optional<nodes::Chaos>& chaos;                 ///< that disturbed the run
   std::vector<NodeAccount> nodes;                           ///< by number
   core::Operations operations;                              ///< summed over them
-  const nodes::NodeCounters& host;                          ///< of the host
+  const nodes::NodeCounters& host;                          ///< the host's
   std::uint64_t host_deposits_saturated;                    ///< pixels whose sums saturated on the host's film
   nodes::TrafficByKind sent;                                ///< by all nodes and the host, by kind
-  std::span<const char* const> kind_names;                  ///< of the strategy's packets
-  const std::optional<nodes::VirtualReport>& virtual_time;  ///< of a modelled machine
+  std::span<const char* const> kind_names;                  ///< kinds of the strategy's packets
+  const std::optional<nodes::VirtualReport>& virtual_time;  ///< modelled machine only
   WaitKinds waits;                                          ///< what the waits for these packets are
   core::RefinementResult refinement;
   const std::vector<nodes::RankFigures>& ranks;  ///< where there are several, or could be

@@ -67,7 +67,7 @@ void add_machine_option(OptionSet options, std::string& machine_name, const std:
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default = "");
 /// Declares the options of dataflow in a group of their own.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
-/// Those of them that say how regions are cut.
+/// Adds the options that say how regions are cut.
 void add_balance_options(OptionSet options, dataflow::BalanceOptions& balance);
 /// The option of a field alone.
 void add_option(OptionSet options, const core::Field& field, svm::PageOptions& pages);

@@ -56,7 +56,7 @@ struct ReportedOption {
   std::string_view key;
   OptionValue value;
 };
-/// The same; null but for the options of the plan's strategy.
+/// As above; null except for the options of the plan's strategy.
 std::vector<ReportedOption> reported_options(Strategy strategy, const svm::Plan& plan);
 std::vector<ReportedOption> reported_options(Strategy strategy, const dataflow::Plan& plan);
 

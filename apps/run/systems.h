@@ -49,7 +49,7 @@ std::string system_names();
 /// What stands for a system: its strategy, and the database that it asks for.
 StrategyOptions strategy_of(System system);
 DatabaseOptions database_of(System system);
-/// The same on the structure that it had; voxels by core::article_voxels.
+/// As above, on the system's original structure; voxels by core::article_voxels.
 DatabaseOptions original_database_of(System system);
 
 /// Declares --system.

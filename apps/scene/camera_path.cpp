@@ -135,7 +135,7 @@ void CameraPath::set_scene(const View& own, const core::Box& bounds) {
 /// Round the pivot.
 View CameraPath::turned(std::uint64_t frame) const {
   View view = own_;
-  // Exact: so many whole circles leave nothing.
+  // Exact: whole turns leave no remainder.
   const double degrees = std::fmod(degrees_ * static_cast<double>(frame - 1), 360);
   if (degrees != 0) {
     const double sine = core::sin_degrees(degrees), cosine = core::cos_degrees(degrees);

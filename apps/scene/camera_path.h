@@ -28,8 +28,8 @@ core::Vec3d pivot_of(const core::View& view, const core::Box& bounds);
 /// computer, alone or in a sequence.
 class CameraPath {
  public:
-  /// Goes round the scene: about pivot_of() the scene's own view, and round the view's up, anticlockwise as seen from above, by
-  /// so many degrees from each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
+  /// Turns around the scene: around pivot_of() of the scene's own view and the view's up, anticlockwise as seen from above, by
+  /// `degrees` from each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
   static CameraPath turntable(double degrees);
   /// At each keyframe as it says, between them on a spline through all of them (E. Catmull, R. Rom, "A Class of Local
   /// Interpolating Splines", 1974), whose slope at a keyframe is that from the one before to the one behind. Requires keyframes

@@ -33,7 +33,7 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
-/// Of which some direction is not black.
+/// Whether the sky is not black in some direction.
 bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
   constexpr core::Vec3d black;
   return sky.is_picture() ? scene.sky.brightest > 0 || scene.background != black
@@ -42,13 +42,13 @@ bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
 
 bool has_what_shines(const core::Scene& scene) { return std::ranges::any_of(scene.materials, &core::Material::shines); }
 
-/// By paths a sky lights, and what shines by itself.
+/// With path tracing a sky and emitters light the scene, too.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
   return !scene.lights.empty() || scene.ambient != core::Vec3d{} || (transport.sky && is_below_light(scene, *transport.sky)) ||
          (transport.is_by_paths() && has_what_shines(scene));
 }
 
-/// Of a scene that is not lit, and may have a sky of its own.
+/// Note about a scene that is not lit, and may have a sky of its own.
 std::string dark_text(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (has_what_shines(scene)) {
     return "its only lights are emissive surfaces, which light other things with --transport=paths only";
@@ -71,7 +71,7 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
 /// What comes of a mesh file beside its scene.
 struct Surroundings {
   std::vector<MeshSky> skies;
-  StillScene still;  ///< if an animation is asked for, but for its view
+  StillScene still;  ///< without its view, if an animation is asked for
 };
 
 core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened,
@@ -86,7 +86,7 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   return std::move(file.scene);
 }
 
-/// Of lights that --light-radius leaves as they are.
+/// Note about lights that --light-radius leaves unchanged.
 std::string points_text(std::uint64_t count) {
   return count == 0
              ? ""
@@ -94,7 +94,7 @@ std::string points_text(std::uint64_t count) {
                    ": as spheres of --light-radius they would contain the camera, or be too small or too far away to be seen";
 }
 
-/// Of bounces that the file says, where nobody asks for others.
+/// Note about the bounces of the file, where no option sets others.
 std::string bounces_text(const core::Scene& scene, const PictureOptions& picture) {
   const int bounces = depth_of(picture, scene) - 1;
   return bounces == picture.depth - 1 || !scene.bounces

@@ -110,7 +110,7 @@ void check_presented(const OptionSet& options, const PictureOptions& picture) {
   }
 }
 
-/// Of paths one number says how deep rays get, and what is seen behind everything is the sky's horizon.
+/// With path tracing one number limits the rays' depth, and the background is the sky's horizon.
 void settle_transport(const OptionSet& options, PictureOptions& picture) {
   const bool are_paths_its_own = picture.transport.is_by_paths() && is_below_own_sky(picture.scene);
   picture.transport.sky = are_paths_its_own ? sky_of(picture) : picture.transport.sky;

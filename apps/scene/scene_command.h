@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 
 struct SceneOptions {
-  std::string name;                             ///< of a built-in scene, a landscape or a grove
+  std::string name;                             ///< a built-in scene, a landscape or a grove
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   bool quiet = false;                           ///< no progress of a landscape or grove, which alone take long
 };

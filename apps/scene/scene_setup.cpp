@@ -80,7 +80,7 @@ std::string look(const CameraChoice& camera, core::View& view) {
   return "";
 }
 
-/// That of a view of the whole, which is the file's.
+/// Up axis of a view of the whole scene, which is the file's.
 UpAxis axis_of(const Vec3d& up) {
   const std::size_t axis = std::abs(up.x) > 0.5 ? 0 : std::abs(up.y) > 0.5 ? 1 : 2;
   return {axis, up[axis] < 0};

@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// Gives the scene the picture that lies at `path`, read as apps/picture/image_file.h says, as its sky; as its background, if all
-/// its texels are alike, so that nobody looks anything up. What is below 0 counts as 0. Returns what is to be said of it, nothing
-/// as a rule. Throws core::InputError "--sky=PATH: ..." if there is no such picture, it is not twice as wide as high but for a
-/// pixel, it has what is no number or beyond 1e30, whose place is told from the top left, or more than core::SkyTexels::size_max
-/// texels along a side; ComputerCapacityError if it takes more memory than there is.
+/// Sets the picture at `path`, read as apps/picture/image_file.h says, as the scene's sky; if all texels are alike, as its
+/// background, which needs no look-up. Negative values count as 0. Returns a note, usually empty. Throws core::InputError
+/// "--sky=PATH: ..." if there is no such picture, it is not twice as wide as high within a pixel, a texel (reported from the top
+/// left) is NaN or beyond 1e30, or a side has more than core::SkyTexels::size_max texels; ComputerCapacityError if it takes more
+/// memory than there is.
 std::string read_sky(const std::string& path, Sandbox sandbox, core::Scene& scene);
 
-/// A sentence about a sky of so much contrast that it is not shown as it is, or nothing.
+/// A note about a sky whose contrast is too large to be shown as it is, or nothing.
 std::string contrast_text(const core::SkyTexels& sky);
 
 }  // namespace dmpc::apps

@@ -19,9 +19,9 @@ namespace dmpc::apps {
 /// What is rendered.
 struct Subject {
   core::Database database;
-  core::BuildOptions built;  ///< those of its database, with what the scene decides
+  core::BuildOptions built;  ///< options of its database, with what the scene decides
   core::RenderSettings settings;
-  core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
+  core::RoundingLoss loss;  ///< loss of the picture by rounding coordinates
   std::string gain;         ///< gain_text() of its materials
   std::string emitters;     ///< emitters_text()
   std::string kept;         ///< instances_text()

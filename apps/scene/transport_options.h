@@ -17,7 +17,7 @@ namespace dmpc::apps {
 struct SkyChoice {
   core::Vec3d horizon;
   std::optional<core::Vec3d> zenith;
-  std::string file = {};  ///< of a picture; if there is one, the colours are black
+  std::string file = {};  ///< picture file; if there is one, the colours are black
 
   bool is_picture() const { return !file.empty(); }
 };
@@ -31,7 +31,7 @@ struct TransportOptions {
   int bounces = 8;                  ///< by paths: 0 to 254
   bool are_bounces_unasked = true;  ///< then those that the scene's file says are taken
   std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
-  /// By paths: of what shines by itself so many are aimed at, the most powerful; 0 to emitters_limit.
+  /// Path tracing: the number of emitters, the most powerful ones, that are light-sampled; 0 to emitters_limit.
   std::uint32_t emitters = 1024;
   std::optional<double> light_radius;  ///< by paths: point lights are spheres of this radius, in the scene's units; above 0
 
@@ -61,11 +61,11 @@ const char* name_of(core::TransportKind kind);
 /// As the nodes have it. `zenith`: of unit length, in the world.
 core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith);
 
-/// Of a database: what shines by itself and is aimed at, what is not, and what faces in its plane may hide (core/database).
+/// A database's emitters that are light-sampled, those that are not, and those that coplanar surfaces may hide (core/database).
 struct EmitterCounts {
   std::uint64_t emitters = 0, others = 0, covered = 0;
 };
-/// A sentence about what shines by itself and is not aimed at; empty if that is nothing, or nobody aims at anything.
+/// A note about emitters that are not light-sampled; empty if there are none, or there is no light sampling.
 std::string emitters_text(const EmitterCounts& counts, const TransportOptions& options);
 
 /// A sentence about materials that give more light than they get, of which a picture by paths shows more than there is; empty if

@@ -46,13 +46,13 @@ inline constexpr auto counters_of<dataflow::Gather::Counters> = std::array{
     counter<&dataflow::Gather::Counters::packets_queued>({"packets_queued", "sent after a wait for credit"}),
 };
 
-/// Of the same, what went by way of the host.
+/// The part of these that was sent by way of the host.
 inline constexpr std::array overflow_counters = {
     counter<&dataflow::Gather::Counters::rays_overflowed>({"rays"}),
     counter<&dataflow::Gather::Counters::packets_overflowed>({"packets"}),
 };
 
-/// Of the same, what waited.
+/// The part of these that waited.
 inline constexpr std::array queue_counters = {
     counter<&dataflow::Gather::Counters::queue_high_water>(
         {"queue_max", "packets that waited to be sent on a node at once"}),

@@ -8,7 +8,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// Those that say something else to `render`, or nothing, with their values behind them unless they have none.
+/// Options that mean something else to `render`, or nothing; each is followed by its value unless it has none.
 constexpr std::array<std::string_view, 3> left_out = {"--camera", "--resolution", "--port"};
 
 }  // namespace

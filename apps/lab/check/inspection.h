@@ -19,7 +19,7 @@ struct TracedRay {
   core::Ray ray;
   Answer grid, oracle;
   core::Hit hit;             ///< the grid's, of shadow rays too: what they met first
-  std::uint32_t number = 0;  ///< of the ray within its pixel, in the order of the shots
+  std::uint32_t number = 0;  ///< number of the ray within its pixel, in shooting order
 };
 
 struct SettledRay {
@@ -34,7 +34,7 @@ struct CertifiedRay {
 
 /// What came out; the same bits for every number of threads.
 struct Inspection {
-  core::Operations operations;          ///< of our grid; the render follows its answers
+  core::Operations operations;          ///< our grid's operations; the render follows its answers
   std::vector<SettledRay> differences;  ///< all of them, by pixel and shot
   /// Pixels whose sums have other bits where Embree names the primitives (EmbreeTracer): only some of those with a differing ray,
   /// as the same surface may go by two names.

@@ -23,10 +23,10 @@ struct CompareOptions {
   std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
   std::optional<std::filesystem::path> flip;        ///< where the picture of perceived differences goes
   CompareFormat format = CompareFormat::text;
-  std::vector<Limit> limits = {};                    ///< of pictures
-  FigureChoice figures = {};                         ///< of counters
+  std::vector<Limit> limits = {};                    ///< for pictures
+  FigureChoice figures = {};                         ///< for counters
   std::optional<std::filesystem::path> report = {};  ///< where the page of both runs goes, of two pages
-  Sandbox sandbox = Sandbox::available;              ///< of the pictures' reader
+  Sandbox sandbox = Sandbox::available;              ///< for the pictures' reader
 };
 
 /// Declares them.

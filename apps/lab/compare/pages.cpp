@@ -19,7 +19,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::size_t rows_max = 1000;  ///< of the page's table of counters
+constexpr std::size_t rows_max = 1000;  ///< rows of the page's table of counters
 
 /// Width and height that a PNG says it has (ISO/IEC 15948): four bytes each behind signature, length and name of its first chunk.
 bool is_small_png(const std::string& bytes) {

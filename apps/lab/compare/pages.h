@@ -21,8 +21,8 @@ struct PlayedPage {
 /// Reads what a page plays. Throws core::InputError if it cannot be read, is none of a render, or does not hold together.
 PlayedPage read_page(const std::filesystem::path& file);
 
-/// Of the counters that pages have kept; where one has none, nothing if `may_be_absent` and none are asked for, else
-/// core::InputError.
+/// Compares the counters stored in pages. If a page has none: returns nothing if `may_be_absent` and none are asked for, else
+/// throws core::InputError.
 std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage, 2>& pages, const FigureChoice& choice,
                                                     bool may_be_absent);
 

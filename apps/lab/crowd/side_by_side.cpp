@@ -14,7 +14,7 @@ namespace {
 
 using Finish = std::function<void()>;
 
-/// A piece that takes long keeps so many others for each core from going on without it.
+/// The number of pieces per core, so that a core does not wait for a long piece.
 constexpr std::size_t pieces_per_core = 2;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Errors of linear floats over all channels of all pixels, but for the perceived ones. A value that is not finite on one side
+/// Errors of linear floats over all channels of all pixels, except the perceived ones. A value that is not finite on one side
 /// only, or differently, makes the sums infinite.
 struct PictureError {
   double root_mean_square = 0;

@@ -86,7 +86,7 @@ std::vector<Figure> parse_figures(std::string_view text, const std::string& file
   std::vector<Figure> figures;
   add_figures(json, "", figures);
   if (json.contains("film_hash") && !json.contains("film_scale")) {
-    figures.push_back({"film_scale", 1.0});  // of a dmpc whose films had no other
+    figures.push_back({"film_scale", 1.0});  // older versions of dmpc had films of no other scale
   }
   return figures;
 }

@@ -1,5 +1,5 @@
-// How those who judge pictures by paths aim at what shines, in single precision and in double: by arithmetic that shares with
-// core's the maps from chances to a disc, no more.
+// Light sampling of the path tracers that judge pictures, in single and in double precision. Its arithmetic shares only the maps
+// from random numbers to a disc with core's.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace dmpc::apps {
 template <class Real>
 struct EmitterAim {
   core::Vec3<Real> way;      ///< to the place
-  core::Vec3<Real> towards;  ///< the same, of unit length
-  Real density;              ///< of this direction, per steradian, the emitter's chance included
+  core::Vec3<Real> towards;  ///< direction as a unit vector
+  Real density;              ///< probability density of this direction, per steradian, including the emitter's probability
 };
 
 /// As the product has it: who is nearer than this to a sphere, in radii from its middle, does not aim at it.

@@ -14,7 +14,7 @@
 
 namespace dmpc::apps {
 
-/// What of a hit's certificate does not hold.
+/// The part of a hit's certificate that does not hold.
 enum class CertificateFault : std::uint8_t {
   none,
   no_answer,  ///< there is no exact answer, but it claims one
@@ -37,7 +37,7 @@ struct CertifiedHit {
   CertificateFault fault = CertificateFault::none;
   bool is_decided = false;  ///< the others mean nothing if not
   bool is_inside = false;   ///< the exact ray meets the triangle, beyond doubt
-  double width_ulp = 0;     ///< of the interval that holds the exact t
+  double width_ulp = 0;     ///< width of the interval that holds the exact t
   double error_ulp = 0;     ///< what the hit's t is off, at most: from the far end of that interval
   double allowed_ulp = 0;   ///< what the kernels' bound allows it to be off
 };
@@ -60,8 +60,8 @@ class Spread {
 struct CertifiedCounts {
   std::uint64_t hits = 0, undecided = 0, inside = 0;
   std::array<std::uint64_t, certificate_fault_count> faults{};
-  Spread width_ulp;               ///< of those that are decided
-  Spread error_ulp, allowed_ulp;  ///< of those surely on their primitive: others have their exact t anywhere on the plane
+  Spread width_ulp;               ///< width over decided hits
+  Spread error_ulp, allowed_ulp;  ///< over hits surely on their primitive: others have their exact t anywhere on the plane
 
   void count(const CertifiedHit& hit);
   std::uint64_t failures() const;

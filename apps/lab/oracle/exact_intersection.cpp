@@ -51,7 +51,7 @@ constexpr double tiny = std::numeric_limits<double>::min();
 /// A vertex as seen from the ray's origin.
 struct Sight {
   Vec3d position;
-  double distance, across;  ///< of the vertex: from the origin, and from the ray's line
+  double distance, across;  ///< the vertex's distance from the origin and from the ray's line
 };
 
 Vec3f vertex(const core::PrimitiveValues& values, std::size_t index) {
@@ -67,7 +67,7 @@ T spanned(const Ray& ray, const Vec3f& a, const Vec3f& b) {
 
 struct Edge {
   double area;                  ///< N above
-  std::array<double, 2> bound;  ///< of its error, by Renderer
+  std::array<double, 2> bound;  ///< bound of its error, by Renderer
 };
 
 struct SeenTriangle {
@@ -322,7 +322,7 @@ bool is_of_eye_on(const Ray& ray, const Curved& curved, Long t) {
          std::fabs(t) <= std::fabs(other);
 }
 
-/// The same of a curve that `ray` may start on.
+/// As above, for a curve on which `ray` may start.
 ExactIntersection meet_curved(const Ray& ray, const Curved& curved, Long t) {
   ExactIntersection exact_intersection = meet_curved(curved, t);
   if (is_of_eye_on(ray, curved, t)) {

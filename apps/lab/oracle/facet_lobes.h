@@ -24,8 +24,8 @@ struct FacetedPlace {
   Real there = 1;                                 ///< the share of the surface that is, its opacity included
   Real matt = 0;                                  ///< the share of what goes in that is scattered
   Real absent = 0, passing = 0;                   ///< shares of what passes by the mirrors, and of what goes in and through
-  Real index = 1;                                 ///< of refraction: on the ray's side over the other one
-  core::Vec3<Real> direction;                     ///< of the ray
+  Real index = 1;                                 ///< ratio of refractive indices: the ray's side over the other one
+  core::Vec3<Real> direction;                     ///< the ray's
   core::Vec3<Real> normal, true_normal;           ///< the former for shading
 };
 
@@ -40,8 +40,8 @@ struct FacetedStep {
 /// What comes back of light from somewhere.
 template <class Real>
 struct FacetedResponse {
-  core::Vec3<Real> value;  ///< of a radiance of 1 from there, per steradian, the cosine included
-  Real density = 0;        ///< of ways there
+  core::Vec3<Real> value;  ///< response to a radiance of 1 from there, per steradian, including the cosine
+  Real density = 0;        ///< probability density of that direction
 };
 
 /// GGX, height-correlated Smith, Schlick's Fresnel, over a Lambertian that is coupled to a smooth surface. Directions come from
@@ -119,7 +119,7 @@ class FacetLobes {
     return (place.base * place.metallic + grey(place.reflectance * (1 - place.metallic))) * place.there;
   }
 
-  /// Of tiny mirrors that differ in direction.
+  /// Whether the microfacets differ in direction.
   bool is_spread() const { return place_.alpha >= static_cast<Real>(core::sharpest_alpha); }
   /// What they let in of what they do not reflect straight ahead: of light from within, by the angle outside.
   Real unreflected(Real cosine) const {
@@ -127,7 +127,7 @@ class FacetLobes {
     const Real less = 1 - (place_.index > 1 ? std::sqrt(std::max(Real{0}, squared)) : cosine), square = less * less;
     return 1 - square * square * less;
   }
-  /// Of light that the matt layer sends inwards: by refraction its directions crowd in a cone.
+  /// Concentration of light that the matt layer sends inwards: refraction crowds its directions in a cone.
   Real crowding(Real cosine) const {
     const Real square = std::max(Real{1}, place_.index * place_.index);
     return square * (1 - cosine * cosine) < 1 ? square : Real{0};

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 /// What a renderer said of a ray: a closest hit by name, or only whether a shadow ray is blocked.
 struct Answer {
   bool hit = false;
-  std::uint32_t primitive = core::no_primitive;  ///< of a closest hit; unused for shadow rays
+  std::uint32_t primitive = core::no_primitive;  ///< a closest hit's; unused for shadow rays
   float t = 0;                                   ///< as the renderer gave it, for reports
 
   bool operator==(const Answer& other) const { return hit == other.hit && primitive == other.primitive; }

@@ -16,7 +16,7 @@ inline std::string pixel_text(std::uint64_t pixel, std::uint64_t width) {
 }
 
 struct Trial {
-  using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< of what, as one of it is called
+  using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< counts, each with the singular name of what is counted
 
   Counts tried, failed = {};
   std::string worst = {}, where = {};  ///< empty: nothing was off

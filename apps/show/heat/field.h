@@ -23,8 +23,8 @@ struct HeatField {
   int width = 0, height = 0;
   std::vector<double> values;
   std::string meaning;  ///< what the numbers count, in words
-  std::string unit;     ///< of the numbers: "rays", "us"
-  std::string clock;  ///< of `time`: "processor time" or "virtual time", of `done` the "wall clock" or that; of other kinds empty
+  std::string unit;     ///< unit of the numbers: "rays", "us"
+  std::string clock;  ///< clock of `time`: "processor time" or "virtual time", of `done` also "wall clock"; empty for other kinds
   bool is_repeatable = false;  ///< another run with the same options gives the same bits
 
   double least() const;
@@ -32,11 +32,11 @@ struct HeatField {
   double sum() const;
 };
 
-/// What the run has put on the heat map, which it has filled. Requires record.heat with this kind.
+/// The field of a run that has filled its heat map. Requires record.heat with this kind.
 ///
-/// Repeatable are rays, depth and samples, which are the same for every strategy and number of nodes, too; references and pages,
-/// the same for every number of nodes; all in virtual time; with threads, faults and node where no pixel changes its node and
-/// (faults) one at a time is under way on it, or where there is one node; and dataflow's node.
+/// Repeatable are rays, depth and samples, which are also the same for every strategy and number of nodes; references and pages,
+/// which are the same for every number of nodes; everything in virtual time; with threads, faults and node if no pixel changes
+/// its node and (faults) each node has one pixel in flight at a time, or if there is one node; and dataflow's node.
 HeatField heat_field(core::HeatKind kind, const RenderRecord& record);
 
 }  // namespace dmpc::apps

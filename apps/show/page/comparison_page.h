@@ -25,7 +25,7 @@ struct Comparison {
   std::array<ComparedPage, 2> pages;
   std::string picture_sentence;        ///< how far the pictures lie apart; empty: nothing to say
   std::string counter_sentence;        ///< what became of their counters
-  std::optional<Table> counters = {};  ///< those that differ
+  std::optional<Table> counters = {};  ///< counters that differ
 };
 
 /// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if the runs' clocks differ, of

@@ -16,7 +16,7 @@
 namespace dmpc::apps::html {
 
 extern const WebPart what_if_style;   ///< what_if.css
-extern const WebPart what_if_script;  ///< of a page that plays no run: what draws the band alone
+extern const WebPart what_if_script;  ///< for a page that plays no run: draws the band alone
 
 /// A run that was made: its cache, and what it took.
 struct MadeRun {
@@ -32,8 +32,8 @@ struct ForecastView {
   std::vector<MadeRun> runs;
 };
 
-/// Of the run that a page is of, which is the one that was made: nothing unless pages travel on a modelled machine and their
-/// references were kept, or if nothing can be told from it.
+/// Forecast from a finished run: nothing unless pages travel on a modelled machine and references were recorded, or if no
+/// forecast can be made from them.
 std::optional<ForecastView> forecast_view(const RenderRecord& record);
 
 /// For scripts: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
@@ -44,7 +44,7 @@ std::optional<ForecastView> forecast_in(std::string_view page, const std::string
 
 /// Says it in a sentence and a table, and draws it: by gnuplot, and where scripts run by them, in a place of its own.
 void add_forecast(Page& page, const ForecastView& view);
-/// The same for a page that plays no run, with its scripts.
+/// As above for a page that plays no run, with its scripts.
 void add_forecast_alone(Page& page, const ForecastView& view);
 
 }  // namespace dmpc::apps::html

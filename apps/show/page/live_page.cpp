@@ -8,7 +8,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// Of what is for one kind the style hides what is for the other.
+/// Elements for both kinds of page; the style hides those for the other kind.
 constexpr const char* body =
     R"(<p id="said" role="status">This page lives by its script, which does not run here.</p>
 <progress id="done" aria-label="Pixels done" value="0" max="1"></progress>

@@ -30,11 +30,11 @@ class DataPart {
 
   std::uint64_t whole(std::uint64_t most, std::uint64_t least = 0) const;
   double number() const;
-  /// Of so many bytes at most.
+  /// A text of at most `most` bytes.
   std::string text(std::size_t most = 4096) const;
-  /// As typed_array() makes it, of so many numbers, none of which is larger than `most`.
+  /// As typed_array() makes it: `count` numbers, none larger than `most`.
   const nlohmann::json& numbers(std::size_t count, std::uint64_t most) const;
-  /// The same, of whatever length; tells it.
+  /// As above, with any number of numbers; returns it.
   std::size_t count_numbers(std::uint64_t most) const;
   [[noreturn]] void refuse(const std::string& expected) const;
 

@@ -33,7 +33,7 @@ using nlohmann::json;
 using Counts = std::vector<std::uint64_t>;
 
 constexpr std::size_t pages_max = 256;          ///< the hottest that are listed
-constexpr std::size_t over_time_side_max = 96;  ///< of pairs, of which there are 295,000 values then
+constexpr std::size_t over_time_side_max = 96;  ///< of pairs; there are 295,000 values then
 
 std::uint64_t largest(std::span<const std::uint64_t> values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
@@ -75,7 +75,7 @@ Scaled scaled(HeatKind kind, std::span<const std::uint64_t> values) {
   if (kind != HeatKind::time) {
     return {{values.begin(), values.end()}};
   }
-  Scaled nanoseconds{.values = {}, .scale = 1e-3};  // of picoseconds, in microseconds
+  Scaled nanoseconds{.values = {}, .scale = 1e-3};  // picoseconds, shown in microseconds
   for (const std::uint64_t picoseconds : values) {
     nanoseconds.values.push_back((picoseconds + 500) / 1000);
   }
@@ -116,7 +116,7 @@ void append_shares(Counts& shares, const std::vector<Times>& steps, std::size_t 
   }
 }
 
-/// Of kinds of works or waits, those that are not nothing. The host, which is the last, is left out.
+/// Shares by kind of work or wait, without kinds that are all zero. The host, which is the last, is left out.
 template <class Times, class NameOf>
 json shares_of(const std::vector<std::vector<Times>>& nodes, std::uint64_t step_ns, const NameOf& name_of) {
   json all = json::array();
@@ -269,7 +269,7 @@ json link_steps(const nodes::ExchangeProfile& exchange, const nodes::VirtualRepo
   return steps_of(exchange.links(), rows, report.total_ns);
 }
 
-/// Of the first `side` of so many nodes and a host.
+/// Steps of the first `side` of `peer_count` nodes and a host.
 json pair_steps(const nodes::ExchangeProfile& exchange, std::size_t peer_count, std::size_t side, std::uint64_t total) {
   std::vector<std::span<const std::uint64_t>> rows;
   for (std::size_t i = 0; i < side * side; ++i) {

@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint64_t byte_limit = 255;
-constexpr std::uint64_t picture_side_limit = std::uint64_t{1} << 20U;  ///< of a picture
+constexpr std::uint64_t picture_side_limit = std::uint64_t{1} << 20U;  ///< limit of a picture's side
 constexpr std::size_t step_count_limit = std::size_t{1} << 16U, list_size_limit = 4096;
 constexpr std::size_t word_bytes_limit = std::size_t{1} << 16U;
 constexpr double scale_limit = 1e12;
@@ -72,7 +72,7 @@ std::string picture_in(std::string_view page) {
   return picture;
 }
 
-/// What `entry_of` takes of each entry, of which there are so many at most.
+/// A list of entry_of() of each entry; there are at most `most`.
 template <class EntryOf>
 json list_of(const DataPart& list, std::size_t most, const EntryOf& entry_of) {
   json all = json::array();
@@ -82,7 +82,7 @@ json list_of(const DataPart& list, std::size_t most, const EntryOf& entry_of) {
   return all;
 }
 
-/// Of the keys that are there; texts, numbers and lists of such that nothing else hangs on are taken one by one.
+/// The optional keys; texts, numbers and lists of these on which nothing else depends are taken one by one.
 json head_of(const DataPart& data) {
   json head = {{"format", play_format}};
   for (const char* const key : {"scene", "computer"}) {
@@ -118,7 +118,7 @@ void add_picture_sizes(json& head, const DataPart& data) {
   head.update({{"width", width}, {"height", height}, {"cell", cell}, {"wide", wide}, {"high", high}});
 }
 
-/// Of numbers that are added up.
+/// Scale of numbers that are added up.
 double scale_of(const DataPart& scale) {
   const double number = scale.number();
   if (!(number >= 0 && number <= scale_limit)) {

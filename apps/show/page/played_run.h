@@ -9,7 +9,7 @@
 namespace dmpc::apps::html {
 
 struct PlayedRun {
-  nlohmann::json data;               ///< as play_data() tells it, but for forecast and stats, and with no other key
+  nlohmann::json data;               ///< as from play_data(), without forecast and stats, and with no other key
   std::optional<std::string> stats;  ///< what the page has of --stats, as JSON; a page of an earlier dmpc has none
   std::string picture;               ///< a PNG's bytes, if it is one
 

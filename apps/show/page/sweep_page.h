@@ -16,7 +16,7 @@ namespace dmpc::apps::html {
 
 /// A table and the plots of it.
 struct SweepPart {
-  std::string heading;  ///< of its section; empty: none
+  std::string heading;  ///< heading of its section; empty: none
   const Table& table;   ///< outlives this
   std::vector<Plot> plots;
   std::string conclusion = {};  ///< a sentence; empty: none

@@ -20,7 +20,7 @@
 
 namespace dmpc::apps {
 
-extern const char* const stats_schema_form;  // of a source that CMake makes of the file
+extern const char* const stats_schema_form;  // defined in a source that CMake generates from the file
 
 namespace {
 

@@ -30,7 +30,7 @@ using nodes::Traffic;
 
 constexpr double nanosecond = 1e-9;
 
-/// All of `keys` in order, null but for those that `values` has.
+/// All of `keys` in order, null if `values` does not have them.
 Json filled(std::initializer_list<const char*> keys, const Json& values) {
   Json result;
   for (const char* const key : keys) {
@@ -57,7 +57,7 @@ Json sampling_json(const RenderRecord& record, const Account& account) {
 /// A figure of the whole picture that a part of its samples does not tell: null where some were found done.
 Json of_whole_picture(const RenderRecord& record, const Json& figure) { return record.samples_found_done == 0 ? figure : Json(); }
 
-/// The cutoff's own bound: on average a sample lacks at most so much light.
+/// Bound of the cutoff: on average a sample lacks at most this much light.
 Json cutoff_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
   const auto cut = static_cast<double>(account.operations.rays_cut);
@@ -269,7 +269,7 @@ Json heat_maps_json(const RenderRecord& record) {
   return result;
 }
 
-/// Of the readers of this run's foreign files.
+/// Confinement of this run's readers of foreign files.
 Json sandbox_json() {
   const std::optional<Confinement> confinement = confinement_of_readers();
   return confinement ? Json{{"calls_filtered", confinement->are_calls_filtered},

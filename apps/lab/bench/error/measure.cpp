@@ -60,7 +60,7 @@ class Scenes {
   /// Tessellation, and emitters.
   using Key = std::pair<int, std::uint32_t>;
 
-  /// Of a scene that is there with another number of what is aimed at all has been said.
+  /// Notes are not repeated for a scene that is there already with another number of emitters to sample.
   const Built& add(const Key& key) {
     PictureOptions picture = picture_;
     picture.transport.emitters = key.second;

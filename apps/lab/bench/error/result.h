@@ -17,9 +17,9 @@ namespace dmpc::apps {
 /// One setting, rendered once in each round.
 struct Measurement {
   Setting setting;
-  std::vector<double> seconds;  ///< of the phase `render`, by round, by paths of processors; empty: not measured yet
-  std::uint64_t rays = 0;       ///< of all kinds
-  std::uint64_t samples = 0;    ///< of all pixels
+  std::vector<double> seconds;  ///< phase `render`, by round, in seconds of processor time; empty: not measured yet
+  std::uint64_t rays = 0;       ///< rays of all kinds
+  std::uint64_t samples = 0;    ///< sum over all pixels
   std::uint64_t film_hash = 0;
   PictureError error;                         ///< against the reference: sampling and all else
   std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples; not by paths
@@ -37,7 +37,7 @@ struct SceneResult {
   std::vector<Point> points;
   std::vector<std::size_t> measurement_of;  ///< by point: its setting's place among the measurements
   std::vector<Measurement> measurements;
-  std::optional<PictureError> arithmetic;  ///< of the base point's picture against the same samples in double
+  std::optional<PictureError> arithmetic;  ///< error of the base point's picture against the same samples in double
 
   const Measurement& of(std::size_t point) const { return measurements[measurement_of[point]]; }
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }

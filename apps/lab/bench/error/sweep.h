@@ -44,7 +44,7 @@ void check_knobs(const std::set<Knob>& knobs, bool are_by_paths);
 
 /// All knobs of one render.
 struct Setting {
-  int samples = 16;                                      ///< of every pixel; if they are refined, those of the first pass
+  int samples = 16;                                      ///< per pixel; if they are refined, in the first pass
   double error = 0;                                      ///< core::RefinementOptions::error; 0: the same samples in all pixels
   double cutoff = 0;                                     ///< core::ShadeOptions::cutoff
   int depth = 8;                                         ///< PictureOptions::depth

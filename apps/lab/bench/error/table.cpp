@@ -155,7 +155,7 @@ PlotSeries series_of(Knob knob) {
   return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
 }
 
-/// What of a knob's points is too near to the reference's own error to be claimed.
+/// A knob's points that are too near to the reference's own error.
 PlotSeries uncertain_series_of(Knob knob) {
   return {.title = std::string(name_of(knob)) + ", uncertain",
           .column = "RMSE without the reference's",

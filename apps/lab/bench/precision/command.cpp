@@ -178,7 +178,7 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
 struct Outcome {
   std::uint64_t scenes = 0, pixels = 0, unexplained = 0, missed = 0;
   std::pair<bool, double> least{true, 100};  ///< whether it is explained, and the percentage of equal pixels
-  std::string worst = {}, where = {};        ///< of the scene with these
+  std::string worst = {}, where = {};        ///< name of the scene with these
 
   bool is_right() const { return unexplained + missed == 0; }
   void count(const PrecisionRow& row) {

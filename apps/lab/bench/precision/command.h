@@ -21,7 +21,7 @@ struct PrecisionOptions {
   /// Percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured. How many pixels may differ is
   /// rounded up.
   std::optional<double> expected;
-  SceneSetup scene_setup;  ///< of all scenes
+  SceneSetup scene_setup;  ///< for all scenes
   TableOutput table;       ///< without a page and plots
   bool quiet = false;      ///< no progress
 };
@@ -40,8 +40,8 @@ struct Expectation {
   std::string reason;  ///< why no more
 };
 
-/// Of a family's own scene, by its name: what was measured of it at 256x256 pixels and depth 5, seen and lit as it is, in whole
-/// hundredths of a percent. Of any other what is usual: 99 %.
+/// For a family's own scene, by its name, what was measured at 256x256 pixels and depth 5 with its own view and lights, in whole
+/// hundredths of a percent. For any other scene the usual 99 %.
 Expectation expectation_of(const std::string& scene);
 
 }  // namespace dmpc::apps

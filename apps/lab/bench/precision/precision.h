@@ -19,10 +19,10 @@ struct Precision {
   std::uint64_t primitives = 0;
   std::uint64_t rays = 0;              ///< the accurate renderer's, of all kinds
   std::uint64_t differing_pixels = 0;  ///< in 8 bits with the sRGB curve, in any channel
-  double root_mean_square = 0;         ///< of linear radiance, over all channels of all pixels
+  double root_mean_square = 0;         ///< linear radiance, over all channels of all pixels
   double largest = 0;
-  std::array<std::uint64_t, pixel_cause_count> causes{};  ///< of the pixels that differ
-  double largest_step = 0;                                ///< of any audit of them
+  std::array<std::uint64_t, pixel_cause_count> causes{};  ///< counts of differing pixels by cause
+  double largest_step = 0;                                ///< largest in any audit of these pixels
   std::vector<std::string> errors;                        ///< "pixel (3, 4): ..." for each unexplained one, row by row
   bool is_by_paths = false;                               ///< pixels that differ have no causes, but one error if their mean does
 };

@@ -87,7 +87,7 @@ class AblationBench {
 
  private:
   struct Rendered {
-    double seconds, work;  ///< of processors; of what is counted, by prices
+    double seconds, work;  ///< processor seconds; counted operations, weighted by prices
     core::Film film;
   };
 

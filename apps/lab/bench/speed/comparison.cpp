@@ -76,7 +76,7 @@ void Matches::compare_timed(std::size_t subject, std::size_t baseline, Compariso
 }
 
 void Matches::measure(std::size_t rounds, Progress& progress) {
-  std::vector<std::vector<double>> figures(contenders_.size());  // of the round
+  std::vector<std::vector<double>> figures(contenders_.size());  // this round's
   round_by_round(rounds, contenders_.size(), progress, [&](std::size_t contender) {
     figures[contender] = contenders_[contender]();
     for (const Pair& pair : pairs_) {

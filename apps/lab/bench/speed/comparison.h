@@ -21,7 +21,7 @@ namespace dmpc::apps {
 struct Figures {
   std::vector<double> subject = {}, baseline = {};
 
-  /// Those that have both figures.
+  /// Number of rounds with both figures.
   std::size_t rounds() const;
 };
 
@@ -39,17 +39,17 @@ struct Comparison {
   std::string detail = {};        ///< a kind of `what`, such as the class of rays; may be empty
   std::uint32_t threads = 0;      ///< that worked, or nodes that rendered; 0: does not matter
   std::string subject, baseline;  ///< whose figures they are
-  std::string unit;               ///< of the figures: "Mray/s", "s"
+  std::string unit;               ///< unit of the figures: "Mray/s", "s"
   Figures figures = {};           ///< times are by the wall clock, unless the unit says otherwise
-  Figures processor = {};         ///< the same in processor time, of what is timed by both clocks
+  Figures processor = {};         ///< processor time, where both clocks are used
 
-  /// The same with one round, which has these figures.
+  /// As above with a single round of these figures.
   Comparison once(double subject_figure, double baseline_figure) const;
 };
 
 /// Some of what was measured, each outliving this.
 using Comparisons = std::vector<const Comparison*>;
-/// Those that have a round.
+/// The comparisons that have a round.
 Comparisons measured(std::span<const Comparison> comparisons);
 /// In groups of such as are alike, in the order in which the first of each comes.
 std::vector<Comparisons> grouped(const Comparisons& comparisons,

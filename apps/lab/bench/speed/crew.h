@@ -12,10 +12,10 @@
 
 namespace dmpc::apps {
 
-/// Calls work(k) for each k below `count`, each on a thread of its own, all at once. Returns when all are over; rethrows the
-/// exception of the first k that has one. Throws core::CapacityError if the computer lets dmpc start no so many threads.
+/// Calls work(k) for each k below `count`, each on a thread of its own, concurrently. Returns when all have ended; rethrows the
+/// exception of the lowest k that threw. Throws core::CapacityError if the computer does not let dmpc start so many threads.
 inline void on_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::vector<std::future<void>> crew;  // those that are left when one throws are waited for
+  std::vector<std::future<void>> crew;  // if one throws, the others are waited for
   try {
     while (crew.size() < count) {
       crew.push_back(std::async(std::launch::async, work, crew.size()));

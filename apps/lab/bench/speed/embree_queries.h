@@ -32,13 +32,13 @@ class EmbreeQueries {
   std::optional<PlainSurface> surface_along(const core::Vec3f& origin, const core::Vec3f& direction);
   /// What lights show of the surface that a ray met along `direction`, after a shadow ray to each that may show something.
   core::Color lights_on(const PlainSurface& surface, const PlainMaterial& material, const core::Vec3f& direction);
-  /// The same, where `shown(towards, scale, cosine)` tells what the surface makes of light from `towards`, whose length is one
-  /// over `scale` and which falls at this cosine, above 0.
+  /// As above; `shown(towards, scale, cosine)` returns the surface's response to light from `towards`, whose length is 1 /
+  /// `scale` and whose cosine is above 0.
   template <class Shown>
   core::Color lights_on(const PlainSurface& surface, const Shown& shown);
   /// Nothing lies that way.
   bool is_free(const core::Vec3f& start, const core::Vec3f& direction);
-  /// Something lies before `place`, on what shines.
+  /// Whether something lies before `place` on an emitter.
   bool is_hidden(const core::Vec3f& start, const core::Vec3f& place);
 
  private:

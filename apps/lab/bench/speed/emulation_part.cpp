@@ -16,7 +16,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t cache_node_count = 8;
-/// Of the database, in percent, in each node's cache. The first is the baseline of the others.
+/// Size of each node's cache in percent of the database. The first is the baseline of the others.
 constexpr std::array<int, 4> cache_percents = {100, 25, 10, 5};
 
 StrategyOptions with_cache(int percent, const core::Database& database) {

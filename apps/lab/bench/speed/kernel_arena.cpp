@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Threads take turns at pieces of so many bundles: no thread gets the hard part of a picture.
+/// Threads take turns at pieces of this many bundles, so that no thread gets the hard part of a picture.
 constexpr std::size_t piece_bundles = 32;
 
 /// Asks about each ray, and counts the hits.

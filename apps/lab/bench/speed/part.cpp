@@ -22,7 +22,7 @@ const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings
 struct PartDefaults {
   const char* name;
   std::vector<std::string> scenes = usual_scenes;
-  int side = 512;  ///< of its pictures
+  int side = 512;  ///< pixels a side of its pictures
   std::size_t rounds = 3;
 };
 

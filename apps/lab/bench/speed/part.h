@@ -24,7 +24,7 @@ inline constexpr std::size_t speed_part_count = 5;
 
 /// As the command line and the table call it.
 const char* name_of(SpeedPart part);
-/// Those that compare speeds: all but ablation, which is asked for by itself.
+/// The parts that compare speeds: all but ablation, which has to be named.
 std::set<SpeedPart> all_speed_parts();
 /// "kernel,plain". Throws core::UsageError for anything that is none, listing those that there are.
 std::set<SpeedPart> parse_speed_parts(const std::string& text);
@@ -33,7 +33,7 @@ struct SpeedSettings {
   std::vector<std::string> scenes;           ///< none: those of each part
   bool is_quick = false;                     ///< fewer rays, rounds, pixels and large scenes
   std::optional<std::size_t> rounds;         ///< nothing: what the part takes
-  std::vector<std::uint32_t> thread_counts;  ///< of kernel, each once, ascending
+  std::vector<std::uint32_t> thread_counts;  ///< for the part `kernel`, each once, ascending
   std::optional<Resolution> resolution;      ///< nothing: what the part takes
   std::filesystem::path program;             ///< dmpc itself, to be run as a process of its own
   std::vector<NamedFile> outputs;            ///< none of which may be a file that a scene is read from
@@ -67,9 +67,9 @@ using MeasurePart = void(const SpeedSettings& settings, const Interrupt& interru
 /// textures, which it says on stderr. Throws core::InputError, too, if the program cannot be run; core::InternalError if our
 /// films are not one or the plain picture is another.
 MeasurePart measure_plain;
-/// Of a scene of 1987 one for a path tracer of today: point lights become balls that shine, of a radius of a twentieth of the
-/// diagonal of all objects (core::make_lights_spheres()); what mirrors becomes a metal as far as it does, whose tiny mirrors have
-/// a roughness of 0.3. What has tiny mirrors already keeps them.
+/// Turns a scene of 1987 into one for a path tracer of today: point lights become emitting spheres with a radius of a twentieth
+/// of the diagonal of all objects (core::make_lights_spheres()); mirrors become metals with the same reflectance and microfacets
+/// of roughness 0.3. Surfaces that have microfacets already keep them.
 void light_and_polish(core::Scene& scene);
 /// Times the phase `render` by PlainRenderer, by paths, on 1 and 2 threads, and of our own replicated on 1 node and by svm on 2,
 /// with the same samples and chances, so to the same error, and compares rays: of each scene as it is, and as light_and_polish()

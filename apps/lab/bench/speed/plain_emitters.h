@@ -1,4 +1,4 @@
-// How the plain path tracer aims at what shines, in single precision.
+// Light sampling of the plain path tracer, in single precision.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dmpc::apps {
 
-/// A place on what shines.
+/// A point on an emitter.
 struct PlainAim : EmitterAim<float> {
   core::Color radiance;
 };

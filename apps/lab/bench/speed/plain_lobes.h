@@ -13,17 +13,17 @@ namespace dmpc::apps {
 
 /// One way in which a surface sends light on.
 struct PlainWay {
-  core::Vec3f towards;  ///< of unit length
+  core::Vec3f towards;  ///< unit vector
   core::Color weight;
   bool is_scattered = false;
-  float density = std::numeric_limits<float>::infinity();  ///< of the direction, per steradian; of mirror and glass infinite
+  float density = std::numeric_limits<float>::infinity();  ///< probability density of the direction, per steradian; infinite for mirror and glass
 };
 
 /// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/surfaces/path_step.h), or
 /// one of tiny mirrors over a matt part, as judges have it; ways are chosen by the shares of ours.
 class PlainLobes {
  public:
-  /// Of a hit by a ray that comes along `direction`. `material` and `surface` outlive it.
+  /// For a hit by a ray along `direction`. `material` and `surface` outlive it.
   PlainLobes(const PlainMaterial& material, const PlainSurface& surface, const core::Vec3f& direction);
 
   using Response = FacetedResponse<float>;

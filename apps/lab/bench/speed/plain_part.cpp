@@ -32,7 +32,7 @@ using S = Strategy;
 
 /// One of those that render.
 struct PlainContender {
-  std::uint32_t count;                              ///< of threads, or of nodes
+  std::uint32_t count;                              ///< number of threads or nodes
   std::optional<Strategy> strategy = std::nullopt;  ///< nothing: it is the plain renderer
   RunnerKind runner = RunnerKind::threads;
   bool is_command = false;  ///< timed as a whole command, too
@@ -77,7 +77,7 @@ StrategyOptions strategy_of(const PlainContender& contender) {
   return options;
 }
 
-/// Of all children that have been waited for.
+/// Processor time of all children that have been waited for.
 double children_seconds() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);

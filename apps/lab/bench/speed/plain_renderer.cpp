@@ -30,7 +30,7 @@ using core::brightest;
 using core::Color;
 using core::Vec3f;
 
-/// Of means.
+/// Limit for the difference of means, relative.
 constexpr double bias_max = 0.01;
 
 /// The square of a mean's error, in all channels together, by what its two planes differ by, as if samples were independent.
@@ -90,7 +90,7 @@ struct Walk {
   Color weight{1, 1, 1};
   int depth = 1;
   bool is_scattered = false;                               ///< by some surface before: it finds no backdrop
-  float density = std::numeric_limits<float>::infinity();  ///< of the direction
+  float density = std::numeric_limits<float>::infinity();  ///< probability density of the direction
 
   core::SamplePair pair(core::Purpose purpose) const { return core::pair_of(pixel, sample, depth, purpose); }
 };
@@ -150,7 +150,7 @@ class Walker : public EmbreeQueries {
     return light + walk.weight * light_beyond(walk);
   }
 
-  /// Of what a surface shines with: the rest comes to the hit before, which has aimed at it.
+  /// Weight of a surface's emission in multiple importance sampling: the rest is the light sample of the previous hit.
   float mis_weight(const Walk& walk, const PlainSurface& surface, const PlainMaterial& material) const {
     const bool may_be_light_sampled = surface.material >= settings_.header.drawn_materials;
     return may_be_light_sampled && walk.density < std::numeric_limits<float>::infinity()
@@ -223,8 +223,8 @@ class Walker : public EmbreeQueries {
   int ray_depth_max_;
 };
 
-/// On so many threads, each of which takes the next tile when it is done with one, and asks a Worker of its own, made from the
-/// stage, for each pixel: color(worker, column, row). Workers count rays().
+/// Renders with `thread_count` threads. Each takes the next tile when it has finished one, and asks a Worker of its own, made
+/// from the stage, for each pixel: color(worker, column, row). Workers count rays().
 template <class Worker, class Shade>
 PlainPicture painted(const PlainStage& stage, std::uint32_t thread_count, const Shade& color) {
   const int width = stage.settings().camera.width(), height = stage.settings().camera.height();

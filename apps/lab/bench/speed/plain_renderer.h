@@ -17,7 +17,7 @@ class PlainStage;
 
 struct PlainPicture {
   core::ZeroedArray<core::Color> pixels;  ///< linear radiance, row by row from the top left
-  std::uint64_t rays = 0;                 ///< of all kinds
+  std::uint64_t rays = 0;                 ///< rays of all kinds
 };
 
 /// Recursive shading after Whitted in single precision, one ray at a time asked of Embree's robust tree, one process, one copy of
@@ -60,8 +60,8 @@ struct PathDistance {
 /// The most that pictures lie apart, over the noise of ours: most samples have one path in both.
 inline constexpr double path_distance_max = 0.5;
 
-/// Of our film of `scene`, of 16 samples a pixel or more. Throws core::InternalError if the pictures are further apart than
-/// path_distance_max of its noise, or their means than a hundredth of the light.
+/// Distance to our film of `scene`, with 16 samples a pixel or more. Throws core::InternalError if the pictures differ by more
+/// than path_distance_max of their noise, or their means by more than a hundredth of the light.
 PathDistance path_distance(const PlainPicture& picture, const core::Film& film, const std::string& scene);
 
 }  // namespace dmpc::apps

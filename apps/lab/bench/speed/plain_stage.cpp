@@ -20,7 +20,7 @@ std::vector<Record> records_at(const core::LocalRecords& records, core::Address 
   return copies;
 }
 
-/// Of all records, finishes included, which nobody asks for by their number.
+/// Materials from all records, including material extensions, which are not referenced by number.
 std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const core::DatabaseHeader& header) {
   std::vector<PlainMaterial> materials;
   for (const auto& record : records_at<core::MaterialRecord>(records, header.materials, header.material_count)) {

@@ -1,5 +1,4 @@
-// What plain renderers read of a scene: Embree's tree, and the camera, materials, lights and what shines in single
-// precision.
+// The scene as plain renderers read it: Embree's tree, and the camera, materials, lights and emitters in single precision.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +14,9 @@ namespace dmpc::apps {
 
 /// As ours (core/picture/shade.cpp): how far beside a surface rays start, and where on their way to a light they end.
 inline constexpr float plain_offset = 0x1p-21F, plain_light_end = 1 - 1e-6F;
-/// Where on their way to what shines, so that it does not hide itself.
+/// End of a shadow ray to an emitter, as a share of its length, so that the emitter does not hide itself.
 inline constexpr float plain_emitter_end = 1 - 1e-4F;
-/// Threads take tiles of so many pixels' sides.
+/// Side of the tiles that threads take, in pixels.
 inline constexpr int plain_tile_side = 16;
 
 /// The camera in single precision.
@@ -25,7 +24,7 @@ struct PlainCamera {
   core::Vec3f eye, corner, right, down;  ///< from the eye to the first pixel; from a pixel to the next
 
   explicit PlainCamera(const core::Camera& camera);
-  /// Of unit length.
+  /// Returns a unit vector.
   core::Vec3f towards(float x, float y) const { return normalize(corner + right * x + down * y); }
   core::Vec3f towards(int x, int y) const { return towards(static_cast<float>(x), static_cast<float>(y)); }
 };
@@ -38,7 +37,7 @@ struct PlainFacets {
 
 /// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.
 struct PlainMaterial : core::MaterialRecord {
-  core::Color highlight;  ///< of which `mirror` mirrors
+  core::Color highlight;  ///< colour that `mirror` reflects
   float mirror = 1;
   core::Color emission;
   PlainFacets facets;
@@ -54,10 +53,10 @@ struct PlainMaterial : core::MaterialRecord {
 /// What shading knows of a hit.
 struct PlainSurface {
   core::Vec3f point;
-  core::Vec3f geometric_normal, normal;  ///< of unit length; the latter the one to shade with, on the ray's side
+  core::Vec3f geometric_normal, normal;  ///< unit vectors; the latter is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
-  float radius = 0;  ///< of what is curved
+  float radius = 0;  ///< of a curved surface
 };
 
 /// Immutable; every call is thread-safe.
@@ -75,12 +74,12 @@ class PlainStage {
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
   const std::vector<core::EmitterChoice>& choices() const { return choices_; }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
-  /// Of a triangle, as Embree numbers them: nullptr if it is flat.
+  /// Normals of a triangle, as Embree numbers them: nullptr if it is flat.
   const core::PatchNormals* normals_of(unsigned triangle) const {
     const core::ShadingReference shading = shading_[triangle];
     return shading.is_smooth() ? reinterpret_cast<const core::PatchNormals*>(records_.find(shading.normals())) : nullptr;
   }
-  /// Of one that is flat; others' stands with their normals.
+  /// Material of a flat triangle; others have theirs with their normals.
   std::uint32_t flat_material_of(unsigned triangle) const { return shading_[triangle].material(); }
   /// Where a ray meets a sphere or cone, as Embree numbers them.
   PlainSurface curved_at(unsigned curved, const core::Vec3f& origin, const core::Vec3f& direction, float t) const;
@@ -95,7 +94,7 @@ class PlainStage {
   std::vector<core::LightRecord> lights_;
   std::vector<core::EmitterRecord> emitters_;
   std::vector<core::EmitterChoice> choices_;
-  std::vector<core::ShadingReference> shading_;  ///< of each triangle
+  std::vector<core::ShadingReference> shading_;  ///< per triangle
 };
 
 }  // namespace dmpc::apps

@@ -25,7 +25,7 @@ const char* name_of(RayClass ray_class);
 /// Some of the bundles, which their owner keeps.
 struct BundleSpan {
   std::span<const core::Ray> all;          ///< the owner's rays
-  std::span<const std::uint32_t> borders;  ///< of the bundles, in `all`: one more than there are bundles
+  std::span<const std::uint32_t> borders;  ///< limits of the bundles in `all`: one more than there are bundles
 
   std::size_t count() const { return borders.size() - 1; }
   std::span<const core::Ray> bundle(std::size_t index) const { return between(borders[index], borders[index + 1]); }
@@ -74,14 +74,14 @@ class BundleSample {
   void halve();
 
   std::size_t most_;
-  std::uint64_t stride_ = 1;  ///< one of so many bundles is kept: a power of 2
+  std::uint64_t stride_ = 1;  ///< one bundle in this many is kept: a power of 2
   std::uint64_t shot_ = 0;
   std::size_t rays_buffered_ = 0;
   std::vector<Numbered> kept_;
 };
 
 struct Recording {
-  std::array<BundledRays, ray_class_count> rays;  ///< by class, at most so many each; empty if the scene has none
+  std::array<BundledRays, ray_class_count> rays;  ///< by class, each limited in number; empty if the scene has none
   core::Operations operations;                    ///< of the whole render
 
   const BundledRays& of(RayClass ray_class) const { return rays[static_cast<std::size_t>(ray_class)]; }

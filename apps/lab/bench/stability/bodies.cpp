@@ -112,7 +112,7 @@ Scene transformed(Scene scene, double factor, const Vec3d& offset, bool in_singl
 
 bool is_closed(std::span<const core::PrimitiveValues> triangles) {
   using Point = std::array<float, 3>;
-  std::map<std::pair<Point, Point>, int> surplus;  // of edges that run from the lower to the higher point
+  std::map<std::pair<Point, Point>, int> surplus;  // edges from the lower to the higher point
   for (const core::PrimitiveValues& triangle : triangles) {
     const auto& v = triangle.value;
     const std::array<Point, 3> corner{Point{v[0], v[1], v[2]}, Point{v[3], v[4], v[5]}, Point{v[6], v[7], v[8]}};

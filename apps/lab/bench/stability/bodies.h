@@ -17,7 +17,7 @@ struct ClosedBody {
   std::string name;
   core::Scene scene;
   std::function<core::Vec3d(Random&)> inside;  ///< a random place well within it
-  bool is_mesh = true;                         ///< of triangles and polygons alone
+  bool is_mesh = true;                         ///< has triangles and polygons only
 
   /// A random place well without it.
   static core::Vec3d outside(Random& random) { return random.direction() * random.between(2.0, 4.0); }

@@ -65,7 +65,7 @@ void add_tried(Table& table, const StabilityState& state, const std::string& row
                  ", sure to miss " + grouped(sum.sure_misses) + ", heard by the referee " + grouped(sum.heard) + ".");
 }
 
-/// Of our own kernels; the worst has most failures, then the largest error.
+/// Result of our own kernels; the worst case has most failures, then the largest error.
 Trial trial_of(const StabilityState& state) {
   Trial trial{.tried = {{0, "ray"}}, .failed = {{state.own_failures(), "failure"}, {state.blind_cases().size(), "blind case"}}};
   std::pair<std::uint64_t, std::uint64_t> most;

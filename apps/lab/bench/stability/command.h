@@ -15,7 +15,7 @@ namespace dmpc::apps {
 struct StabilityOptions {
   static constexpr std::uint64_t standard_rays = 100'000, quick_rays = 10'000;
 
-  std::uint64_t rays = standard_rays;   ///< of each row of the table; 0: as many as the long run has for each
+  std::uint64_t rays = standard_rays;   ///< for each row of the table; 0: as many as the long run has for each
   bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` says it
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;

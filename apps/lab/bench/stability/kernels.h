@@ -28,7 +28,7 @@ struct StabilitySubject {
   }
 
   core::Database database;
-  core::Database voxels;  ///< of the same floats
+  core::Database voxels;  ///< built from the same floats
   EmbreeScene embree_fast{database.primitives(), EmbreeMode::fast};
   EmbreeScene embree_robust{database.primitives(), EmbreeMode::robust};
   Referee referee{database};
@@ -45,7 +45,7 @@ enum class StabilityKernel : std::uint8_t {
   bundle,         ///< the traversal beside three others
   any_hit,        ///< as a shadow ray: only whether there is a hit
   voxels,         ///< the traversal of a plain grid of voxels with lists, over the same scene
-  voxels_bundle,  ///< the same beside three others
+  voxels_bundle,  ///< as above, in a bundle with three others
   embree_fast,    ///< Embree without its robust flag
   embree_robust,  ///< Embree with it
   regions,        ///< the traversal from owner to owner of a space cut into regions

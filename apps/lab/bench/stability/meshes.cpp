@@ -17,7 +17,7 @@ using core::Ray;
 using core::Vec3d;
 using Must = StabilityExpectation::Must;
 
-/// One ray in so many goes to the referee whatever the kernels say: it takes as long as hundreds of rays.
+/// One ray in this many goes to the referee whatever the kernels report, since it takes as long as hundreds of rays.
 constexpr std::uint64_t referee_interval = 32;
 constexpr std::uint64_t fine_referee_interval = 4096;
 

@@ -26,13 +26,13 @@ struct StabilityTrial {
 /// What a run has counted in all batches so far.
 struct StabilityState {
   std::size_t cases_done = 0;
-  std::uint64_t rays_done = 0;  ///< of all cases
+  std::uint64_t rays_done = 0;  ///< sum over all cases
   std::vector<StabilityRow> rows;
   std::vector<StabilityTrial> trials;  ///< by case
 
   /// Rays of all rows that our own kernels failed, each kernel for itself.
   std::uint64_t own_failures() const;
-  /// Of the cases that are done, those that have tried nothing: what they claim is not known.
+  /// Finished cases that have tried nothing: their claims remain untested.
   std::vector<std::string> blind_cases() const;
 };
 

@@ -39,12 +39,11 @@ struct FilePlaces {
 /// The bytes of what a file names beside itself.
 using BytesOfNamed = std::function<std::string(const std::string& name)>;
 
-/// Of a .gltf or .glb: its scene as its nodes have it, all coordinates times `scale`, seen over a picture of `size` pixels.
-/// Throws NotJudged for what it does not know (instances, skins, morph targets, what is packed), and std::exception for what is
-/// none.
+/// Reads a .gltf or .glb file: the scene of its nodes, all coordinates times `scale`, with a picture of `size` pixels. Throws
+/// NotJudged for unsupported features (instances, skins, morph targets, compression), and std::exception for invalid files.
 void read_gltf_places(const std::string& file, const BytesOfNamed& bytes_of, double scale, const Resolution& size,
                       FilePlaces& places);
-/// Of an .obj: its faces. Throws likewise.
+/// Reads the faces of an .obj file. Throws likewise.
 void read_obj_places(std::string file, double scale, FilePlaces& places);
 
 }  // namespace dmpc::apps

@@ -40,7 +40,7 @@ const PlacesJson& listed(const GltfFile& file, const char* list, const PlacesJso
 
 std::size_t bytes_of_type(std::size_t type) { return type < 5122 ? 1 : type < 5124 ? 2 : 4; }
 
-/// Of OpenGL's types: floats, and integers, of which the even numbers have a sign.
+/// Reads a number of OpenGL's types: floats and integers; even type numbers are signed.
 double number_at(const char* bytes, std::size_t type, bool is_normalized) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, bytes, bytes_of_type(type));
@@ -135,7 +135,7 @@ NodeAxes axes_of_node(const PlacesJson& node) {
           vector(node.value("translation", Numbers{0, 0, 0}), 0)};
 }
 
-/// Of a mask that no texture raises to its cutoff nothing is there.
+/// A mask that no texture raises to its cutoff hides the whole primitive.
 bool is_cut_away(const GltfFile& file, const PlacesJson& primitive) {
   static const PlacesJson plain = PlacesJson::object();
   const PlacesJson& material = primitive.contains("material") ? listed(file, "materials", primitive, "material") : plain;

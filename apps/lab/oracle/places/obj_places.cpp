@@ -11,7 +11,7 @@ namespace {
 
 using ObjWords = std::vector<std::string>;
 
-/// Those of the next line; a backslash at its end joins it with the next, but in a remark. Nothing behind the last line.
+/// Words of the next line; a backslash at its end, outside a comment, joins it with the next. Nothing after the last line.
 std::optional<ObjWords> next_words(std::istream& lines) {
   std::string line, more;
   bool is_there = false, goes_on = true;

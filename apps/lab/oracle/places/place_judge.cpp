@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the first that the product has opened, too.
+/// Contents of the first of these files that the product has opened, too.
 std::string bytes_of_opened(const std::vector<fs::path>& meant, const OpenedFiles& opened) {
   constexpr std::uintmax_t bytes_max = std::uintmax_t{1} << 28U;
   for (const fs::path& path : meant) {
@@ -48,7 +48,7 @@ void read_places(const PictureOptions& picture, const Resolution& size, const Op
   ending == ".obj" ? read_obj_places(bytes, scale, places) : read_gltf_places(bytes, bytes_of, scale, size, places);
 }
 
-constexpr double ray_beside = 1.0 / 256;  // of a pixel
+constexpr double ray_beside = 1.0 / 256;  // in pixels
 constexpr double place_rounding = 0x1p-49;
 
 struct Spot {

@@ -13,13 +13,13 @@ namespace dmpc::apps {
 struct PlaceFindings {
   std::string not_judged = {};              ///< why the file was not; empty: it was
   std::uint64_t pixels = 0, elsewhere = 0;  ///< elsewhere: which see another place than the file has there
-  std::string worst, where;                 ///< of these: "3.2 pixels off", "pixel (10, 20)"
+  std::string worst, where;                 ///< worst case: "3.2 pixels off", "pixel (10, 20)"
 };
 
-/// `read`: what load_scene() made of the picture's file and of the others that are `opened`; no more is read of them. Nothing is
-/// judged of formats but glTF and OBJ, and of what read_gltf_places() refuses. A pixel sees another place if its first hits, both
-/// in doubles, lie farther apart than rays within 1/256 of a pixel meet one surface, but for what rounding leaves of doubles. A
-/// file without a camera, or where another is asked for, is seen by the picture's.
+/// `read`: the result of load_scene() for the picture's file and the others in `opened`; only these are read. Only glTF and OBJ
+/// are judged, unless read_gltf_places() refuses them. A pixel sees another place if the first hits, both in doubles, lie farther
+/// apart than rays within 1/256 of a pixel meet one surface, plus rounding of doubles. A file without a camera, or if another one
+/// is asked for, is seen by the picture's.
 PlaceFindings judge_places(const core::Scene& read, const PictureOptions& picture, const OpenedFiles& opened);
 
 /// "12 of 4,096 pixels see another place (worst in pixel (10, 20): 3.2 pixels off)", or "not judged: ...".

@@ -25,11 +25,11 @@ struct ReferenceBody {
   std::array<double, 2> radius{};
   std::uint32_t material = 0;
   std::uint32_t object = 0;               ///< index into core::Scene::objects
-  std::uint32_t first_normal = flat;      ///< of a smooth triangle: index of its three normals in ReferenceScene::normals
-  std::uint32_t first_place = flat;       ///< of a textured one: index of its three places in ReferenceScene::places
-  std::uint32_t first_color = flat;       ///< of one whose corners have colours: likewise in ReferenceScene::colors
+  std::uint32_t first_normal = flat;      ///< smooth triangle: index of its three normals in ReferenceScene::normals
+  std::uint32_t first_place = flat;       ///< textured triangle: index of its three texture coordinates in ReferenceScene::places
+  std::uint32_t first_color = flat;       ///< triangle with vertex colours: index in ReferenceScene::colors
   bool is_light_sampled = false;          ///< by paths, as it shines by itself
-  std::array<std::uint32_t, 3> corner{};  ///< of a triangle: which corners of the object it has
+  std::array<std::uint32_t, 3> corner{};  ///< triangle: which corners of the object it has
 
   bool is_smooth() const { return first_normal != flat; }
   bool is_textured() const { return first_place != flat; }
@@ -40,7 +40,7 @@ struct ReferenceBody {
 struct ReferenceSurface {
   core::Vec3d point;               ///< on the body, whatever rounding did to t
   core::Vec3d normal;              ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
-  std::array<double, 3> weight{};  ///< of a triangle's corners
+  std::array<double, 3> weight{};  ///< a triangle's barycentric coordinates
 };
 
 /// Whether there is something to hit: a triangle with an area, a radius, a length; all coordinates below 1e30.
@@ -51,8 +51,8 @@ bool is_usable(const ReferenceBody& body);
 /// roots of the quadratic about the point of the ray that is nearest to the body.
 std::optional<double> distance_to(const ReferenceBody& body, const ReferenceRay& ray);
 
-/// The same of a ray that starts on `body`, but for what keeps it off there: where it meets what is curved again. Never outside,
-/// as all bodies bulge outwards, and never a triangle.
+/// As above for a ray that starts on `body`, without the offset that keeps it from its start: the second intersection with a
+/// curved body. Never outside, as all bodies bulge outwards, and never a triangle.
 std::optional<double> distance_across(const ReferenceBody& body, const ReferenceRay& ray);
 
 /// The surface where `ray` meets `body` at `t`, which distance_to() gave.

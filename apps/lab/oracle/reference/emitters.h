@@ -1,4 +1,4 @@
-// What shines by itself and is aimed at, in double precision: the product's choice of it, and arithmetic of its own.
+// Emitters for light sampling, in double precision: the product's choice of them, and arithmetic of its own.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ void aim_as_product(ReferenceScene& scene, const core::Database& database);
 /// sphere, or where a triangle is seen edge-on. Requires that there is an emitter.
 struct ReferenceTarget : EmitterAim<double> {
   std::uint32_t body;
-  core::Vec3d normal;  ///< of the emitter there
+  core::Vec3d normal;  ///< the emitter's normal there
 };
 std::optional<ReferenceTarget> aim_from(const ReferenceScene& scene, const core::Vec3d& from, const core::SamplePair& place,
                                         const core::SamplePair& digits);

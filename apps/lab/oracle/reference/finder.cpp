@@ -20,13 +20,13 @@ using core::Vec3d;
 /// In sizes of the scene; float moves a ray that starts one size away by less than 1e-6.
 constexpr double box_margin = 1e-5;
 
-/// Of the scene's size and its distance from zero, along a ray: triangles of one plane are hit no farther from each other in
-/// double, however the ray grazes them.
+/// Relative to the scene's size and its distance from zero, along a ray: in double, hits of coplanar triangles are no farther
+/// apart, even at grazing angles.
 constexpr double level_reach = 1e-9;
 
 using Vec3l = core::Vec3<long double>;
 
-/// Of a coordinate: a double is off by 2^-53 of it, what was turned and moved some times as much.
+/// Relative to a coordinate: a double is off by 2^-53 of it, and a few rotations and translations add as much each.
 constexpr long double corner_rounding = 0x1p-51L;
 
 struct Leaf {
@@ -48,8 +48,8 @@ struct Leaf {
   long double moved = 0;  ///< how far rounding moves a corner across the plane
 };
 
-/// Whether both are triangles of one plane: the corners of the smaller one lie in the plane of the other, but for what rounding
-/// to double moves coordinates by (2^-51 of each, as turning a scene rounds some times). What lies farther off is apart.
+/// Whether both are triangles of one plane: the corners of the smaller one lie in the plane of the other, within the rounding of
+/// coordinates to double (2^-51 of each, as after a few rotations of a scene). Others are apart.
 bool share_plane(const ReferenceScene& scene, std::uint32_t a, std::uint32_t b) {
   const ReferenceBody &first = scene.bodies[a], &second = scene.bodies[b];
   if (first.kind != core::PrimitiveKind::triangle || second.kind != core::PrimitiveKind::triangle) {

@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// Embree sees boxes in float, about the scene's middle and in units of its size, each grown by `box_margin` times the distance
-/// of the farthest ray's start: more than float can move a ray, so no body is passed by, whatever the scene's place and scale.
+/// Embree gets boxes in float, relative to the scene's middle and size, each grown by `box_margin` times the distance of the
+/// farthest ray's origin. This is more than float can move a ray, so no body is missed, whatever the scene's position and scale.
 /// Immutable once made; every query is thread-safe.
 class ReferenceFinder {
  public:

@@ -18,7 +18,7 @@ namespace dmpc::apps {
 struct ReferencePicture {
   int width = 0, height = 0;
   std::vector<core::Vec3d> radiance;
-  std::uint64_t rays = 0;  ///< of all kinds
+  std::uint64_t rays = 0;  ///< rays of all kinds
 };
 
 /// Who is told, and who may end it.

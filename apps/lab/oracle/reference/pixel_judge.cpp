@@ -14,9 +14,10 @@ using core::RayKind;
 constexpr std::array<std::string_view, pixel_cause_count> cause_names{
     "tie", "silhouette", "shadow silhouette", "ray end", "terminator", "critical angle", "rounding", "warned", "unexplained"};
 
-/// Two distances are level within so much of the farther one and of the grid-local unit: some roundings of each.
+/// Two distances are equal within this share of the farther one and of the grid-local unit: a few roundings of each.
 constexpr double level = 64 * 0x1p-24;
-/// Within so much of its start, grid-local, or so small a share of its length before its end a shadow ray's hit lies at its end.
+/// A shadow ray's hit lies at its end if it is within this distance of its start, grid-local, or this share of its length before
+/// its end.
 constexpr double ray_end = 8e-6;
 
 /// A ray's light is a product of two floats at most, one of them the rounded background.

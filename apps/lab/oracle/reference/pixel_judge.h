@@ -30,13 +30,12 @@ std::string_view name_of(PixelCause cause);
 struct Judgement {
   PixelCause cause{};
   double largest_step = 0;  ///< of the pixel's Audit
-  std::string error;        ///< of an unexplained pixel
+  std::string error;        ///< an unexplained pixel's
 };
 
-/// Follows a pixel's rays in both renderers to the first place where they part. The pixel is explained if its light is that of
-/// its rays and StepAudit has no error to report: then each step is right but for rounding, and what parts lies within what
-/// roundings grew to on the way there.
-/// Thread-safe.
+/// Follows a pixel's rays in both renderers to the first point where they differ. The pixel is explained if its light is that of
+/// its rays and StepAudit reports no error: then each step is right except for rounding, and the difference is within the
+/// accumulated rounding up to that point. Thread-safe.
 class PixelJudge {
  public:
   /// All outlive the judge; `scene` is what `database` was built of, `finder` is made of it; `loss` is what was said before.

@@ -13,13 +13,13 @@ namespace dmpc::apps {
 /// A ray in world coordinates. Kinds and depths are those of core/record/ray.h.
 struct ReferenceRay {
   core::Vec3d origin;
-  core::Vec3d direction;                                   ///< of unit length
+  core::Vec3d direction;                                   ///< unit vector
   double t_max = std::numeric_limits<double>::infinity();  ///< hits count in (0, t_max)
   std::uint32_t ignored_body = core::no_primitive;         ///< the body it starts on, which it hits only across
   core::Vec3d weight{1, 1, 1};  ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;
-  std::uint32_t light = 0;  ///< of a shadow ray: index into the scene's lights
+  std::uint32_t light = 0;  ///< shadow ray: index into the scene's lights
   /// The width, where it starts, of what it stands for; of a primary ray how far from the eye it starts.
   double cone = 0;
   /// By how much the directions of its pixel's primary rays change from column to column and from row to row.

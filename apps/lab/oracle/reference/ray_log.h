@@ -19,10 +19,10 @@ struct LoggedRay {
   std::uint64_t path = 0;
   std::uint64_t maker = 0;  ///< path of the ray whose hit this one starts from; 0 for a primary ray
   core::RayKind kind{};
-  std::uint32_t light = 0;  ///< of a shadow ray
+  std::uint32_t light = 0;  ///< shadow ray only
   bool hit = false;
   std::uint32_t body = core::no_primitive;  ///< that was hit, as an index into ReferenceScene::bodies
-  double t = 0;                             ///< of the hit, in world units
+  double t = 0;                             ///< distance of the hit, in world units
   double t_max = 0;
 
   /// Whether both hit the same; of shadow rays, whether both are hidden.

@@ -17,8 +17,8 @@ struct SamplePosition {
 /// A rule that gives each pixel the positions of its samples; a pure function of pixel and sample.
 class SamplePattern {
  public:
-  /// Those of core/picture/camera/camera.h: the centre for one sample, else the product's own jitter, to compare with it sample
-  /// by sample.
+  /// Sample positions of core/picture/camera/camera.h, for a comparison sample by sample: the centre for one sample, else the
+  /// product's jitter.
   static SamplePattern of_product(std::uint32_t samples) { return {samples, 1, 0, Kind::product}; }
   /// One sample at a random place in each cell of a lattice over the pixel; another seed, other places.
   static SamplePattern stratified(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) {

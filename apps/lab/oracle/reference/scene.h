@@ -28,20 +28,20 @@ struct ReferenceEmitter {
 /// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
 struct ReferenceScene {
   std::vector<ReferenceBody> bodies;
-  std::vector<core::Vec3d> normals;    ///< of smooth triangles, of unit length; 0 for none
-  std::vector<ReferencePlace> places;  ///< of textured triangles' corners
-  std::vector<ReferenceTexel> colors;  ///< of corners that have one
+  std::vector<core::Vec3d> normals;    ///< smooth triangles' unit normals; 0 for none
+  std::vector<ReferencePlace> places;  ///< texture coordinates of textured triangles' corners
+  std::vector<ReferenceTexel> colors;  ///< vertex colours
   std::vector<core::Texture> textures;
   std::vector<core::Material> materials;
   std::vector<ReferenceLight> lights;
   core::Vec3d background, ambient;
-  core::Box bounds;           ///< of all bodies
+  core::Box bounds;           ///< bounds of all bodies
   double size = 1;            ///< the largest extent of `bounds`, above 0
-  bool has_emission = false;  ///< of some material
+  bool has_emission = false;  ///< some material emits
   // None of these unless aim_as_product() was called:
   std::vector<ReferenceEmitter> emitters;
   std::vector<core::EmitterChoice> choices;  ///< the product's, by which one is drawn
-  double emitter_density = 0;                ///< of a place on them, by area, over the strength of what it shines with
+  double emitter_density = 0;                ///< probability density of a point on an emitter, by area, over its emission
 
   /// Whether hits send light by themselves.
   bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }

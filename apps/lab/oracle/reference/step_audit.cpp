@@ -17,7 +17,7 @@ using Rays = std::vector<ReferenceRay>;
 constexpr std::size_t trial_count = 16;
 /// What rounding takes of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
 constexpr double weight_rounding = 8e-6;
-/// The product's shadow rays end so much of their length before the light.
+/// The product's shadow rays end this share of their length before the light.
 constexpr double end_rounding = 4e-6;
 /// The product's rays have the width of their cones in two bytes.
 constexpr double cone_rounding = 0x1p-7;
@@ -111,7 +111,7 @@ class StepAudit::Case {
     }
   }
 
-  /// Of a pixel at the place, or where the ray starts if that is farther, in world units.
+  /// Size of a pixel in world units, at the place or at the ray's origin if that is farther.
   double pixel_at(const Vec3d& place, const ReferenceRay& ray) const {
     const Vec3d eye = primary_.origin - primary_.direction * primary_.cone;
     return narrow_angle(primary_) * std::max(length(place - eye), length(ray.origin - eye));

@@ -1,4 +1,4 @@
-// Whether each single step of the product's way through a pixel is right but for rounding, however far the steps lead together.
+// Checks that each step of the product's way through a pixel is right except for rounding, however far the steps lead together.
 #pragma once
 
 #include <algorithm>

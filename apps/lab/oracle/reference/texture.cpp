@@ -94,7 +94,7 @@ ReferenceTexel probe(const core::Texture& texture, double width, const Reference
 
 /// Where the ends of a cone's ellipse come to lie, in texels from its middle; the longer axis of what lies there.
 struct Axes {
-  double angle = 0;  ///< of the longer one on the texture
+  double angle = 0;  ///< angle of the longer axis on the texture
   double longer = 0, shorter = 0;
 };
 

@@ -15,7 +15,7 @@ using ReferencePlace = std::array<double, 2>;
 /// A textured triangle as its texture sees it.
 struct ReferencePaint {
   std::array<core::Vec3d, 3> corner;
-  std::array<ReferencePlace, 3> place;  ///< of the corners
+  std::array<ReferencePlace, 3> place;  ///< the corners' texture coordinates
 };
 
 /// What a look-up is the mean over: a line about `middle`, `strides` long, of probes of `width` texels.
@@ -27,7 +27,7 @@ struct ReferenceFootprint {
 /// Two steps from a ray, in world units, that span what it stands for.
 using ReferenceReach = std::array<core::Vec3d, 2>;
 
-/// Of a cone about a unit direction, `width` wide.
+/// Reach of a cone around a unit direction, `width` wide.
 ReferenceReach cone_about(const core::Vec3d& direction, double width);
 
 /// The footprint of what a ray along `direction` stands for, where it meets the triangle in the point with these weights of its

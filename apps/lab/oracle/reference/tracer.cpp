@@ -73,11 +73,11 @@ struct ReferenceTracer::Touch {
   const core::Material& material;
   ReferenceSurface surface;
   Vec3d normal;            ///< for shading: on the ray's side, between a patch's normals
-  double index = 1;        ///< of refraction: on the ray's side over the other one
+  double index = 1;        ///< ratio of refractive indices: the ray's side over the other one
   double cone = 0;         ///< the width here of the cones of the rays that leave
-  ReferenceReach reach{};  ///< of the ray itself
-  Vec3d color;             ///< of the diffuse part, with what a texture or its corners make of it
-  Vec3d specular;          ///< of highlight and mirror
+  ReferenceReach reach{};  ///< the ray's
+  Vec3d color;             ///< diffuse colour, with texture or vertex colours
+  Vec3d specular;          ///< colour of highlight and mirror
   Vec3d emission;
   double diffuse = 0, transmittance = 0;
   double there = 1;  ///< the share of the surface that alpha leaves
@@ -146,7 +146,7 @@ std::vector<ReferenceRay> ReferenceTracer::spawned(const Touch& met) const {
   std::vector<ReferenceRay> rays;
   rays.reserve(scene_.lights.size() + 2);
   if (options_.transport.is_by_paths() && met.ray.depth > options_.depth_max) {
-    return rays;  // it has looked for what shines by itself
+    return rays;  // it has found an emitter
   }
   add_shadow_rays(met, rays);
   if (options_.transport.is_by_paths()) {
@@ -415,7 +415,7 @@ void ReferenceTracer::add_light_sample_ray(const Touch& touch, std::vector<Refer
   }
 }
 
-/// Of what shines where the ray met it: the rest was aimed at.
+/// Weight of the emission at the ray's hit: the rest is light sampling.
 double ReferenceTracer::mis_weight(const Touch& touch) const {
   const ReferenceBody& body = scene_.bodies[touch.body];
   return body.is_light_sampled ? share_of(touch.ray.density, light_sampling_density(scene_, body, touch.ray.origin,

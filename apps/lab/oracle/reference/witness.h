@@ -14,7 +14,7 @@ namespace dmpc::apps {
 /// What a renderer says of a ray.
 struct ClaimedAnswer {
   bool hit = false;
-  std::uint32_t body = core::no_primitive;  ///< of a hit; what hides a light may go unnamed
+  std::uint32_t body = core::no_primitive;  ///< a hit's body; an occluder may go unnamed
 };
 
 /// Asks rays about a ray, by the scene as its file has it: nothing of what the renderer makes of the scene is known here.
@@ -24,11 +24,11 @@ class WitnessFinder {
   /// Both outlive it; `finder` is made of `scene`.
   WitnessFinder(const ReferenceScene& scene, const ReferenceFinder& finder) : scene_(scene), finder_(finder) {}
 
-  /// How `claimed`, which `ray` does not have itself, comes about:
-  ///   silhouette   a ray that runs `reach` aside of it at most has that answer
-  ///   end          of a shadow ray: one that ends so much earlier or later has it
-  ///   tie          of two surfaces no farther apart than `reach`: one that runs `crossing` aside at most has it
-  /// Nothing if no such ray is found: then the answer is wrong, not off. Lengths are the world's.
+  /// Explains how `claimed`, which `ray` itself does not give, can come about:
+  ///   silhouette   a ray at most `reach` beside it has that answer
+  ///   end          a shadow ray: one that ends earlier or later by as much has it
+  ///   tie          two surfaces at most `reach` apart: a ray at most `crossing` beside it has it
+  /// Returns nothing if no such ray is found: then the answer is wrong, not just off. Lengths are in world units.
   std::optional<Verdict> find(const ReferenceRay& ray, const ClaimedAnswer& claimed, double reach, double crossing) const;
   /// Whether a ray that runs `reach` aside of it at most has the answer.
   bool is_beside(const ReferenceRay& ray, const ClaimedAnswer& claimed, double reach) const;
