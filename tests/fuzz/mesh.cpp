@@ -38,9 +38,9 @@ bool is_valid(const Ray& ray, const Hit& hit) {
   return !hit.found() || (is_finite(ray.origin) && is_finite(ray.direction) && hit.t > 0.0F && hit.t < ray.t_max);
 }
 
-/// Whether boxes lose nothing of this ray, so that the grid answers for it to the referee: its direction is of unit length, and
-/// it starts no farther away than the pad allows for (core/scene/frame.h). Other rays only have to end, and to end alike however
-/// the same boxes are walked.
+/// Whether boxes cannot miss this ray, so that the grid's answer can be checked by the referee: its direction is a unit vector,
+/// and its origin is no farther away than the pad allows for (core/scene/frame.h). Other rays only have to end, and to give the
+/// same result for every traversal of the same boxes.
 bool is_ordinary(const core::Database& database, const Ray& ray) {
   const core::GridFrame& frame = database.header().frame;
   core::Vec3d size;

@@ -28,7 +28,7 @@ core::Texture small_texture() {
 /// room that is made, which for a gigabyte takes longer than all else that is tried here.
 constexpr apps::ReceivingLimits limits{.believed_bytes = 256, .expanded_bytes = std::uint64_t{1} << 20U};
 
-/// A kind, a length, and so many bytes; again and again.
+/// Messages of a kind, a length, and as many bytes.
 std::optional<core::Scene> received(tests::Bytes& bytes) {
   constexpr auto first = static_cast<std::size_t>(Saying::scene), last = static_cast<std::size_t>(Saying::vertices);
   apps::SceneReceiver receiver(limits);

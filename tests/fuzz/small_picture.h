@@ -1,4 +1,4 @@
-// A scene that was accepted, built and rendered in a few pixels: nothing may fail but for want of room.
+// Builds an accepted scene and renders it in a few pixels: this may fail for lack of memory only.
 #pragma once
 
 #include <cmath>

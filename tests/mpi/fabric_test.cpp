@@ -37,7 +37,7 @@ class FramesOf {
   std::uint64_t number_ = 0;
 };
 
-/// Sends to each other rank, and takes from it, so many frames at once, as fast as there is room.
+/// Sends a number of frames at once to each other rank, and receives as many, as fast as there is space.
 class Flood {
  public:
   Flood(const Here& here, std::size_t count) : here_(here), unsent_(here.rank_count(), count), untaken_(unsent_) {

@@ -54,7 +54,7 @@ struct Here {
 /// Made by main().
 inline const Here* here_now = nullptr;
 
-/// That of a test which has lost a rank, and with it all tests behind it: main() goes on as a command would.
+/// The error of a test that has lost a rank, and with it all later tests: main() goes on as a command would.
 inline std::exception_ptr is_lost;
 
 /// A test's view: nothing of the tests before is left on the way.

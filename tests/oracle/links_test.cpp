@@ -104,7 +104,7 @@ std::vector<TimedMessage> over_one_link(std::size_t count) {
   return std::vector<TimedMessage>(count, {0, NodeId{0}, NodeId{1}, 16384});
 }
 
-/// Eight nodes, near and far, send to node 0 at once, each so many messages, one behind the other.
+/// Eight nodes, near and far, send `count` messages each to node 0 at once, back to back.
 std::vector<TimedMessage> incast(std::size_t count, std::uint64_t bytes) {
   std::vector<TimedMessage> messages;
   for (std::size_t i = 0; i < count; ++i) {
@@ -115,7 +115,7 @@ std::vector<TimedMessage> incast(std::size_t count, std::uint64_t bytes) {
   return messages;
 }
 
-/// Between nodes drawn at random, half of them questions of 16 bytes, half answers; on the average so much time apart.
+/// Messages between random nodes, half of them requests of 16 bytes, half answers, `mean_gap_ns` apart on average.
 std::vector<TimedMessage> uniform_load(std::size_t count, double mean_gap_ns, std::uint64_t answer_bytes) {
   std::mt19937_64 random(7);
   std::exponential_distribution<double> gap_ns(1 / mean_gap_ns);

@@ -11,7 +11,7 @@
 
 namespace dmpc::tests {
 
-/// A message of so many bytes that enters the network at a time.
+/// A message of `bytes` bytes that enters the network at a time.
 struct TimedMessage {
   std::uint64_t enters_ns = 0;
   nodes::NodeId source{}, target{};

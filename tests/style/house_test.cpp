@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether `name` is a file or folder, or a file but for its ending.
+/// Whether `name` is a file or folder, also without its extension.
 bool is_there(const fs::path& root, const std::string& name) {
   return fs::exists(root / name) || fs::exists(root / (name + ".h")) || fs::exists(root / (name + ".cpp"));
 }
@@ -148,7 +148,7 @@ Faults programs_words(const std::string& line) {
   return found_in(line, words);
 }
 
-/// Sources of nodes in which one of these stands, but for those of nodes/pictures, a library of its own that knows core.
+/// Sources of nodes that contain one of these words, except those of nodes/pictures, a separate library that knows core.
 Faults programs_words_in_nodes(const fs::path& root) {
   Faults faults;
   for (const std::string& file : sources_below(root, "nodes")) {

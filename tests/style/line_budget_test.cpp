@@ -51,7 +51,7 @@ const Rows tests = {
     {"tests/whole", 3'980},
 };
 
-/// Of all sources together, whatever the rows add up to.
+/// Limit for all sources together, which may be less than the sum of the rows.
 constexpr std::size_t sources_max = 140'000;
 
 /// The row of a file: the longest folder that it lies in.

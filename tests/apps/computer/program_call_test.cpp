@@ -40,7 +40,7 @@ enum class Way {
   charges_too_much_in_all
 };
 
-Way way{};  // of all nodes; node 1 goes it
+Way way{};  // over all nodes; node 1 goes it
 
 /// Deeper than any node's stack.
 [[gnu::noinline]] int deep(int left) {

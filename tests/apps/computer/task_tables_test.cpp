@@ -10,7 +10,7 @@ namespace dmpc::apps::html::task_tables_test {
 
 namespace {
 
-/// Of so many nodes, each with its part in a row of tasks that began so many faults each.
+/// `node_count` nodes, each with its part in a row of tasks that began `faults` faults each.
 struct Heated {
   Heated(std::size_t node_count, const std::vector<std::uint64_t>& faults) {
     record.nodes.resize(node_count);

@@ -99,7 +99,7 @@ Shown shown(const std::string& scene, bool keeps) {
   return {account.film.hash(), account.operations.primary_hits, rendered.database.records().instances};
 }
 
-/// The film is that of copies, and so many places are kept.
+/// The film equals that of copies, and `instances` instances are kept.
 void check_kept(const std::string& scene, std::uint64_t instances) {
   CAPTURE(scene);
   const Shown copies = shown(scene, false), kept = shown(scene, true);

@@ -20,7 +20,7 @@ namespace dmpc::tests {
 
 struct ExrKind {
   int width = 11, height = 37;
-  int left = 0, top = 0;  ///< of what there is of it, beside or within what is to be shown
+  int left = 0, top = 0;  ///< corner of the data window, beside or within the display window
   std::vector<std::string> channels = {"R", "G", "B"};
   Imf::PixelType type = Imf::HALF;
   Imf::Compression compression = Imf::ZIP_COMPRESSION;

@@ -116,7 +116,7 @@ struct JpegKind {
   int across = 2, down = 2;  ///< pixels of one value of colour
   bool is_progressive = false, is_arithmetic = false;
   unsigned restart = 0;   ///< blocks between two markers
-  std::string exif = {};  ///< of APP1
+  std::string exif = {};  ///< contents of APP1
   int quality = 90;
 
   std::string text() const {

@@ -90,7 +90,7 @@ std::optional<std::vector<std::uint32_t>> seen_as_image(const std::string& file,
   return opened ? std::optional(bits_of(apps::image_of(*opened).rgb)) : std::nullopt;
 }
 
-/// Whether the file is decoded plainly, whatever it is asked for, to what OpenImageIO makes of it.
+/// Whether the plain decoder takes the file and gives the same result as OpenImageIO for all uses.
 bool is_as_by_library(const std::string& file) {
   static const bool is_prepared = (apps::prepare_decoders(), true);
   const auto as_texture = seen_as_texture(file, apps::decode_plain);
@@ -103,7 +103,7 @@ bool is_as_by_library(const std::string& file) {
 
 bool is_decoded_as_image(const std::string& file) { return seen_as_image(file, apps::decode_plain).has_value(); }
 
-/// Of a PNG, with its first chunk.
+/// Size of a PNG's signature and first chunk.
 constexpr std::size_t header_bytes = 33;
 
 /// A PNG that says something more, before its pixels.
@@ -116,7 +116,7 @@ std::string with_chunk(const std::string& png, const std::string& name, const st
   };
   add_number(content.size());
   chunk += name + content;
-  std::uint32_t check = 0xffffffffU;  // of name and content (PNG specification, annex D)
+  std::uint32_t check = 0xffffffffU;  // covers name and content (PNG specification, annex D)
   for (const char byte : name + content) {
     check ^= static_cast<std::uint8_t>(byte);
     for (int bit = 0; bit < 8; ++bit) {
@@ -210,7 +210,7 @@ TEST_CASE("what a PNG says beside its pixels changes nothing, nonsense or not, u
     CAPTURE(name);
     std::string file = with_chunk(plain, name, content);
     CHECK(is_as_by_library(file));
-    file[file.size() - plain.size() + header_bytes - 1] ^= 1;  // of its check
+    file[file.size() - plain.size() + header_bytes - 1] ^= 1;  // the chunk's checksum
     CHECK_FALSE(is_as_by_library(file));
   }
 }

@@ -213,7 +213,7 @@ TEST_CASE("a total of all shapes so far, and of all places of instances, is refu
   const std::string object = "ObjectBegin \"a\"\n" + cylinder + "ObjectEnd\n", instance = "ObjectInstance \"a\"\n";
   CHECK(contains(pbrt(object + times(3, instance), 20'000), "a.pbrt:6:1: its 256 triangles so far"));
   CHECK(contains(pbrt(instance + instance + object, 20'000), "a.pbrt:3:1: its 256 triangles so far"));
-  CHECK(contains(pbrt(times(99, instance), 10'000), "its 0 triangles so far"));  // of what is still to come
+  CHECK(contains(pbrt(times(99, instance), 10'000), "its 0 triangles so far"));  // geometry that is still to come
   CHECK(pbrt(times(9, "Shape \"sphere\"\n"), 10'000).empty());
   const std::string flat = "Scale 1 1 2\n", ball = "Shape \"sphere\"\n";
   CHECK(contains(pbrt(flat + ball + ball, 500'000), "a.pbrt:4:1: its 8,192 triangles so far"));

@@ -40,7 +40,7 @@ IndexedVertices vertices_of(const core::Scene& scene) {
   return vertices;
 }
 
-/// Through a line and back, with so many textures of a texel.
+/// The scene after a transfer through a pipe, with `textures` textures of a texel.
 core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1, core::Instances instances = {},
                  const ReceivingLimits& limits = {}, core::Copies copies = core::Copies::put) {
   auto [mine, its] = make_ends();
@@ -103,7 +103,7 @@ bool is_refused(const std::function<void(core::Scene&)>& spoil) {
   return is_nonsense([&] { sent(scene); });
 }
 
-/// That announces so many materials, and one entry of each other list.
+/// A head that announces `materials` materials, and one entry of each other list.
 std::string head_of(std::uint64_t materials) {
   const core::Scene scene = three_triangles();
   Packer head;
@@ -310,7 +310,7 @@ TEST_CASE("a texture of metal and roughness is one by itself, beside that of a c
   CHECK(is_refused(good, 0));                                            // neither a colour's texture nor places
   CHECK(is_refused(with([](auto& facets) { facets.texture = 2; })));     // which has not come
   CHECK(is_refused(with([](auto& facets) { facets.texture = 0; })));     // the colour's
-  CHECK(is_refused(with([](auto& facets) { facets.roughness = -1; })));  // of a surface without tiny mirrors
+  CHECK(is_refused(with([](auto& facets) { facets.roughness = -1; })));  // a surface without microfacets
   CHECK(is_refused(with([](auto& facets) { facets.use = static_cast<FacetTexture>(2); })));
   core::Scene scene = three_triangles();
   scene.materials[1].microfacets = good;

@@ -68,7 +68,7 @@ Texts all_options() {
   return options;
 }
 
-/// Those of our scripts, of CMake and of what else documents have the reader type.
+/// Whether it is an option of our scripts, of CMake or of another program in the documents.
 bool is_foreign(const std::string& option) {
   static const Texts foreign = {
       "--preset",   "--prefix",        "--install",  "--component", "--build",  "--test-case", "--format", "--tidy", "--only",

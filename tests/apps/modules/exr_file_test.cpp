@@ -41,7 +41,7 @@ std::vector<float> slope(std::size_t count) {
   return values;
 }
 
-/// Of numbers that outlive it, those of a pixel in the channels' order.
+/// A picture from `values`, which outlive it: a pixel's numbers in the channels' order.
 ExrRows picture_of(int width, int height, const std::vector<std::string>& channels, std::span<const float> values) {
   const auto take = [values, count = channels.size()](std::size_t first, std::span<float> some) {
     std::ranges::copy(values.subspan(first * count, some.size()), some.begin());

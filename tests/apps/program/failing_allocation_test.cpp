@@ -74,7 +74,7 @@ void check_files(const fs::path& folder, const std::map<std::string, std::string
   CHECK((!is_done || files.size() == calm.size()));
 }
 
-/// Fails calls from the first to the last, in so many runs.
+/// Fails allocations from the first to the last, in `tries` runs.
 void check_failures(const std::string& mode, const std::vector<std::string>& arguments, std::size_t tries) {
   CAPTURE(mode);
   CAPTURE(arguments.front());

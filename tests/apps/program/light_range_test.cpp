@@ -14,7 +14,7 @@ namespace dmpc::tests::light_range_test {
 
 namespace {
 
-/// A matt wall, seen and lit from where the eye is, by so much light.
+/// A matt wall, seen and lit from the eye, with an adjustable intensity.
 struct Wall {
   TemporaryFolder folder;
 
@@ -31,7 +31,7 @@ struct Wall {
     CHECK(said.status == 0);
     return said.errors;
   }
-  /// Of the pixels' red.
+  /// Maximum of the red channel.
   float brightest() const {
     const std::vector<float> values = apps::read_image(folder / "a.exr").rgb;
     return *std::max_element(values.begin(), values.end());

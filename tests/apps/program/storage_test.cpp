@@ -108,7 +108,7 @@ class Seeds {
   }
 
  private:
-  /// From so many on each kind of case has come.
+  /// This many seeds cover each kind of case.
   static constexpr std::uint64_t seeds_of_all_kinds = 60;
 
   std::uint64_t first_ = number_from_environment("DMPC_STORAGE_FIRST", 1);

@@ -454,7 +454,7 @@ TEST_CASE("a whole sandbox is there, is read in, and is told of all readers toge
 TEST_CASE("textures have a budget of memory that is all of theirs, and the one that is too much is named") {
   const TemporaryFolder folder;
   apps::write_image(folder / "a.png", apps::Image(100, 10));
-  apps::PictureReader reader({.texture_bytes_max = 24'000});  // of 1000 texels and a third more, twice
+  apps::PictureReader reader({.texture_bytes_max = 24'000});  // 1000 texels with all levels, twice
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),

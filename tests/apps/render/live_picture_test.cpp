@@ -38,7 +38,7 @@ TEST_CASE("tiles on which light has fallen are handed over once they are asked f
   CHECK(tiles[0].index == 0);
   CHECK(tiles[0].rgb[3 * 7] == 7);
   CHECK(tiles[0].rgb[3 * 63] == 63);
-  CHECK(tiles[0].rgb[3 * 64 + 1] == 0);  // of the second row nothing has come
+  CHECK(tiles[0].rgb[3 * 64 + 1] == 0);  // the second row is still empty
   CHECK(picture.take().empty());
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("where there would be too many, steps become twice as long and say the
   CHECK(steps.end_ms(1) == 40);
   CHECK(level(steps.cells(0)[0]) == LiveSteps::levels_max / 2);
   CHECK(level(steps.cells(1)[0]) == LiveSteps::levels_max / 2);
-  CHECK(steps.add(moment(1600, 200)) == 2);  // of 1,400 to 1,600
+  CHECK(steps.add(moment(1600, 200)) == 2);  // from 1,400 to 1,600
   CHECK(steps.add(moment(1700, 300)) == steps.count());
   CHECK(steps.count() == 3);
   CHECK(level(steps.cells(2)[0]) == 0);

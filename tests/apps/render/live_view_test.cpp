@@ -51,7 +51,7 @@ struct SmallView {
   core::Refinement pass{{}, 1, 100, 70};
 };
 
-/// Of a page's answer.
+/// Body of an HTTP answer.
 std::string body_of(const std::string& answer) { return answer.substr(answer.find("\r\n\r\n") + 4); }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::uint64_t sum_of_numbers(const Numbers& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
 }
 
-/// What all nodes and the host did, but for messages.
+/// Busy time of all nodes and the host, except for messages.
 std::uint64_t busy_ns(const nodes::ActivitySteps& steps) {
   std::uint64_t sum = 0;
   for (const auto& node : steps.nodes) {

@@ -135,7 +135,7 @@ TEST_CASE("a picture below a sky's picture is told by what that shows, whatever 
   };
   CHECK(difference_text(facts(1, "a.hdr"), facts(1, "b.hdr")).empty());
   CHECK(difference_text(facts(2, "a.hdr"), facts(1, "a.hdr")) == "other sky");
-  CHECK(difference_text(facts(0, "a.hdr"), facts(0, "b.hdr")).empty());  // of one colour, the background's
+  CHECK(difference_text(facts(0, "a.hdr"), facts(0, "b.hdr")).empty());  // both have one colour, the background's
 }
 
 TEST_CASE("how many emitters paths aim at is a fact of a scene in which something shines") {

@@ -107,7 +107,7 @@ TEST_CASE("every strategy and its systems render over ranks what they do in one 
   }
 }
 
-/// What three frames come to over so many ranks, or in one process: pictures, heat maps and counted rays.
+/// Results of three frames over `rank_count` ranks, or in one process: pictures, heat maps and counted rays.
 std::vector<std::string> frames_over(std::uint32_t rank_count, std::vector<std::string> line) {
   const tests::TemporaryFolder folder;
   line.insert(line.end(),

@@ -11,7 +11,7 @@ namespace {
 
 using nodes::TopologyKind;
 
-/// The report of a run in which so many rays went from each node (row) to each other (column).
+/// The report of a run with these numbers of rays from each node (row) to each other (column).
 dataflow::Report report_with(const std::vector<std::vector<std::uint64_t>>& rays) {
   dataflow::Report report{{{.film = core::Film(1, 1)}}, 0, {}, dataflow::Bsp({1, 1, 1})};
   for (const std::vector<std::uint64_t>& row : rays) {

@@ -26,7 +26,7 @@ std::string said_of(const PictureOptions& picture) {
   return said.str();
 }
 
-/// Of an NFF file of this text, with these lights of the command line, or by this transport.
+/// Notes about an NFF file of this text, with these lights of the command line, or with this transport.
 std::string said_of(const std::string& text, const std::vector<core::PointLight>& lights = {},
                     const TransportOptions& transport = {}) {
   const tests::TemporaryFolder folder;

@@ -39,7 +39,7 @@ struct Viewed {
     heard = viewer.heard().find("\n\n", at);
     return viewer.heard().substr(at + begin.size(), heard - at - begin.size());
   }
-  /// Of a camera that rests.
+  /// The picture once the camera rests.
   std::string resting_picture() {
     std::string reported = picture();
     while (value(reported, "moving") != "false") {
@@ -50,7 +50,7 @@ struct Viewed {
   std::string wish(const std::string& camera, bool is_moving) const {
     return page.sent("camera", R"({"camera": ")" + camera + R"(", "moving": )" + (is_moving ? "true}" : "false}"));
   }
-  /// Of a key, without its quotes.
+  /// Value of a key, without its quotes.
   static std::string value(const std::string& json, const std::string& key) {
     const std::size_t at = json.find('"' + key + "\":") + key.size() + 3;
     const bool is_text = json[at] == '"';
@@ -62,7 +62,7 @@ struct Viewed {
   std::size_t heard = 0;
 };
 
-/// Of the picture that the told command makes.
+/// Film of the picture that the reported command makes.
 std::string film_by(const std::string& command) {
   const TemporaryFolder folder;
   const std::string shell = "cd " + folder.path().string() + " && " + DMPC_PROGRAM + command.substr(4) + " --stats=stats.json";

@@ -87,7 +87,7 @@ TEST_CASE("half of a turn by 90 degrees is 45 degrees, a third is 30, and the sh
   Film film{.values = {0, 0, 0, 1, 0, 0, half, half}, .path = "rotation"};
   check_at(film.at(1)[1], {std::sqrt(2.0), std::sqrt(2.0), 0});
   check_at(film.at(2.0 / 3)[1], {std::sqrt(3.0), 1, 0});
-  film.values = {0, 0, 0, 1, 0, 0, -half, -half};  // the same turn, called by its other name
+  film.values = {0, 0, 0, 1, 0, 0, -half, -half};  // the same rotation as a quaternion of the other sign
   check_at(film.at(1)[1], {std::sqrt(2.0), std::sqrt(2.0), 0});
 }
 

@@ -96,7 +96,7 @@ TEST_CASE("a spot has the cone that it says, along its node's -z, and what is ou
   CHECK(tests::notes(lit(R"([{"type":"spot"}])"), "spot lights whose fall-off with distance is ignored: 1"));
 }
 
-// Of the triangle's corners, some 7 away, the middle one gets 54,351 / 50 / pi.
+// The triangle's corners are some 7 away; the middle one gets 54,351 / 50 / pi.
 TEST_CASE("by paths lights that are too bright for a picture are weakened together, in an animation as they were at first") {
   MeshOptions options{.is_by_paths = true};
   const std::string lamps = R"([{"type":"point","intensity":54351}])";

@@ -78,7 +78,7 @@ std::uint64_t bytes_sent(MeshScene mesh) {
 void check_same(const Gltf& gltf, const MeshOptions& options = {}) {
   const MeshFile shared = tests::read_mesh("a.gltf", document(gltf, true), options);
   const MeshFile apart = tests::read_mesh("a.gltf", document(gltf, false), options);
-  CHECK(shared.scene.objects.size() == 9);  // but for what is pressed away
+  CHECK(shared.scene.objects.size() == 9);  // all but what is pressed away
   CHECK(tests::same_scene(shared.scene, apart.scene));
 }
 

@@ -24,7 +24,7 @@ struct Rig {
   std::string nodes =
       R"({"mesh":0,"skin":0,"translation":[50,0,0],"scale":[0,0,0]},{"translation":[0,0,3]},{"scale":[100,100,100]})";
   std::string roots = "0,1,2", skins = R"([{"joints":[1,2]}])";
-  std::string binds;  ///< of the matrices' diagonals: as many numbers as joints
+  std::string binds;  ///< the matrices' diagonals: as many numbers as joints
 
   std::string text() const {
     GltfDocument document;

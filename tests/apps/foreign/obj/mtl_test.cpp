@@ -29,7 +29,6 @@ Parsed parse(const std::string& text) {
   return parsed;
 }
 
-/// Of one material.
 MtlMaterial material_with(const std::string& lines) { return parse("newmtl a\n" + lines).materials.at(0); }
 
 std::string refusal(const std::string& text) {

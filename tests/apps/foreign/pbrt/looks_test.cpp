@@ -72,7 +72,7 @@ TEST_CASE("named metals reflect straight ahead what their spectra say, wavelengt
   CHECK(tests::contains(pbrt_refusal(both), "not both"));
 }
 
-// Of index 1, k 2 below a coat of 1.5: R of (1 + 2i) / 1.5, and what comes of both faces.
+// A metal of index 1 and k 2 below a coat of 1.5: R of (1 + 2i) / 1.5, combined with both faces of the coat.
 TEST_CASE("a metal below a coat has the colour that comes of both") {
   const double below = ((1 / 1.5 - 1) * (1 / 1.5 - 1) + 4 / 2.25) / ((1 / 1.5 + 1) * (1 / 1.5 + 1) + 4 / 2.25);
   const double all = 0.04 + 0.96 * 0.96 * below / (1 - 0.04 * below);
@@ -250,7 +250,7 @@ TEST_CASE("an area light shines as brightly as it says, to its front: behind sta
               "shine nowhere"));
 }
 
-// Of smoothstep's cone: 2 pi ((1 - cos 25) + (cos 25 - cos 30) / 2) times as much as ahead.
+// A cone with smoothstep's edge has 2 pi ((1 - cos 25) + (cos 25 - cos 30) / 2) times the intensity ahead.
 TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
   const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
   const MeshFile spot =

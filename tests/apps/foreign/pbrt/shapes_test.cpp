@@ -96,7 +96,7 @@ TEST_CASE("a bilinear patch lies on its texture as a whole where it does not say
 }
 
 TEST_CASE("a mesh that is subdivided ends on the limit of its surface") {
-  // Of an octahedron all vertices have four neighbours: the limit of (1, 0, 0) is (1 - 4 g) (1, 0, 0) + g times the sum of its
+  // All vertices of an octahedron have four neighbours: the limit of (1, 0, 0) is (1 - 4 g) (1, 0, 0) + g times the sum of its
   // neighbours, which is 0, with g = 1 / (4 + 3 / (8 * 3/32)) = 1/8: a half.
   const core::Scene scene = read_pbrt("Shape \"loopsubdiv\" \"integer levels\" 0 " + octahedron).scene;
   CHECK(scene.objects.size() == 8);

@@ -94,7 +94,7 @@ TEST_CASE("a grove is a landscape with a tree in each of its places, whose files
   const SceneFigures figures = figures_of(scene);
   CHECK(figures.objects[static_cast<std::size_t>(core::ObjectKind::textured)] == std::size_t{1} << 14U);
   CHECK(figures.objects[static_cast<std::size_t>(core::ObjectKind::patch)] == count * (bark_triangles + leaf_triangles));
-  CHECK(std::filesystem::file_size(folder / "grove.bin") < 2'000'000);  // of some 20 million bytes of triangles
+  CHECK(std::filesystem::file_size(folder / "grove.bin") < 2'000'000);  // instead of some 20 million bytes of triangles
 }
 
 TEST_CASE("a grove has the same bytes on every machine, and the same picture in every strategy") {

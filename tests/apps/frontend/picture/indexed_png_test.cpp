@@ -19,7 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 const std::vector<PaletteColor> red_and_white = {{255, 0, 0}, {255, 255, 255}};
 
-/// Those that a library of pictures reads otherwise.
+/// Number of pixels that OpenImageIO reads differently.
 std::size_t wrong_pixels(int width, int height, const Bytes& indices, const std::vector<PaletteColor>& colors) {
   const tests::TemporaryFolder folder;
   tests::write_text(folder / "picture.png", indexed_png(width, height, indices, colors));

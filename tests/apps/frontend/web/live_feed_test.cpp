@@ -11,7 +11,7 @@ namespace dmpc::apps::live_feed_test {
 
 namespace {
 
-/// Hears all, or is gone after so many words.
+/// Receives everything, or leaves after a number of words.
 class Viewer final : public WebStream {
  public:
   explicit Viewer(std::size_t words_max = 1000) : words_max_(words_max) {}

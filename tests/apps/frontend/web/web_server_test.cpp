@@ -21,7 +21,7 @@ namespace {
 using tests::contains;
 using tests::WebClient;
 
-/// Answers "/" and whatever it does not know by "here", "/large" by a page of 8 MB, and "/stream" by letters without end.
+/// Answers "/" and unknown paths by "here", "/large" by a page of 8 MB, and "/stream" by letters without end.
 class SmallServer {
  public:
   explicit SmallServer(std::size_t threads = 4) {

@@ -159,7 +159,7 @@ TEST_CASE("counts of certified hits keep medians and worst") {
   CHECK(counts.failures() == 1);
   CHECK(counts.width_ulp.median() == 2);
   CHECK(counts.error_ulp.worst() == 9);
-  CHECK(counts.allowed_ulp.median() == 9);  // of two, the greater
+  CHECK(counts.allowed_ulp.median() == 9);  // the greater of two
   CHECK(apps::Spread().median() == 0);
 }
 

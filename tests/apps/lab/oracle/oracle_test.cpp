@@ -58,7 +58,7 @@ TEST_CASE("the oracle looks past the triangle that a ray starts on") {
 
 TEST_CASE("a hit at t_max does not count") {
   const EmbreeScene scene(mixed, EmbreeMode::robust);
-  const float at = scene.closest(ray({0, 0, 0}, {0, 0, 1})).t;  // 1 but for a last bit: a processor's reciprocals are its own
+  const float at = scene.closest(ray({0, 0, 0}, {0, 0, 1})).t;  // 1 except for the last bit: processors' reciprocals differ
   CHECK(at == doctest::Approx(1));
   CHECK_FALSE(scene.occluded(shadow_ray({0, 0, 0}, {0, 0, 1}, at)));
   CHECK(scene.occluded(shadow_ray({0, 0, 0}, {0, 0, 1}, std::nextafter(at, 2.0F))));

@@ -13,8 +13,8 @@ namespace dmpc::tests {
 /// What stands in the title before what is told if the player was not there by then.
 inline constexpr std::string_view not_there = "no player yet: ";
 
-/// Puts `expression` of the page `p` within, once its player is there or after so many tenths of a second, into the window's
-/// title. `act` is done before.
+/// Writes the value of `expression`, in which `p` is the page, into the window's title, once the page's player is ready or after
+/// `tenths` tenths of a second. `act` runs before.
 inline std::string acting_script(const std::string& act, const std::string& expression, int tenths) {
   return "<script>addEventListener('load',()=>{const frame=document.querySelector('iframe'),p=frame.contentDocument,"
          "w=frame.contentWindow,id=(name)=>p.getElementById(name),key=(target,key)=>target.dispatchEvent(new "
@@ -29,8 +29,8 @@ inline std::string acting_script(const std::string& act, const std::string& expr
          expression + ")},500)};begin(" + std::to_string(tenths) + ")})</script>";
 }
 
-/// Of a page without a player what there is is told in the end. On a busy computer the browser's clock runs ahead of what it
-/// does: then it is asked again, and given more of it.
+/// Value of `expression` in the page; in a page without a player, at the end. On a busy computer the browser's clock runs ahead
+/// of its work: then it is asked again, and given more time.
 inline std::string reported(const std::string& page, const std::string& act, const std::string& expression,
                             const std::string& state = "") {
   const TemporaryFolder folder;
@@ -45,8 +45,8 @@ inline std::string reported(const std::string& page, const std::string& act, con
   return said.substr(said.starts_with(not_there) ? not_there.size() : 0);
 }
 
-/// What of the rules that tests/pages asks others about is broken: ids that stand twice, elements without the words or the role
-/// that those need who do not see them, controls without a label, targets of less than 24 pixels, headings that skip a level.
+/// Violations of the rules that tests/pages checks by other tools: duplicate ids, elements without the text or role that screen
+/// readers need, controls without a label, targets smaller than 24 pixels, headings that skip a level.
 inline constexpr const char* broken_rules =
     "(()=>{const "
     "ids=[...p.querySelectorAll('[id]')].map(e=>e.id),levels=[...p.querySelectorAll('h1,h2,h3')].map(e=>+e.tagName[1]);"

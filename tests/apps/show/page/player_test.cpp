@@ -18,7 +18,7 @@ using tests::reported;
 
 namespace {
 
-/// Of a modelled machine, whose scene has another name.
+/// Page of a run on a modelled machine; the scene can have another name.
 std::string page_of(const std::string& scene = "balls-2") {
   Watched watched(starved(modelled()));
   watched.options.picture.scene = scene;

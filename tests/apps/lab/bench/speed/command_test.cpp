@@ -68,7 +68,7 @@ TEST_CASE("bench speed measures all its parts") {
                            "| build ", "| forest on 8 nodes, pool ", "| Embree robust ", "| Embree fast ", "secondary ",
                            "| dataflow on 64 nodes ", "primary ", "| replicated on 2 nodes, Embree ", "Load of the machine"}) {
     CAPTURE(std::string(part));
-    CHECK(contains(table, part) == (std::string(part) != "secondary "));  // of which the scene has none
+    CHECK(contains(table, part) == (std::string(part) != "secondary "));  // the scene has no secondary rays
   }
 }
 

@@ -1,4 +1,4 @@
-// Those who trace in `bench speed`: Embree as a baseline, a pager with all pages, threads.
+// The contenders of `bench speed`: Embree as a baseline, a pager with all pages, threads.
 
 #include <doctest/doctest.h>
 

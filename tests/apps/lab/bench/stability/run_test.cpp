@@ -61,7 +61,7 @@ TEST_CASE("a stability run tries the rays of every case once and sums them up by
 
 TEST_CASE("a stability run that is stopped has counted what was tried before") {
   StabilityState state;
-  int left = 6;  // of the five batches of the first case, one of the second and three of the last
+  int left = 6;  // the five batches of the first case, one of the second and three of the last
   CHECK_THROWS_AS(apps::run_stability(three_cases(), 1, state, [&] { left-- > 1 ? void() : throw Stop(); }), Stop);
   CHECK(state.rays_done == 5001);
   CHECK(state.cases_done == 1);

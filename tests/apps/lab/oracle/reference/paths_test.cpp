@@ -1,4 +1,4 @@
-// Paths in double precision, with the chances of the product's: the same light but for rounding.
+// Paths in double precision, with the product's random numbers: the same light except for rounding.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using core::Vec3d;
 
 constexpr int side = 40;
 
-/// Of a square picture with one sample a pixel by both.
+/// A square picture with one sample a pixel, rendered by both.
 struct Comparison {
   Comparison(const core::Scene& scene, const core::Transport& transport, int bounces, double tolerance,
              std::uint32_t emitters_max = 0) {
@@ -47,7 +47,7 @@ struct Comparison {
   double standard_error() const { return std::sqrt(squares / count() / count()); }
 
   int differing = 0;            ///< pixels with a channel that is off by more than the tolerance, or that share of it
-  double sum = 0, squares = 0;  ///< of what pixels differ by, in all channels
+  double sum = 0, squares = 0;  ///< differences of pixels, in all channels
   std::uint64_t paths_scattered = 0, shadow_rays = 0;
 
  private:

@@ -54,7 +54,7 @@ TEST_CASE("the picture is the product's but for rounding") {
                            "shells-3", "sombrero-1", "teapot-4", "tetra-4", "tree-5"}) {
     CAPTURE(std::string(name));
     const core::Scene scene = built_in(name);
-    CHECK(differing(scene, 48, 1, {.depth_max = 2}) <= 11);  // of 2304
+    CHECK(differing(scene, 48, 1, {.depth_max = 2}) <= 11);  // out of 2304
     CHECK(differing(scene, 48, 1, {.convention = core::Convention::paper, .depth_max = 2}) <= 11);
     // Each small ball that a ray is mirrored by multiplies what float lost before.
     CHECK(differing(scene, 48, 1) <= 46);

@@ -53,7 +53,7 @@ TEST_CASE("what hits show of an ambient light is explained, and one more of it i
   CHECK(Causes(Workbench(scene, other, 32)).of(PixelCause::unexplained) > 100);
 }
 
-/// A smaller polygon in front of another one by so much, and rising from left to right.
+/// A smaller polygon at distance `before` in front of another one, rising from left to right.
 core::Scene two_polygons(double before, double rise) {
   core::Scene scene;
   scene.view = {.from = {0.1, 0.2, 6}, .at = {0, 0, 1}, .up = {0, 1, 0}, .angle_degrees = 20};
