@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 /// What ranks need to know of a program before they talk to each other.
 struct RankNeeds {
-  std::size_t payload_bytes_max = 0;  ///< of a packet
+  std::size_t payload_bytes_max = 0;  ///< per packet
   Compatibility alike = {};           ///< what it must be on all of them, beside its words
 };
 

@@ -1,4 +1,4 @@
-// What dmpc's words mean: one list, for its pages and its help.
+// The glossary of dmpc's terms, for its pages and its help.
 #pragma once
 
 #include <span>
@@ -7,16 +7,16 @@
 
 namespace dmpc::apps {
 
-/// A word in lower case and the singular, and a sentence or two that say what it means.
+/// A term in lower case and the singular, with its meaning in a sentence or two.
 struct GlossaryEntry {
   std::string_view word;
   std::string_view meaning;
 };
 
-/// By alphabet. Thread-safe.
+/// Returns all entries in alphabetical order. Thread-safe.
 std::span<const GlossaryEntry> glossary();
 
-/// Whether the word stands in the text by itself, also in the plural and at the beginning of a sentence.
+/// Whether the word occurs in the text as a whole word, also in the plural and at the beginning of a sentence.
 bool occurs(std::string_view word, std::string_view text);
 
 /// The whole list as lines of at most 100 letters, with the words in a column of their own.

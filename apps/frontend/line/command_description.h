@@ -1,4 +1,4 @@
-// What is declared of commands and options, for those who write about them: the man page, completion in shells.
+// Descriptions of the declared commands and options, from which the man page and shell completion are written.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// What a shell may offer for a value. Nothing at all: a number or a text that only the user knows.
+/// Values that a shell may offer. Empty for a number or a text that only the user knows.
 struct Suggestion {
   std::vector<std::string> words;  ///< one that ends in a colon is followed by a file
   bool files = false;
@@ -18,14 +18,14 @@ struct Suggestion {
 /// An option, or an argument, which has no names.
 struct OptionDescription {
   std::vector<std::string> names;  ///< as the user types them, the short one first: "-o", "--output"
-  std::string value;               ///< what help says of it, "1..255 [5]", or an argument's name; empty for a flag
+  std::string value;               ///< its value as help shows it, "1..255 [5]", or an argument's name; empty for a flag
   std::string text;                ///< what it does; may have several lines
   std::string group;               ///< the title below which help lists it
   bool is_required = false;
   bool has_optional_value = false;  ///< a flag that may have one, behind an =
-  std::string standard;             ///< which it has then without one
+  std::string standard;             ///< the default of an optional value
   bool is_repeatable = false;       ///< may be given several times, or is a flag
-  bool is_list = false;             ///< several values: with commas between, of an argument as words of their own
+  bool is_list = false;             ///< several values, separated by commas; for an argument, separate words
   Suggestion suggestion;
 
   friend bool operator==(const OptionDescription& a, const OptionDescription& b) {
@@ -35,18 +35,18 @@ struct OptionDescription {
 
 /// A command, or the program itself.
 struct CommandDescription {
-  std::string name;      ///< without those of the commands that it is one of
+  std::string name;      ///< without the names of the commands that contain it
   std::string text;      ///< what it does
-  std::string examples;  ///< what help says in the end
+  std::string examples;  ///< the end of its help
   std::vector<OptionDescription> arguments;
-  std::vector<OptionDescription> options;  ///< all of a group in succession; the first is --help
+  std::vector<OptionDescription> options;  ///< grouped; the first is --help
   std::vector<CommandDescription> commands;
 };
 
-/// By what help calls a value.
+/// By the name of the value in help.
 using Suggestions = std::map<std::string, Suggestion>;
 
-/// What a shell may offer for a value of which help shows this: "SIZE|auto [auto]".
+/// Suggestions for a value that help shows as `shown`: "SIZE|auto [auto]".
 Suggestion suggestion_for(const std::string& shown, const Suggestions& known);
 
 }  // namespace dmpc::apps

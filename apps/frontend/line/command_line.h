@@ -18,14 +18,14 @@ namespace dmpc::apps {
 
 struct DeclaredCommand;
 
-/// What `--help` or `--version` asks for.
+/// The request of `--help` or `--version`.
 struct HelpText {
   std::string text;
 };
 
-/// The options of one command. A handle, to be copied freely; it belongs to a CommandLine that outlives it. Options are called
-/// as the user types them, "--nodes" or "-o,--output". What an option is to set, or `take`, must live until the line is parsed;
-/// `take` may throw core::UsageError.
+/// Declares the options of one command. A handle that can be copied freely; it belongs to a CommandLine that outlives it. Options
+/// are named as the user types them, "--nodes" or "-o,--output". The variable that an option sets, or `take`, must live until the
+/// line is parsed; `take` may throw core::UsageError.
 class OptionSet {
  public:
   using TakeText = std::function<void(const std::string&)>;
@@ -33,33 +33,34 @@ class OptionSet {
   template <class T>
   using Choices = std::vector<std::pair<std::string, T>>;
 
-  /// A command of this command, to be declared: one of them must be given. Its own options follow its name.
+  /// Declares a subcommand; the user must give one of them. Its own options follow its name.
   OptionSet add_command(const std::string& name, const std::string& description);
-  /// The options added from now on stand together in the help, under `title`.
+  /// Groups the options added from now on in the help, under `title`.
   void begin_group(const std::string& title);
-  /// A word without an option's name that must be given; help calls it `name`.
+  /// A mandatory positional argument; help calls it `name`.
   void add_argument(const std::string& name, const TakeText& take, const std::string& description);
-  /// Any number of such words, or none; `take` is called with one after the other.
+  /// Any number of positional arguments, or none; `take` is called for each in order.
   void add_arguments(const std::string& name, const TakeText& take, const std::string& description);
-  /// An option with a text that must be given; `shown` is what the help says of its value.
+  /// A mandatory option with a text; help shows its value as `shown`.
   void add_required(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
-  /// An option with a text; `shown` is what the help says of its value.
+  /// An option with a text; help shows its value as `shown`.
   void add_text(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
-  /// An option with a text that may be given several times; `take` is called with one text after the other.
+  /// An option with a text that may be given several times; `take` is called for each text in order.
   void add_texts(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   void add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                 const std::string& description);
   void add_flag(const std::string& name, bool& flag, const std::string& description);
-  /// A flag that may be followed by "=" and a text; `value` is that, or `standard` without one, or as it is without the flag.
+  /// A flag with an optional "=" and a text; `value` becomes that text, or `standard` without one, and is unchanged without the
+  /// flag.
   void add_flag_with_text(const std::string& name, const std::string& standard, std::string& value,
                           const std::string& description);
-  /// --quiet, of a command that says nothing but its progress unasked.
+  /// --quiet, for a command that prints nothing unasked but its progress.
   void add_quiet(bool& quiet);
-  /// An option that takes one of `words`, or several with commas between, and may be given several times.
+  /// An option that takes one of `words`, or several separated by commas, and may be given several times.
   void add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                  const std::string& description);
 
-  /// An option whose values are words, one for each T; `shown_default` is what the help says of its default. `Field` is T or
+  /// An option whose values are words, one for each T; help shows `shown_default` as its default. `Field` is T or
   /// std::optional<T>.
   template <class T, class Field>
   void add_choice(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
@@ -68,14 +69,14 @@ class OptionSet {
   template <class T>
   void add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description);
 
-  /// An option whose values are whole numbers from `least` to `most`; `shown_default` is what the help says of its default.
+  /// An option whose values are integers from `least` to `most`; help shows `shown_default` as its default.
   template <class Field>
   void add_number(const std::string& name, Field& value, std::int64_t least, std::int64_t most, const std::string& shown_default,
                   const std::string& description);
 
-  /// What help says in the end; without it what it says in the end of the command that has this one.
+  /// Sets the end of the help; without it, the end of the parent command's help is shown.
   void set_examples(const std::string& text);
-  /// Called when all options of a line with this command are read, after the checks given before; may throw core::UsageError.
+  /// Called when all options of a line with this command are read, after earlier checks; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
   /// Whether the user gave the option, if it is one of this command; for check_in_the_end().
   bool is_given(const std::string& name) const;
@@ -93,7 +94,7 @@ class OptionSet {
   DeclaredCommand* command_;
 };
 
-/// All commands of the program, for one line.
+/// All commands of the program. Parses one line.
 class CommandLine {
  public:
   CommandLine(const std::string& description, const std::string& version, const std::string& examples,
@@ -102,20 +103,20 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// The options of a program without commands, to be declared.
+  /// The options of a program without commands.
   OptionSet own_options();
-  /// The options of a new command, to be declared.
+  /// Declares a command and returns its options.
   OptionSet add_command(const std::string& name, const std::string& description);
 
-  /// Sets what the options of the command given are to set, and returns its name, "study balance" if it is a command's command;
-  /// or help. Call it once. `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at
-  /// the right --help, as read_line() does (typed_line.h) and what takes a value.
+  /// Sets the variables of the given command's options, and returns its name, "study balance" for a subcommand; or help. Call it
+  /// once, with `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right
+  /// --help, as read_line() (typed_line.h) and the `take` functions do.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
   /// What --help prints about a command, {"study", "balance"}, or about the program.
   std::string help(const std::vector<std::string>& command) const;
 
-  /// What a value is that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
+  /// Sets the suggestion for a value that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
   void suggest(const std::string& name, const Suggestion& suggestion);
   /// Everything declared so far.
   CommandDescription describe() const;

@@ -1,10 +1,10 @@
-// What the program ends with.
+// Exit statuses of the program.
 #pragma once
 
 namespace dmpc::apps {
 
-/// Bad input, wrong usage, an error of dmpc's own, no room on this computer or in the nodes' memory, what was to be equal
-/// differs, and a signal.
+/// Bad input, wrong usage, an internal error of dmpc, not enough memory on this computer or in the nodes, a difference where
+/// equality was expected, and a signal.
 inline constexpr int input_status = 1, usage_status = 2, internal_status = 3, no_capacity_status = 4, differs_status = 5,
                      interrupted_status = 130;
 

@@ -1,4 +1,4 @@
-// What --help prints about a command, and how a terminal shows it.
+// The text of --help for a command, and its layout on a terminal.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace dmpc::apps {
 
-/// A text of help_text() in lines of at most `width` letters, where words are not longer: explanations go on below their
-/// beginning, or, where there is little room beside the names, below those. Lines to be typed stay whole.
+/// Wraps a text of help_text() to `width` letters, unless words are longer. Explanations continue below their beginning, or,
+/// where there is little space beside the names, below those. Lines to be typed are not broken.
 std::string fitted_help(const std::string& text, std::size_t width);
 
-/// Writes the text, as wide as the terminal if `output` is the standard output and that is one; as it is to files and pipes.
+/// Writes the text, wrapped to the terminal if `output` is the standard output and a terminal; unchanged to files and pipes.
 void print_help(std::ostream& output, const std::string& text);
 
-/// Where explanations begin.
+/// Column in which explanations begin.
 inline constexpr std::size_t help_column = 36;
 
 /// `path`: the program's name and the command's, "dmpc study balance".

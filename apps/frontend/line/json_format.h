@@ -1,4 +1,4 @@
-// What a JSON file of ours says of itself.
+// The format version in our JSON files.
 #pragma once
 
 namespace dmpc::apps {

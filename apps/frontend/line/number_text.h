@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Formats numbers for people.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ std::string fixed(double value, int digits);
 std::string seconds_text(double seconds);
 /// Rounded: "300 B", "1.5 KiB", "3.21 MiB".
 std::string bytes_text(std::size_t bytes);
-/// Whole ones, rounded down: "16 MiB".
+/// Rounded down to whole MiB: "16 MiB".
 std::string mebibytes_text(std::uint64_t bytes);
 /// The percentage of numbers of one kind; 0 of 0 is 0.
 template <class Number>
@@ -32,8 +32,8 @@ double percent_of(Number part, Number whole) {
 }
 /// With `digits` digits after the point: "12.3 %".
 std::string percent_text(double percent, int digits = 1);
-/// What each part is of the whole, in percent with one decimal place: rounded so that they add up to 100 as they stand. All 0 if
-/// there is nothing.
+/// The share of each part in percent with one decimal place, rounded so that the shown numbers add up to 100. All 0 if the sum is
+/// 0.
 std::vector<double> percent_parts(std::span<const std::uint64_t> parts);
 /// "1 node", "2 nodes".
 std::string counted(std::uint64_t count, const std::string& thing);

@@ -1,4 +1,4 @@
-// What the texts of the command line stand for.
+// Parses the values of command line options.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Numbers that are all of a word.
+// Parses words that are numbers as a whole.
 #pragma once
 
 #include <charconv>
@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// As std::from_chars reads it, without blanks or a plus before it; nothing for what is none, has anything behind it, or is more
-/// than the type holds.
+/// Parses as std::from_chars does, without blanks or a plus in front; nothing for text that is not a number, has trailing
+/// characters, or exceeds the type's range.
 template <class Number>
 std::optional<Number> number_in(std::string_view word) {
   Number number{};

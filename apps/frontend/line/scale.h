@@ -1,4 +1,4 @@
-// Which number gets which place on a scale of colours or along an axis, and the round numbers that are written there.
+// Maps numbers to positions on a colour scale or an axis, and chooses round numbers for its ticks.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct NumberScale {
   std::vector<double> ticks() const;
 };
 
-/// Logarithmic where a linear scale would show little: where half of the numbers above 0 lie below a sixteenth of the largest.
+/// Logarithmic where a linear scale would show little: if half of the numbers above 0 are below a sixteenth of the largest.
 /// Requires finite numbers >= 0, and at least one.
 NumberScale scale_for(std::span<const double> values);
 

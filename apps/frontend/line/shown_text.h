@@ -1,4 +1,4 @@
-// Text as a terminal may be shown it: names from files and command lines must not steer it.
+// Escapes text for a terminal, so that names from files and command lines cannot control it.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace dmpc::apps {
 
-/// A stream's end that hands on lines, tabs and all characters that are only seen. What would move the cursor, change colours or
-/// turn the direction of the text becomes \x1b or \u202e, and so does what is no UTF-8. It allocates nothing. Thread-safe, as the
-/// standard streams are that it stands behind.
+/// A stream buffer that passes on lines, tabs and printable characters. Characters that would move the cursor, change colours or
+/// the text's direction are escaped as \x1b or \u202e, and so are bytes that are not UTF-8. It allocates no memory. Thread-safe,
+/// like the standard streams that it serves.
 class ShownBuffer : public std::streambuf {
  public:
   /// `target` outlives it.
   explicit ShownBuffer(std::streambuf& target) : target_(target) {}
 
-  /// Hands on the text as it is: what steers the terminal on purpose.
+  /// Passes on the text unchanged, for intended control sequences.
   void put_unchanged(std::string_view text);
-  /// Nothing follows: what is kept back as the beginning of a character is none.
+  /// Ends the text: an incomplete character is escaped.
   void end();
 
  protected:
@@ -38,10 +38,10 @@ class ShownBuffer : public std::streambuf {
   std::recursive_mutex one_at_a_time_;  ///< serializes threads; recursive, since the functions for texts call those for characters
   std::array<char, 4> kept_{};          ///< the beginning of a character
   std::size_t kept_bytes_ = 0;
-  bool is_whole_ = true;  ///< all has been taken by the target
+  bool is_whole_ = true;  ///< the target has accepted everything
 };
 
-/// While it lives, all that goes to the stream is shown so.
+/// Escapes everything that goes to the stream during its lifetime.
 class ShownOutput {
  public:
   explicit ShownOutput(std::ostream& stream) : stream_(stream), buffer_(*stream.rdbuf()), before_(stream.rdbuf(&buffer_)) {}
@@ -55,17 +55,17 @@ class ShownOutput {
   std::streambuf* before_;
 };
 
-/// A text as it is shown.
+/// Escapes a text.
 std::string shown(std::string_view text);
 
-/// A text of strangers as a part of a line: what is longer is cut off, which is said, and all is shown so, line ends too.
+/// Escapes untrusted text, including line ends, for use within a line; longer text is cut, with a note.
 std::string clipped(std::string_view text, std::size_t bytes_max = 300);
 
-/// A text whose words of strangers, however long, leave the rest to be read: of one that no path could be, the begin and its
-/// number of bytes.
+/// Shortens untrusted words in a text so that the rest stays readable: a word too long for a path is replaced by its beginning
+/// and its number of bytes.
 std::string with_words_clipped(std::string_view text);
 
-/// A manipulator: back to the begin of the line, which is cleared.
+/// A manipulator: returns to the beginning of the line and clears it.
 std::ostream& clear_line(std::ostream& stream);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Words that users and files may write in any letters.
+// Case-insensitive words of users and files.
 #pragma once
 
 #include <algorithm>

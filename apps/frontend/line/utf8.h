@@ -13,7 +13,7 @@ struct Utf8Character {
 
 /// The character at the front of `text`, which is not empty.
 Utf8Character first_character(std::string_view text);
-/// Whether `text`, which is not empty, is no character, but may become one when more follows.
+/// Whether `text`, which is not empty, is an incomplete character that further bytes may complete.
 bool is_cut_character(std::string_view text);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Texts as lines and as words; lists on the command line, with commas or another mark between.
+// Splits texts into lines and words; lists on the command line are separated by commas or another mark.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// The lines of a text without their ends; what follows the last end is a line unless it is empty.
+/// The lines of a text without their ends; the text after the last end is a line unless it is empty.
 inline std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
   std::istringstream stream{std::string(text)};
@@ -21,7 +21,7 @@ inline std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
-/// All of the words, or what `text_of` has of them, with `between` between them.
+/// Joins the words, or text_of() of each, with `between`.
 template <class Words = std::vector<std::string>, class TextOf = std::identity>
 std::string joined(const Words& words, const std::string& between, const TextOf& text_of = {}) {
   std::string text;
@@ -31,7 +31,7 @@ std::string joined(const Words& words, const std::string& between, const TextOf&
   return text;
 }
 
-/// As a shell takes it, whatever is in it.
+/// Quotes any word for a shell.
 inline std::string in_quotes(std::string_view word) {
   std::string quoted = "'";
   for (const char letter : word) {
@@ -40,7 +40,7 @@ inline std::string in_quotes(std::string_view word) {
   return quoted + "'";
 }
 
-/// The words between marks: one at least, perhaps empty.
+/// The words between marks: at least one, which may be empty.
 inline std::vector<std::string> words_between(const std::string& text, char mark) {
   std::vector<std::string> words;
   std::istringstream stream(text + mark);
@@ -50,7 +50,7 @@ inline std::vector<std::string> words_between(const std::string& text, char mark
   return words;
 }
 
-/// The words between commas, one at least. Throws core::UsageError naming `option` if one is empty.
+/// The words between commas, at least one. Throws core::UsageError naming `option` if one is empty.
 inline std::vector<std::string> words_between_commas(const std::string& text, const std::string& option) {
   std::vector<std::string> words = words_between(text, ',');
   for (const std::string& word : words) {

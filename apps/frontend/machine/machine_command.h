@@ -12,7 +12,6 @@ struct MachineOptions {
   std::string machine;  ///< a preset's name or a machine file
 };
 
-/// Declares them.
 void add_options(OptionSet options, MachineOptions& machine);
 
 /// Prints to `output`, the standard output. Returns the exit status 0. Throws core::InputError as load_machine() does, or if

@@ -25,7 +25,7 @@ namespace dmpc::apps {
 ///                      has_contention only
 nlohmann::ordered_json machine_json(const nodes::Machine& machine);
 
-/// That and "sources", an object of texts by sourced_keys; indented, with a line end.
+/// machine_json() and "sources", an object of texts by sourced_keys; indented, with a line end.
 std::string machine_text(const MachineDescription& description);
 
 /// Reads what machine_text() writes. "sources" may be missing, any other key may not. Throws core::InputError, naming `file`, the
@@ -34,8 +34,8 @@ std::string machine_text(const MachineDescription& description);
 /// without switches.
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
-/// The preset with this name, or what is in the file of that name, 1 MiB at most. Throws core::InputError if there is neither, or
-/// as parse_machine() does.
+/// The preset with this name, or the machine in the file of that name, 1 MiB at most. Throws core::InputError if there is
+/// neither, or as parse_machine() does.
 MachineDescription load_machine(const std::string& name_or_file);
 
 }  // namespace dmpc::apps

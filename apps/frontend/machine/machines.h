@@ -1,4 +1,4 @@
-// The machines that have a name: their figures, each with where it comes from and how far it can be trusted.
+// The machine presets: their figures, with sources and certainty.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ inline constexpr std::array<std::string_view, 11> sourced_keys = {
     "topology", "uplinks",    "switching",    "short_bytes_max", "short_message",  "long_message",
     "hop_ns",   "service_ns", "operation_ps", "cached_lookup",   "has_memory_port"};
 
-/// A machine and what its figures rest on.
+/// A machine and the sources of its figures.
 struct MachineDescription {
   nodes::Machine machine;
   /// Some of sourced_keys, each with a sentence on its source and certainty.
   std::vector<std::pair<std::string, std::string>> sources;
-  std::string title = {};  ///< what it is, in a line; empty of a machine of one's own
+  std::string title = {};  ///< a description in one line; empty for a user's machine
 };
 
 /// ipsc2, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.

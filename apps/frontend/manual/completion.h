@@ -1,4 +1,4 @@
-// The script by which bash completes a line that is being typed.
+// The completion script for bash.
 #pragma once
 
 #include <string>

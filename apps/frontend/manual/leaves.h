@@ -1,4 +1,4 @@
-// The commands that do something.
+// The commands without subcommands.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// A command with what the user types for it.
+/// A command with the words that the user types for it.
 struct Leaf {
   std::string path;  ///< "study balance"
   const CommandDescription* command = nullptr;

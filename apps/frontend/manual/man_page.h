@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// The page, written from what is declared: every command once, and every option once, with the first command that has it in the
-/// same words; the commands after that refer to it. `version` is the program's name and version, "dmpc 0.1.0".
+/// Writes the page from the declarations: every command once, and every option once, with the first command that describes it in
+/// the same words; later commands refer to it. `version` is the program's name and version, "dmpc 0.1.0".
 std::string man_page(const CommandDescription& program, const std::string& version);
 
 }  // namespace dmpc::apps

@@ -6,11 +6,11 @@
 
 namespace dmpc::apps {
 
-/// The text such that it is printed as it stands, in any of its lines: nothing in it is an order, a quotation mark of an order,
-/// or a dash or quote that a printer makes prettier, so that what is copied from the page can be typed.
+/// Escapes the text so that it is printed literally, on any line: it contains no requests, no quotation marks of requests, and no
+/// dashes or quotes that a printer replaces, so that text copied from the page can be typed.
 std::string roff(std::string_view text);
 
-/// A page, written from top to bottom. Texts are given as they are to be read, with line ends where lines are to end.
+/// A page, written from top to bottom. Texts are given literally, with line ends where lines are to end.
 class ManualPage {
  public:
   /// `title` in capitals; `source` is the program with its version.
@@ -22,9 +22,9 @@ class ManualPage {
   void add_paragraph(std::string_view text);
   /// A small title within a part.
   void add_heading(std::string_view text);
-  /// One line of a synopsis: `term` stands out, `rest` follows it in italics.
+  /// A line of a synopsis: `term` in bold, `rest` after it in italics.
   void add_call(std::string_view term, std::string_view rest);
-  /// `term` stands out, `rest` follows it in italics, `text` is indented below.
+  /// `term` in bold, `rest` after it in italics, `text` indented below.
   void add_entry(std::string_view term, std::string_view rest, std::string_view text);
   /// Lines that keep their breaks and blanks.
   void add_lines(std::string_view text);

@@ -1,4 +1,4 @@
-// PNG files (ISO 15948) with a table of colours: pictures of few colours, without a library.
+// Writes PNG files (ISO 15948) with a palette, without a library.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace dmpc::apps {
 /// A colour on the sRGB curve: red, green, blue.
 using PaletteColor = std::array<std::uint8_t, 3>;
 
-/// The file's bytes. `indices`: the number of its colour for each pixel, row by row from the top left. Requires a pixel, less
-/// than 32,768 in a row, and 1 to 256 colours that have those numbers.
+/// The file's bytes. `indices`: a palette index per pixel, row by row from the top left. Requires at least one pixel, less than
+/// 32,768 in a row, 1 to 256 colours, and valid indices.
 std::string indexed_png(int width, int height, std::span<const std::uint8_t> indices, std::span<const PaletteColor> palette);
 
 }  // namespace dmpc::apps

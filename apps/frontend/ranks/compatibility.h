@@ -1,4 +1,4 @@
-// What all ranks must have in common, so that one result comes of them.
+// Checks that all ranks are compatible, so that they compute one result.
 #pragma once
 
 #include <span>
@@ -8,20 +8,20 @@
 
 namespace dmpc::apps {
 
-/// What is compared, and what one rank has of it, as text.
+/// The properties to compare, each with this rank's value as text.
 using Compatibility = std::vector<std::pair<std::string, std::string>>;
 
 /// This process's version, build and byte order.
 Compatibility build_compatibility();
 
-/// That, and the words that this process was called with.
+/// build_compatibility(), and the command line of this process.
 Compatibility call_compatibility();
 
-/// As it travels: a line for each.
+/// As a message: a line for each property.
 std::string text_of(const Compatibility& compatibility);
 
-/// Throws core::InputError with what differs first and on whom, if not all texts are those of rank 0. `names` are for messages,
-/// by rank as well.
+/// Throws core::InputError with the first difference and its rank, if not all texts equal rank 0's. `names`, by rank, are for
+/// messages.
 void expect_alike(std::span<const std::string> texts, std::span<const std::string> names);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The parts that ranks have in a command: rank 0 leads it, and alone speaks to the user; others follow.
+// The roles of ranks in a command: rank 0 coordinates and alone talks to the user; the others are workers.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,11 @@
 
 namespace dmpc::apps {
 
-/// Rank 0's: what work() returns, or throws, when the others know that all is over, and with which status.
+/// On rank 0: returns or throws what work() does, once the other ranks know that the run is over, and with which status.
 int lead(nodes::RankLinks& links, const std::function<int()>& work);
 
-/// Another rank's: what fails in work() rank 0 is told of. Returns the status with which rank 0 ends the command. Throws LostRank
-/// when rank 0 had time to say it.
+/// On other ranks: errors in work() are reported to rank 0. Returns the status with which rank 0 ends the command. Throws
+/// LostRank once rank 0 has had time to print it.
 int follow(nodes::RankLinks& links, const std::function<void()>& work);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Which processors each rank may use, and what they come to where ranks share them.
+// The processors that each rank may use, and their shares where ranks share them.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,21 @@ struct RankProcessors {
   bool operator==(const RankProcessors&) const = default;
 };
 
-/// This process's; none if the computer has more than a set of usual size can say.
+/// This process's; empty if the computer has more than a set of usual size can hold.
 RankProcessors own_processors(const std::string& host);
-/// As one line, to be said to other ranks.
+/// As one line, to be sent to other ranks.
 std::string text_of(const RankProcessors& processors);
-/// What text_of() has made. Throws core::InternalError for any other text.
+/// Parses a text of text_of(). Throws core::InternalError for any other text.
 RankProcessors parse_processors(const std::string& text);
 
-/// How many processors rank `rank` may use, each counted by the part that falls to it: one that three ranks of a host may use
-/// is a third of a processor to each.
+/// The number of processors that rank `rank` may use, where shared processors count in part: a processor that three ranks of a
+/// host may use counts as a third for each.
 double share_of_processors(const std::vector<RankProcessors>& by_rank, std::uint32_t rank);
 
-/// How many nodes a rank with this share has where nobody says: one processor is the communicating thread's, and one node is
-/// there at least.
+/// Default number of nodes of a rank with this share: one processor is for the communicating thread; at least one node.
 std::uint32_t default_nodes_on(double processor_share);
 
-/// What a communicating thread does where nobody says: it spins if its rank has a processor more than nodes.
+/// Default behaviour of an idle communicating thread: it spins if its rank has more processors than nodes.
 nodes::Idle default_idle(double processor_share, std::uint32_t node_count_here);
 
 }  // namespace dmpc::apps

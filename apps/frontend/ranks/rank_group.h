@@ -1,4 +1,4 @@
-// The processes that run one computer together, each a rank, as MPI has started them.
+// The processes that run one computer together; each is a rank, started by MPI.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ namespace dmpc::apps {
 
 struct MpiLibrary;
 
-/// What a program brings along to be a rank.
+/// The parameters of a program that runs over ranks.
 struct RankStart {
-  Compatibility own;  ///< what it must have in common with all others
+  Compatibility own;  ///< has to be equal on all ranks
   CompanionOf module_of = CompanionOf::dmpc;
 };
 
-/// One rank's part in it. All ranks make the same calls in the same order: what is said to wait for all would wait for ever else.
-/// Made by run_as_rank(), once in a process. Thread safety: belongs to the thread that made it, the communicating thread.
+/// One rank of the group. All ranks make the same calls in the same order; otherwise collective calls wait for ever. Made by
+/// run_as_rank(), once in a process. Thread safety: belongs to the thread that made it, the communicating thread.
 class RankGroup {
  public:
   RankGroup(const RankGroup&) = delete;
@@ -38,10 +38,10 @@ class RankGroup {
   /// For messages: "rank 2 on host b".
   const std::string& name_of(std::uint32_t rank) const { return names_.at(rank); }
 
-  /// How many nodes there are where nobody says: on each rank one less than its share of the processors that it may use, as one
-  /// is the communicating thread's, and one at least.
+  /// Default number of nodes: on each rank one less than its share of the processors, as one is for the communicating thread, and
+  /// at least one.
   std::uint32_t default_node_count() const;
-  /// What this rank's communicating thread does while nothing comes, of such a computer, where nobody says.
+  /// Default behaviour of this rank's communicating thread while nothing arrives, for such a computer.
   nodes::Idle default_idle(const nodes::ComputerRequest& computer) const;
 
   /// Waits for all ranks and makes the fabric, for packets of up to `payload_bytes_max` bytes; it lives as long as this object.
@@ -59,21 +59,20 @@ class RankGroup {
   std::vector<RankProcessors> processors_;  ///< likewise
 };
 
-/// Starts MPI, calls run(group), ends MPI, and returns what run() has. Before it calls, it makes sure that all ranks are alike.
-/// Throws core::UsageError if MPI knows of fewer processes than were started,
-/// core::InputError if they are not alike (on all ranks), InstallationError if the module dmpc_mpi.so is not there, and what
-/// run() throws.
+/// Starts MPI, calls run(group), ends MPI, and returns the result of run(). It first checks that all ranks are compatible. Throws
+/// core::UsageError if MPI knows of fewer processes than were started, core::InputError if they are not compatible (on all
+/// ranks), InstallationError if the module dmpc_mpi.so is missing, and what run() throws.
 ///
-/// What all ranks throw, each for itself or by agreement, rank 0 is to say: on the others nothing more is said on stderr. What
-/// only some throw, each of them says, and end_ranks() then ends the others.
+/// An error that all ranks throw, each for itself or by agreement, is printed by rank 0: on the others stderr is suppressed. An
+/// error of some ranks is printed by each of these, and end_ranks() then ends the others.
 int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run);
 
-/// Before an error of the words that a process was called with: where it was started together with others, makes sure that these
-/// have the same, so that rank 0 alone need say it. Throws core::InputError with both words, on all ranks, if they have others.
-/// Where the processes cannot talk to each other the first is left to say it.
+/// To be called before an error about the command line: if this process was started together with others, checks that these have
+/// the same words, so that rank 0 alone needs to print the error. Throws core::InputError with both lines, on all ranks, if they
+/// differ. Where the processes cannot communicate, only the first prints the error.
 void agree_on_words(CompanionOf whose = CompanionOf::dmpc);
 
-/// What act() returns or throws; before a core::UsageError that agree_on_words().
+/// Calls act(); calls agree_on_words() before a core::UsageError is passed on.
 template <class Act>
 std::invoke_result_t<const Act&> with_words_agreed(const Act& act, CompanionOf whose = CompanionOf::dmpc) {
   try {
@@ -84,7 +83,7 @@ std::invoke_result_t<const Act&> with_words_agreed(const Act& act, CompanionOf w
   }
 }
 
-/// To be called last: where MPI could not be ended, as not all ranks have come to that, it is aborted, and all of them end.
+/// To be called last: if MPI could not be ended, because not all ranks have come to its end, it is aborted, which ends them all.
 void end_ranks(int status);
 
 }  // namespace dmpc::apps

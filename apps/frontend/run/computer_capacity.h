@@ -1,4 +1,4 @@
-// Whether this computer has room for what a run sets aside on it.
+// Checks whether this computer has enough memory for a run.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Throws ComputerCapacityError if there is none for `memory`, which is touched before a run begins.
+/// Throws ComputerCapacityError unless there is space for `memory`, which is touched before a run begins.
 void check_room(const nodes::RankMemory& memory, const AvailableMemory& room = available_memory());
 
 /// "0.6 MB of network memory: outbox 0.1 MB, ...".

@@ -1,4 +1,4 @@
-// One option: all that is known of it, in one row.
+// A row with all properties of an option.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,12 @@
 
 namespace dmpc::apps {
 
-/// What --stats tells of an option: a flag, a number or a word; or nothing.
+/// The value of an option in --stats: a flag, a number or a word; or nothing.
 using OptionValue = std::variant<std::monostate, bool, std::uint64_t, std::string_view>;
 
-/// What it may be.
 enum class OptionKind : std::uint8_t { word, number, flag };
 
-/// The field that an option sets, and how it is declared; `shown_default`: what help says of the default of a number.
+/// The field that an option sets, and its declaration; help shows `shown_default` as the default of a number.
 template <class Options>
 struct OptionField {
   using Declare =
@@ -31,11 +30,11 @@ struct OptionField {
 template <class Options, class Plan>
 struct OptionRow {
   const char* name;            ///< "--work-donor"
-  OptionField<Options> takes;  ///< a field, and what it may be
+  OptionField<Options> takes;  ///< the field and its kind
   const char* help;
-  const char* why;  ///< why strategies have no such field that have none; nullptr: it is not their strategy that matters
-  const char* key;  ///< in --stats; nullptr where what became of it is told by whoever knows
-  OptionValue (*reported)(const Plan& plan);  ///< what it became
+  const char* why;  ///< why other strategies have no such field; nullptr: it does not depend on the strategy
+  const char* key;  ///< in --stats; nullptr where the value is reported elsewhere
+  OptionValue (*reported)(const Plan& plan);  ///< the value in effect
   const char* meaning = "";                   ///< what the reported value means, where the key does not say it all
 
   void add_to(const OptionSet& set, Options& options, const std::string& shown_default = "") const {
@@ -52,7 +51,7 @@ struct MemberOf<Value Struct::*> {
 template <auto Member>
 using StructOf = typename MemberOf<decltype(Member)>::type;
 
-/// The field at the end of a way of members, one in the other: &BalanceOptions::bsp, &BspOptions::order.
+/// The field at the end of a chain of members: &BalanceOptions::bsp, &BspOptions::order.
 template <auto First, auto... Rest>
 consteval core::Field last_field_of() {
   if constexpr (sizeof...(Rest) == 0) {
@@ -62,7 +61,7 @@ consteval core::Field last_field_of() {
   }
 }
 
-/// Whole numbers from `least` to `most`.
+/// Integers from `least` to `most`.
 template <auto First, auto... Rest>
 OptionField<StructOf<First>> number(std::int64_t least, std::int64_t most, const std::string& standard) {
   return {last_field_of<First, Rest...>(),
@@ -73,7 +72,7 @@ OptionField<StructOf<First>> number(std::int64_t least, std::int64_t most, const
           OptionKind::number};
 }
 
-/// One of some words, each with its meaning; the default is what the field is when the option is declared.
+/// One of several words, each with its meaning; the default is the field's value when the option is declared.
 template <auto First, auto... Rest, class T>
 OptionField<StructOf<First>> word(const OptionSet::Choices<T>& choices) {
   return {last_field_of<First, Rest...>(),

@@ -1,4 +1,4 @@
-// What a plan says of its fields, in the words of the command line.
+// Messages of a plan about its fields, in the words of the command line.
 #pragma once
 
 #include <span>
@@ -17,18 +17,18 @@ struct OptionWord {
   const char* option;
 };
 
-/// The words of every program on the computer.
+/// The options that every program on the computer has.
 inline constexpr OptionWord nodes_word{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"};
 inline constexpr OptionWord node_memory_word{core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"};
 inline constexpr OptionWord computer_words[] = {nodes_word, node_memory_word};
 
-/// How a machine's nodes may be wired, by name.
+/// Topologies of a machine, by name.
 OptionSet::Choices<nodes::TopologyKind> topology_choices();
 
-/// The sentence with options in place of the fields that they set; any other field by its own name.
+/// The sentence with options instead of the fields that they set; any other field by its own name.
 std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words);
 
-/// What `make` returns; a refusal that it throws, in_options(), as a core::UsageError or core::CapacityError.
+/// Calls `make`; a refusal that it throws becomes a core::UsageError or core::CapacityError with in_options() as its text.
 template <class Make>
 auto with_options_named(std::span<const OptionWord> words, const Make& make) {
   try {

@@ -1,4 +1,4 @@
-// What is shown of a run beyond its counters.
+// Data of a run that are shown beyond its counters.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// All of it is kept outside the nodes' memories.
+/// Recorded outside the nodes' memories.
 struct RunView {
   nodes::ActivitySteps steps;
   std::optional<nodes::WaitRecord> waits;          ///< on modelled machines

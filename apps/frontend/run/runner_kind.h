@@ -1,4 +1,4 @@
-// What calls the nodes' programs.
+// The ways to run the nodes' programs.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace dmpc::apps {
 
-/// By the wall clock a thread a node or a pool of threads for all, in one process, or threads of the ranks that MPI has started;
-/// or the model of a machine, in virtual time.
+/// In wall-clock time a thread per node or a pool of threads for all, in one process, or threads of the ranks that MPI has
+/// started; or the model of a machine, in virtual time.
 enum class RunnerKind : std::uint8_t { threads, pool, virtual_time, mpi };
 
-/// As the command line calls it.
+/// Name on the command line.
 constexpr const char* name_of(RunnerKind runner) {
   constexpr std::array names = {"threads", "pool", "virtual", "mpi"};
   return names.at(static_cast<std::size_t>(runner));
 }
 
-/// A pool has as many threads as there are processors, unless somebody has said how many.
+/// A pool has as many threads as there are processors, unless an option says how many.
 void choose_pool(RunnerKind runner, nodes::ComputerRequest& computer);
 
 /// As above for pages, with the modelled machine or the nodes' threads. `where`: as " on 2 ranks", or nothing.

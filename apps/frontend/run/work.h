@@ -1,4 +1,4 @@
-// What a node that renders is busy with, by what it was charged.
+// Classifies the activity of a rendering node by its charges.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// What a call of a program was for.
+/// The purpose of a program's call.
 enum class Doing : std::uint8_t {
   trace,    ///< rays
   shade,    ///< a hit, and perhaps rays too
@@ -19,10 +19,10 @@ enum class Doing : std::uint8_t {
   pack,     ///< rays into packets or out of them, and nothing else
   other     ///< whatever has no price
 };
-/// From a bit for each core::Charge that it was charged.
+/// From a bit set of the charges of type core::Charge.
 Doing doing_of(nodes::ChargeBits charged);
 
-/// What a node is busy with.
+/// A node's kind of activity.
 enum class Work : std::uint8_t {
   tracing,   ///< rays, and what their hits look like
   shading,   ///< hits, and the rays that they shoot

@@ -1,8 +1,8 @@
-// What programs on the computer count, by name: a row for each counter, from which --stats, its schema, tables of nodes, and
-// names of figures in comparisons and sweeps follow.
+// Counters of programs on the computer, by name: from a row per counter follow --stats, its schema, tables of nodes, and names of
+// figures in comparisons and sweeps.
 //
-// A new counter is a field where it is counted and a row here, or for those of renders in apps/show/counters.h. Sums follow from
-// the fields alone (core/base/counts.h), figures of comparisons and sweeps from what --stats writes.
+// A new counter needs a field where it is counted and a row here, or, for renders, in apps/show/counters.h. Sums follow from the
+// fields alone (core/base/counts.h), figures of comparisons and sweeps from --stats.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace dmpc::apps {
 
-/// What there is to say of a counter.
+/// A counter's texts.
 struct CounterText {
   const char* key = "";      ///< in --stats
-  const char* help = "";     ///< what stats.schema.json says of it, where the key does not say it all
+  const char* help = "";     ///< its description in stats.schema.json, where the key is not enough
   const char* column = "";   ///< column of a table with a row per node; empty: not in such tables
-  bool may_be_null = false;  ///< in --stats, as its help says
+  bool may_be_null = false;  ///< in --stats, for the reason in its help
 };
 
-/// A figure of a T: a counter, or what follows from some.
+/// A figure of a T: a counter, or a value derived from some.
 template <class T>
 struct Counter : CounterText {
   std::uint64_t (*value)(const T& counters);
@@ -44,7 +44,7 @@ struct CounterPlace<member, index> {
   }
 };
 
-/// Its row.
+/// A counter's row.
 template <auto member, std::size_t index = 0>
 constexpr auto counter(const CounterText& text) {
   using Place = CounterPlace<member, index>;

@@ -1,4 +1,4 @@
-// Pictures of tables within a page: SVG by gnuplot, in the reader's light or dark.
+// Charts of tables within a page: SVG by gnuplot, in the reader's light or dark mode.
 #pragma once
 
 #include <iosfwd>
@@ -11,15 +11,15 @@
 
 namespace dmpc::apps::html {
 
-/// Draws one after the other. Not thread-safe.
+/// Draws one chart after the other. Not thread-safe.
 class Charts {
  public:
-  /// What cannot be drawn is told to `complaints`, which outlives this, each reason once, as what `speaker` says: a picture is an
-  /// extra. `program` is looked for as draw() does.
+  /// Charts that cannot be drawn are reported to `complaints`, which outlives this, each reason once, in the name of `speaker`: a
+  /// chart is optional. `program` is searched as draw() does.
   explicit Charts(std::ostream& complaints, std::string speaker = "dmpc", std::string program = "gnuplot");
 
-  /// The plot within its own address, light or dark as the page is; empty if there is nothing to show, or it cannot be drawn.
-  /// Throws core::InputError if no temporary file can be written.
+  /// The plot as a data URL, light or dark as the page is; empty if there is nothing to show, or it cannot be drawn. Throws
+  /// core::InputError if no temporary file can be written.
   std::string draw(Plot plot, const Table& table);
 
  private:
@@ -31,8 +31,7 @@ class Charts {
   ScratchFolder folder_;
 };
 
-/// gnuplot's SVG with a style of its own in front: no background, and what is black on white is light on dark where the reader's
-/// page is.
+/// gnuplot's SVG with a style in front: no background, and black on white becomes light on dark in a dark page.
 std::string themed(std::string svg);
 
 }  // namespace dmpc::apps::html

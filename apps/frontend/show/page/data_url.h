@@ -1,4 +1,4 @@
-// Bytes of a file within a page, so that it needs no other file.
+// Embeds a file's bytes in a page, so that it needs no other file.
 #pragma once
 
 #include <string>

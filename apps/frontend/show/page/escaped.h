@@ -1,4 +1,4 @@
-// Text as HTML shows it.
+// Escapes text for HTML.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace dmpc::apps::html {
 
-/// `text` so that a browser shows it as it is, between tags and in attributes within double quotes. What is no UTF-8, such as a
-/// byte of a file's name, becomes U+FFFD; control characters but line ends and tabs become spaces.
+/// Escapes `text` so that a browser shows it literally, between tags and in attributes within double quotes. Bytes that are not
+/// UTF-8, as in a file's name, become U+FFFD; control characters except line ends and tabs become spaces.
 std::string escaped(std::string_view text);
 
-/// `text` so escaped, but what stands between two backticks is code.
+/// As above; text between two backticks becomes code.
 std::string escaped_with_code(std::string_view text);
 
 }  // namespace dmpc::apps::html

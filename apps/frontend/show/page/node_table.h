@@ -1,4 +1,4 @@
-// A table with a row for each node, from what there is to say of each column.
+// A table with a row per node, defined by its columns.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dmpc::apps::html {
 
-/// What stands in a column, by number of the node.
+/// A column's values, by number of the node.
 struct NodeColumn {
   Column column;
   std::function<Cell(std::size_t node)> cell;
@@ -22,12 +22,12 @@ using NodeColumns = std::vector<NodeColumn>;
 
 Table node_table(const std::string& title, std::size_t node_count, const NodeColumns& columns);
 
-/// A number of each node.
+/// A number per node.
 NodeColumn count_column(const std::string& name, std::function<std::uint64_t(std::size_t node)> count,
                         const std::string& unit = "");
-/// Bytes of each node, in KiB.
+/// Bytes per node, in KiB.
 NodeColumn kibibyte_column(const std::string& name, std::function<std::size_t(std::size_t node)> bytes);
-/// What each node sent and received.
+/// Traffic that each node sent and received.
 NodeColumns traffic_columns(const std::function<const nodes::NodeCounters&(std::size_t node)>& counters);
 
 /// A column per counter that has one. `counters` returns a node's.
@@ -42,7 +42,6 @@ NodeColumns counter_columns(const std::function<const Counters&(std::size_t node
   return columns;
 }
 
-/// Puts columns behind others.
 void append(NodeColumns& columns, const NodeColumns& more);
 
 /// The plot of a table with the columns of page counters.

@@ -1,4 +1,4 @@
-// Numbers in rows and columns as squares of colour, with named axes, round ticks and a scale of colours: SVG.
+// A matrix of numbers as coloured squares, with named axes, round ticks and a colour scale: SVG.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dmpc::apps::html {
 
-/// What is shown. Rows are counted from 0, at the top.
+/// Rows are counted from 0, at the top.
 struct NumberMap {
   std::string title;
   std::string row_label, column_label;  ///< axis labels
@@ -18,14 +18,14 @@ struct NumberMap {
   std::string unit;                     ///< as amount_ticks() takes it
   std::size_t rows = 0, columns = 0;
   std::vector<double> values;         ///< row by row, not negative
-  std::optional<double> column_ns{};  ///< columns are steps of time from 0 on, so long each; nothing: they are counted
+  std::optional<double> column_ns{};  ///< duration of a column, where columns are steps of time from 0 on; nothing: they are counted
   std::optional<double> most{};       ///< upper end of the scale; nothing: the largest number
 };
 
-/// Requires rows * columns numbers. Few and large squares have their numbers written in them.
+/// Requires rows * columns numbers. If squares are few and large, their numbers are written in them.
 std::string svg_of(const NumberMap& map);
 
-/// The place of each number on a scale of 256 colours, from dark (0) to light (`most`).
+/// Index of each number on a scale of 256 colours, from dark (0) to light (`most`).
 std::vector<std::uint8_t> color_numbers(std::span<const double> values, double most);
 
 }  // namespace dmpc::apps::html

@@ -1,4 +1,4 @@
-// Where a page comes from: what a reader needs to make its figures again, and to cite them.
+// The origin of a page: what a reader needs to reproduce its figures and to cite them.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace dmpc::apps {
 
-/// All of it as people read it.
+/// As shown texts.
 struct Origin {
-  std::string command;   ///< as a shell takes it
+  std::string command;   ///< quoted for a shell
   std::string program;   ///< name, version and build
   std::string date;      ///< "2026-11-22 21:40 UTC"
   std::string computer;  ///< its processors
@@ -26,10 +26,10 @@ Origin this_origin(std::optional<std::uint64_t> scene_digest = {});
 /// This process's command line; empty if the system does not give it.
 std::vector<std::string> own_words();
 
-/// The words as a shell takes them, in quotes where they need some; the program without its folder.
+/// Joins the words, quoted for a shell where needed; the program without its folder.
 std::string command_text(std::span<const std::string> words);
 
-/// Whether it is one of these words, of any command, without control characters.
+/// Whether the text is one of these words, of any command, without control characters.
 bool is_shell_word(std::string_view text);
 
 /// In UTC, to the minute; `epoch` is the text of SOURCE_DATE_EPOCH, or nullptr.

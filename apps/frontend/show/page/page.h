@@ -17,13 +17,13 @@
 
 namespace dmpc::apps::html {
 
-/// Names and what they are.
+/// Names and values.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// Whose page it is.
+/// The program that a page belongs to.
 struct PageSpeaker {
   std::string name = "dmpc";  ///< program's name in front of error messages
-  /// What words mean that may occur; outlives the page.
+  /// The glossary; outlives the page.
   std::span<const GlossaryEntry> words = glossary();
 };
 
@@ -31,38 +31,37 @@ struct PageSpeaker {
 /// Pictures, plots and tables have links that save them. Not thread-safe.
 class Page {
  public:
-  /// `complaints` as Charts.
+  /// `complaints` as for Charts.
   Page(std::string title, std::ostream& complaints, PageSpeaker speaker = {});
 
-  /// What follows belongs to it, and the page's list of contents leads there.
+  /// Begins a section, which the page's table of contents links to.
   void begin_section(const std::string& heading);
   void add_text(const std::string& paragraph);
-  /// What a section comes to, in one sentence; nothing if it is empty.
+  /// The conclusion of a section, in one sentence; nothing if it is empty.
   void add_conclusion(const std::string& sentence);
   void add_facts(const Facts& facts);
-  /// To be selected whole by one click: a command, a citation.
+  /// A text to be selected by one click: a command, a citation.
   void add_code(const std::string& text);
-  /// What is shown from its `url`, with `attributes` of its element. `description`: for those who do not see it. `save`: a link
-  /// that saves it.
+  /// A figure from its `url`, with `attributes` of its element. `description`: alternative text. `save`: a link that saves it.
   void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
                   const std::string& caption, const std::string& save);
-  /// Empty: for a script to fill, which finds it by its id.
+  /// An empty element, for a script that finds it by its id.
   void add_place(const std::string& id);
   void add_map(const NumberMap& map, const std::string& caption);
-  /// With title and notes; a long one is folded.
+  /// A table with title and notes; a long one is folded.
   void add_table(const Table& table);
-  /// Nothing if there is nothing to see, or no program to draw it.
+  /// Adds nothing if there is nothing to see, or no program to draw it.
   void add_plot(const Plot& plot, const Table& table, const std::string& caption = "");
-  /// How to make it again, and what to cite: where it comes from, and the `results` by which another run is known to be the same.
+  /// How to reproduce and cite it: its origin, and the `results` by which another run is recognized as the same.
   void add_origin(const Origin& origin, const Facts& results);
 
-  /// What the page looks like beyond its own style, and what it does once it is read, in order.
+  /// Adds styles and scripts, in order.
   void add_style(const WebPart& style);
   void add_script(const WebPart& script);
   /// Data for scripts, which find it by its id: `json` is a whole JSON text; its strings may contain anything.
   void add_data(const std::string& id, const std::string& json);
 
-  /// The whole document, with what its words mean at the end.
+  /// The whole document, with the glossary at the end.
   std::string text() const;
 
  private:
@@ -73,7 +72,7 @@ class Page {
   std::string data_;  ///< elements for scripts
   std::vector<std::string> headings_;
   std::string body_;
-  std::string words_;  ///< all that is shown, without markup
+  std::string words_;  ///< all shown text, without markup
 };
 
 }  // namespace dmpc::apps::html

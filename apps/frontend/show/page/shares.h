@@ -1,4 +1,4 @@
-// Figures held against each other, in the words of a page.
+// Texts that compare figures.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps::html {
 
-/// 0 of nothing.
+/// 0 if `whole` is 0.
 double share_of(double part, double whole);
 
 /// "41 %", "0.3 %", "less than 0.1 %".
@@ -18,14 +18,14 @@ std::string share_text(double share);
 std::string times_text(double factor);
 
 double sum_of(std::span<const double> values);
-/// Where the first of the largest values stands. Requires a value.
+/// Index of the first of the largest values. Requires a value.
 std::size_t largest_at(std::span<const double> values);
 
 /// The share that the largest tenth of the values, at least one, has of their sum.
 double top_tenth_share(std::vector<double> values);
 
-/// How evenly something is shared out: "Node 3 did 1.80 times the mean". `what` goes between node and figure. Empty of one node,
-/// or of nothing.
+/// How evenly values are distributed: "Node 3 did 1.80 times the mean". `what` goes between node and figure. Empty for one node,
+/// or if all are zero.
 std::string evenness(std::span<const double> values, const std::string& what);
 
 }  // namespace dmpc::apps::html
