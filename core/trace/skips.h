@@ -47,7 +47,8 @@ inline constexpr std::array all_skips{
          &SkippedWork::unlit},
     // Does not count what those rays would have spawned.
     Skip{"zero-terms",
-         "no ray whose contribution would be zero: reflected by a surface that does not mirror, transmitted by an opaque surface, to "
+         "no ray whose contribution would be zero: reflected by a surface that does not mirror, transmitted by an opaque "
+         "surface, to "
          "a light that is black or contributes nothing (the paper's convention traces the last), with paths where there is no "
          "light",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
