@@ -72,7 +72,7 @@ double write_film(const RenderCall& call, const RenderOptions& options, const co
   Stopwatch stopwatch;
   OutputFile picture(options.image, {.option = "-o"}, call.files);
   picture.write(encoded_picture(options.image, rows_for(options, film)));
-  call.interrupt.set_consequence("the picture may not have been written");
+  call.interrupt.set_consequence("the picture was perhaps not written");
   picture.commit();
   call.interrupt.set_consequence("the picture was written, the other outputs are incomplete");
   return stopwatch.lap();

@@ -48,9 +48,8 @@ inline constexpr std::array all_skips{
     // Does not count what those rays would have spawned.
     Skip{"zero-terms",
          "no ray whose contribution would be zero: reflected by a surface that does not mirror, transmitted by an opaque "
-         "surface, to "
-         "a light that is black or contributes nothing (the paper's convention traces the last), with paths where there is no "
-         "light",
+         "surface, to a light that is black or contributes nothing (the paper's convention traces the last), with paths where "
+         "there is no light",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
     // Those behind the last thing that a ray may meet are not counted.
     Skip{"empty-regions", "rays do not visit the owners of regions in which they hit nothing (dataflow)", "regions passed by",
