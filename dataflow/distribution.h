@@ -36,7 +36,7 @@ struct Distribution {
   /// unit.
   std::vector<std::vector<std::uint32_t>> runs_of_unit;
   std::size_t page_bytes = 0;  ///< page size
-  core::DatabasePart proxy;  ///< for every node; empty (core/database/proxy.h) if rays are to go to every region
+  core::DatabasePart proxy;    ///< for every node; empty (core/database/proxy.h) if rays are to go to every region
 
   std::vector<Share> shares() const;
   /// Copies of primitives in all parts over those in the database: at least about 1, more if cuts go through leaves.

@@ -21,7 +21,7 @@ class FilmGather {
     std::uint32_t node_count = 1;
     std::uint32_t credits = 1;         ///< for packets to the host, node `node_count`
     std::uint32_t packet_entries = 1;  ///< per full packet
-    std::uint32_t at_once = 1;  ///< deposits that may follow one test of waits(): 1 .. packet_entries
+    std::uint32_t at_once = 1;         ///< deposits that may follow one test of waits(): 1 .. packet_entries
   };
 
   struct Counters {
@@ -68,7 +68,7 @@ class FilmGather {
 
   nodes::Node* node_;
   nodes::NodeId host_;
-  std::span<std::byte> packet_;  ///< in the form in which it is sent
+  std::span<std::byte> packet_;   ///< in the form in which it is sent
   std::span<FilmEntry> entries_;  ///< in it
   std::uint32_t at_once_;
   std::uint32_t count_ = 0;

@@ -31,28 +31,28 @@ namespace dmpc::dataflow {
 
 /// The state of a node, for the choice of the next task.
 struct NodeState {
-  bool must_announce = false;  ///< the queue got long or short, and the other nodes have not been informed yet
-  bool packet_waits = false;  ///< a packet is closed and has found neither credit nor a slot in the queue
+  bool must_announce = false;      ///< the queue got long or short, and the other nodes have not been informed yet
+  bool packet_waits = false;       ///< a packet is closed and has found neither credit nor a slot in the queue
   bool is_tracing = false;         ///< a ray is being traced, or a hit has children to be made
   bool has_backlog = false;        ///< received rays
   bool has_primaries = false;      ///< own primary rays that have not started
-  bool admits_primaries = false;  ///< few packets are queued, and no other node asks to throttle primary rays
+  bool admits_primaries = false;   ///< few packets are queued, and no other node asks to throttle primary rays
   bool can_flush = false;          ///< an open packet has rays and may leave
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be revoked or acknowledged
-  bool is_unanswered = false;  ///< some owner has been asked for a slot and has not granted it yet
+  bool is_unanswered = false;      ///< some owner has been asked for a slot and has not granted it yet
   bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/migration.h)
 };
 
 /// In order of priority.
 enum class Task : std::uint8_t {
-  announce,  ///< ask the other nodes to throttle their primary rays, or no longer
+  announce,       ///< ask the other nodes to throttle their primary rays, or no longer
   send_waiting,   ///< try the waiting packet again, and nothing else
-  go_on,  ///< with the current ray or hit: depth first
+  go_on,          ///< with the current ray or hit: depth first
   take_received,  ///< the deepest ray of the backlog
   start_primary,
   flush,  ///< send a packet that is not full: there is no other work
-  rest  ///< return all credits owed, pass on the token if passive, wait for a packet
+  rest    ///< return all credits owed, pass on the token if passive, wait for a packet
 };
 
 /// The next quantum's task.
@@ -86,7 +86,7 @@ constexpr bool is_passive(const NodeState& state) {
 enum class Way : std::uint8_t {
   to_owner,
   to_queue,  ///< at the sender, until the owner returns a credit
-  to_host,  ///< overflow: the host buffers it and forwards it when it has a credit for the owner
+  to_host,   ///< overflow: the host buffers it and forwards it when it has a credit for the owner
   wait       ///< until a packet brings any credit
 };
 

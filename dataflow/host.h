@@ -32,10 +32,10 @@ using AssignPrimaries =
 /// The host's counters in addition to the packets.
 struct HostCounters {
   std::uint64_t rays_in = 0;             ///< overflowed
-  std::uint64_t rays_out = 0;  ///< forwarded: at the end as many
+  std::uint64_t rays_out = 0;            ///< forwarded: at the end as many
   std::uint64_t rays_buffered_max = 0;   ///< at once
-  std::size_t buffered_bytes_max = 0;  ///< of the host's heap, beyond its plan: for buffered rays
-  std::uint64_t token_rounds = 0;  ///< rounds of termination detection (termination.h)
+  std::size_t buffered_bytes_max = 0;    ///< of the host's heap, beyond its plan: for buffered rays
+  std::uint64_t token_rounds = 0;        ///< rounds of termination detection (termination.h)
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
@@ -87,7 +87,7 @@ class HostProgram final : public pictures::Host {
   PendingPrimaries pending_primaries_;
   BufferedRays kept_;
   Termination termination_;
-  Backpressure relay_;  ///< for announcements of nodes to the host alone
+  Backpressure relay_;           ///< for announcements of nodes to the host alone
   std::span<std::byte> packet_;  ///< buffer in which a packet is put together
   std::uint32_t node_count_;
   std::uint32_t ray_batch_;

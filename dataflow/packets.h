@@ -156,7 +156,7 @@ inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage,
 /// Precedes `count` rays.
 struct RayPacketHeader {
   std::uint16_t count = 0;
-  std::uint16_t owner = 0;  ///< of the rays, by either way
+  std::uint16_t owner = 0;      ///< of the rays, by either way
   std::uint32_t rays_left = 0;  ///< if regions move: primary rays of the sender's units that have not started
 };
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);

@@ -26,25 +26,25 @@ namespace dmpc::dataflow {
 
 /// The sizes of one node's assignment.
 struct Share {
-  std::size_t part_bytes = 0;  ///< its part of the database, records only
+  std::size_t part_bytes = 0;    ///< its part of the database, records only
   std::size_t primary_runs = 0;  ///< entries of its list of primary rays
-  std::size_t proxy_bytes = 0;  ///< the whole database's proxy, including readable bytes behind it
-  std::size_t page_bytes = 0;  ///< if regions move: the size of the pages of which the part consists
+  std::size_t proxy_bytes = 0;   ///< the whole database's proxy, including readable bytes behind it
+  std::size_t page_bytes = 0;    ///< if regions move: the size of the pages of which the part consists
 };
 
 /// The arguments of a plan. `optional` without a value means: choose.
 struct PlanRequest {
-  std::vector<Share> shares;  ///< its number of nodes is ignored: it is that of the shares
-  nodes::ComputerRequest computer = {};  ///< its nodes are as many as the shares, whatever it says
+  std::vector<Share> shares;             ///< its number of nodes is ignored: it is that of the shares
+  nodes::ComputerRequest computer = {};  ///< its number of nodes is ignored: it is that of the shares
   RayOptions rays = {};
-  std::uint32_t depth_max = 5;  ///< maximum of a ray's depth
+  std::uint32_t depth_max = 5;         ///< maximum of a ray's depth
   std::uint32_t waiting_hits_max = 5;  ///< entries of a task's stack
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< per pixel in the first pass
   core::RefinementOptions refinement;
   bool is_assigned_on_the_way = false;  ///< the host assigns the primary rays of the first pass as nodes have slots for them
-  bool bundles = false;  ///< rays are traced in bundles, if there is enough memory
-  bool has_instances = false;  ///< the database's: rays have longer cursors
+  bool bundles = false;                 ///< rays are traced in bundles, if there is enough memory
+  bool has_instances = false;           ///< the database's: rays have longer cursors
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
   /// Whether regions are units that nodes migrate.
   bool is_moving() const { return !shares.empty() && shares.front().page_bytes > 0; }
@@ -61,15 +61,15 @@ inline constexpr std::uint32_t queue_packets_max = 16384;
 /// A plan. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
-  std::uint32_t ray_batch = 1;      ///< rays in a full packet
-  std::uint32_t ray_credits = 1;    ///< from each node for each other, without asking
+  std::uint32_t ray_batch = 1;    ///< rays in a full packet
+  std::uint32_t ray_credits = 1;  ///< from each node for each other, without asking
   std::uint32_t ray_slots = 0;  ///< of each node, shared by the others and granted on request; 0: they have credits of their own
   std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
-  std::uint32_t rays_a_task = 1;  ///< maximum number of rays that a node traces at a time: more than one in bundles
+  std::uint32_t rays_a_task = 1;    ///< maximum number of rays that a node traces at a time: more than one in bundles
   std::uint32_t film_credits = 1;   ///< film packets from each node for the host
-  std::uint32_t spare_frames = 0;  ///< additional pages of units for which a node has memory
-  std::size_t held_bytes = 0;  ///< memory at each node and the host for packets delayed by chaos
+  std::uint32_t spare_frames = 0;   ///< additional pages of units for which a node has memory
+  std::size_t held_bytes = 0;       ///< memory at each node and the host for packets delayed by chaos
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< messages to print, such as what was reduced
 

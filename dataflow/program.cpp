@@ -577,7 +577,7 @@ class RayProgram final : public NodeProgram {
   DoneBelow below_;
   core::Operations operations_;
   RayCounters counters_;
-  Newest newest_;  ///< the current or last quantum's, if it works on a ray
+  Newest newest_;                ///< the current or last quantum's, if it works on a ray
   bool finishing_ = false;       ///< the host has proved that no ray of the pass is left
   bool flushes_ = false;         ///< or would have, in the last quantum
   bool puts_off_flush_ = false;  ///< until it is known that no packet comes soon

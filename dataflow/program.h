@@ -42,11 +42,11 @@ namespace dmpc::dataflow {
 /// A node's counters in addition to core's operations and the packets.
 struct RayCounters {
   std::array<std::uint64_t, core::ray_kind_count> in{}, out{};  ///< rays received and sent, by kind; confirmed hits included
-  std::uint64_t ended = 0;  ///< hits or misses; over all nodes as many as were shot
+  std::uint64_t ended = 0;                                      ///< hits or misses; over all nodes as many as were shot
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
   std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested on other nodes (RayOptions::tested_objects)
-  std::uint64_t holds = 0;  ///< times that it asked the others to throttle primary rays
+  std::uint64_t holds = 0;          ///< times that it asked the others to throttle primary rays
 
   std::uint64_t received() const { return std::accumulate(in.begin(), in.end(), std::uint64_t{0}); }
   std::uint64_t sent() const { return std::accumulate(out.begin(), out.end(), std::uint64_t{0}); }
@@ -80,12 +80,12 @@ class NodeProgram : public nodes::Program, public pictures::PictureProgram {
 /// A node's assignment, read in the constructor of its program only.
 struct NodeAssignment {
   const core::DatabaseHeader& header;  ///< of its part of the database
-  nodes::ByteSource records;  ///< the records of the part
+  nodes::ByteSource records;           ///< the records of the part
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& proxy;  ///< of the whole database
-  std::span<const std::uint32_t> pages = {};  ///< if regions move: the numbers of the part's pages
+  const core::DatabasePart& proxy;                   ///< of the whole database
+  std::span<const std::uint32_t> pages = {};         ///< if regions move: the numbers of the part's pages
   std::span<const std::uint32_t> runs_of_unit = {};  ///< if regions move: the number of runs of each unit, in turn
 };
 

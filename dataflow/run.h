@@ -45,7 +45,7 @@ struct NodeReport : nodes::NodeFigures {
   ProgramReport program;
   core::Region region;  ///< the box around its regions, in finest cells
   std::uint32_t region_count = 1;
-  double region_share = 0;  ///< share of the grid's volume in them
+  double region_share = 0;             ///< share of the grid's volume in them
   std::size_t part_bytes = 0;          ///< the records of its regions
   std::uint64_t primitive_copies = 0;  ///< in these records
   std::uint64_t primary_rays = 0;      ///< assigned before the start
@@ -80,10 +80,10 @@ nodes::Traffic ray_traffic(const nodes::TrafficByKind& by_kind);
 
 /// The result of the preparations for a run.
 struct Prepared {
-  Distribution distribution;  ///< regions on their nodes, and the assignments
+  Distribution distribution;      ///< regions on their nodes, and the assignments
   std::vector<double> predicted;  ///< as in Report
   double duplication = 1;         ///< as in Report
-  core::FineDetail detail;  ///< the picture's, if it is refined
+  core::FineDetail detail;        ///< the picture's, if it is refined
   Plan plan;
 };
 
@@ -120,7 +120,7 @@ std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& pl
 /// The reports after a run.
 struct GatheredReports {
   std::vector<NodeReport> nodes;  ///< as far as their programs know
-  bool are_credits_back = true;  ///< where they started
+  bool are_credits_back = true;   ///< where they started
 };
 /// To be called after a run, on all ranks: the reports of all nodes on the host's rank; on others those of their own nodes.
 GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan);

@@ -21,8 +21,8 @@ class Slots {
  public:
   struct Capacity {
     std::uint32_t node_count = 1;
-    std::uint32_t shared = 0;  ///< slots that nodes share and ask for; 0: they have credits of their own
-    std::uint32_t ray_credits = 1;  ///< per node
+    std::uint32_t shared = 0;        ///< slots that nodes share and ask for; 0: they have credits of their own
+    std::uint32_t ray_credits = 1;   ///< per node
     std::uint32_t host_credits = 1;  ///< the host's, node `node_count`
 
     std::uint32_t account_count() const { return shared > 0 ? 2 : node_count + 1; }

@@ -30,7 +30,7 @@ namespace dmpc::dataflow {
 
 /// The message along the tree: a call, without content, downwards; a report upwards.
 struct Token {
-  std::int64_t balance = 0;  ///< ray packets sent minus received by the reporting member and those below it
+  std::int64_t balance = 0;    ///< ray packets sent minus received by the reporting member and those below it
   std::uint32_t is_black = 0;  ///< 1: some of them may have been woken since the round before
   std::uint32_t padding = 0;
   constexpr bool operator==(const Token&) const = default;
@@ -39,7 +39,7 @@ static_assert(sizeof(Token) == 16 && std::is_trivially_copyable_v<Token>);
 
 /// A member's neighbours in the tree.
 struct TreePlace {
-  nodes::NodeId parent;  ///< meaningless for the host
+  nodes::NodeId parent;           ///< meaningless for the host
   std::uint32_t first_child = 0;  ///< its index; the others follow
   std::uint32_t child_count = 0;
 };
@@ -161,7 +161,7 @@ class Termination {
 
   TreePlace place_;
   std::int64_t balance_ = 0;
-  Token token_;  ///< sum of the children's reports so far
+  Token token_;                ///< sum of the children's reports so far
   std::uint32_t awaited_ = 0;  ///< children that have not reported
   bool is_initiator_;
   bool is_black_ = false;

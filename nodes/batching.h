@@ -10,7 +10,7 @@ namespace dmpc::nodes {
 
 /// Packets that may wait at their sender while it has other things to do, all for one target, which is not woken for each.
 struct Batching {
-  std::uint32_t kinds = 0;  ///< a bit for each kind of packet
+  std::uint32_t kinds = 0;    ///< a bit for each kind of packet
   std::uint32_t packets = 1;  ///< batch size, at which the target gets them; the sender has more credits than that
 };
 

@@ -14,13 +14,13 @@ namespace dmpc::nodes {
 /// Settings of the disturbances. Any values are legal: the result of a run and the conservation laws hold with all of them.
 struct Chaos {
   std::uint64_t seed = 0;
-  std::uint32_t held_percent = 50;  ///< share of packets that are delayed, 0 to 100
+  std::uint32_t held_percent = 50;      ///< share of packets that are delayed, 0 to 100
   std::uint32_t delay_quanta_max = 16;  ///< a delayed packet waits 1 to this many of its sender's quanta, 1 to 2^16
   std::uint32_t slow_link_percent = 0;  ///< share of sender-target pairs that are slow, 0 to 100
-  std::uint32_t slow_link_factor = 8;  ///< factor of the delay on a slow link, 1 to 2^15
+  std::uint32_t slow_link_factor = 8;   ///< factor of the delay on a slow link, 1 to 2^15
   std::uint32_t slow_node_percent = 0;  ///< share of nodes that are slow, 0 to 100
-  std::uint32_t idle_quanta_max = 16;  ///< a slow node skips 0 to this many quanta before each that it runs, below 2^31
-  bool shrinks_credits = true;  ///< each kind of credit is drawn again, from 1 to the planned number
+  std::uint32_t idle_quanta_max = 16;   ///< a slow node skips 0 to this many quanta before each that it runs, below 2^31
+  bool shrinks_credits = true;          ///< each kind of credit is drawn again, from 1 to the planned number
 };
 
 /// The settings for a seed. Different seeds cause different kinds of disturbance: many short delays, few long ones, slow links,

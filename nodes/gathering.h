@@ -20,7 +20,7 @@
 
 namespace dmpc::nodes {
 
-/// What every node reports when a run is over, whatever its program. A value.
+/// A node's report after a run of any program. A value.
 struct NodeFigures {
   NodeCounters counters;
   MemoryPlan memory_planned, memory_used;
@@ -49,9 +49,9 @@ void gather_nodes(Runner& runner, std::uint32_t node_count, const Report& report
   }
 }
 
-/// The same for ranks, after gather_nodes(): returns what is known of each rank; nothing without ranks. `planned`: argument of
-/// peers_of(). seen(), if given, returns what was observed here; on the host's rank, add(seen, clock) takes what was observed on
-/// each other rank.
+/// As gather_nodes(), for ranks, to be called after it: returns what is known of each rank; nothing without ranks. `planned`:
+/// argument of peers_of(). seen(), if given, returns what was observed here; on the host's rank, add(seen, clock) takes what was
+/// observed on each other rank.
 template <class Planned>
 std::vector<RankFigures> gather_rank_figures(Runner& runner, const Planned& planned, const RankLinks* links, const AddSeen& add,
                                              const std::function<std::string()>& seen = {}) {

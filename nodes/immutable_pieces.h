@@ -66,7 +66,7 @@ class ImmutablePieces {
   std::unique_ptr<const std::byte*[]> places_;  ///< on a modelled machine
 };
 
-/// One piece, the first `bytes` of `source`: where it is from now on, and `overread_bytes` that are readable behind it.
+/// One piece, the first `bytes` of `source`: its final address, with `overread_bytes` readable behind it.
 inline std::span<const std::byte> kept(LocalMemory& memory, Category category, const ByteSource& source, std::size_t bytes,
                                        std::size_t overread_bytes = 0) {
   ImmutablePieces room(memory, category, bytes + overread_bytes, bytes);

@@ -20,7 +20,7 @@ struct Room {
 
   /// Allocates it.
   std::span<T> in(LocalMemory& memory) const { return memory.allocate<T>(category, count); }
-  // Implicit: room is added to a plan for what it takes.
+  // Implicit, so that it can be added to a plan.
   operator MemoryPlan() const {
     MemoryPlan plan;
     plan[category] = LocalMemory::bytes_for<T>(count);

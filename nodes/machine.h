@@ -20,7 +20,7 @@ struct MessageCost {
   std::uint64_t send_ns = 0;     ///< the sender's processor is occupied
   std::uint64_t latency_ns = 0;  ///< from the end of that until the message enters the network
   std::uint64_t receive_ns = 0;  ///< the receiver's processor is occupied, regardless of its activity
-  std::uint64_t byte_ps = 0;  ///< in the network, per byte of header and payload
+  std::uint64_t byte_ps = 0;     ///< in the network, per byte of header and payload
 };
 
 /// Immutable during a run.
@@ -31,8 +31,8 @@ struct Machine {
   Switching switching = Switching::circuit;
   std::uint64_t short_bytes_max = 100;  ///< longer messages are of the class long_message
   MessageCost short_message, long_message;
-  std::uint64_t hop_ns = 0;  ///< per link that a message passes
-  std::uint64_t service_ns = 0;  ///< per interrupt, in addition to receiving and sending
+  std::uint64_t hop_ns = 0;                           ///< per link that a message passes
+  std::uint64_t service_ns = 0;                       ///< per interrupt, in addition to receiving and sending
   std::array<std::uint64_t, charge_count> cost_ps{};  ///< per operation, by its class
   bool has_contention = true;                         ///< a link carries one message at a time
   /// A node sends one message at a time and receives one at a time, on all of its links. No effect without contention.

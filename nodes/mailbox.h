@@ -64,7 +64,7 @@ struct MailboxCapacity {
   std::uint32_t small_slots = 0;
   std::uint32_t bulk_slots = 0;
   std::size_t bulk_payload_bytes = 0;  ///< the largest payload; at least what the small class holds if bulk_slots > 0
-  std::size_t small_front_bytes = 0;  ///< that the small class holds in addition to small_payload_bytes: for push() with a front
+  std::size_t small_front_bytes = 0;   ///< that the small class holds in addition to small_payload_bytes: for push() with a front
 
   /// The local memory that such a mailbox takes (Category::mailbox).
   std::size_t bytes() const;

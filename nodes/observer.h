@@ -29,12 +29,12 @@ struct ProgramPoint {
 struct PathTimes {
   std::uint64_t computing_ns = 0;     ///< operations that programs charged
   std::uint64_t service_busy_ns = 0;  ///< others' requests served during that
-  std::uint64_t sending_ns = 0;  ///< sending messages
-  std::uint64_t travelling_ns = 0;  ///< latency, hops and bytes, and waiting behind messages to the same node
-  std::uint64_t links_ns = 0;  ///< waiting for links held by other messages
-  std::uint64_t receiving_ns = 0;  ///< receiving messages
-  std::uint64_t serving_ns = 0;  ///< requests that were waited for, served by an interrupt
-  std::uint64_t messages = 0;  ///< those that led from one node to another
+  std::uint64_t sending_ns = 0;       ///< sending messages
+  std::uint64_t travelling_ns = 0;    ///< latency, hops and bytes, and waiting behind messages to the same node
+  std::uint64_t links_ns = 0;         ///< waiting for links held by other messages
+  std::uint64_t receiving_ns = 0;     ///< receiving messages
+  std::uint64_t serving_ns = 0;       ///< requests that were waited for, served by an interrupt
+  std::uint64_t messages = 0;         ///< those that led from one node to another
   /// All parts except computing and service by kinds of messages.
   std::array<std::uint64_t, packet_kind_count> by_kind_ns{};
 
@@ -57,8 +57,8 @@ class Program;
 enum class Activity : std::uint8_t {
   work,      ///< a quantum
   receive,   ///< the program takes a packet
-  serve,  ///< the same by an interrupt, during another activity or while idle (modelled machines)
-  send,  ///< the cost of sending a quantum's packets (modelled machines)
+  serve,     ///< the same by an interrupt, during another activity or while idle (modelled machines)
+  send,      ///< the cost of sending a quantum's packets (modelled machines)
   take_over  ///< the cost of taking a packet that arrived while idle (modelled machines)
 };
 
@@ -72,7 +72,7 @@ struct Span {
   std::uint64_t call = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< its own duration, without interrupts and packets that arrived meanwhile
-  Charges before, after;  ///< operations charged until its begin and its end; equal except for calls of the program
+  Charges before, after;     ///< operations charged until its begin and its end; equal except for calls of the program
 
   /// Whether it is a call of the program and no interrupt.
   bool is_own_call() const { return activity == Activity::work || activity == Activity::receive; }
@@ -83,9 +83,9 @@ struct Span {
 /// Times of a message. What does not apply is 0.
 struct MessageTimes {
   std::uint64_t sending_ns = 0;   ///< the sender's processor begins to send it
-  std::uint64_t left_ns = 0;  ///< the sender's processor has finished sending it
+  std::uint64_t left_ns = 0;      ///< the sender's processor has finished sending it
   std::uint64_t entered_ns = 0;   ///< it enters the network (modelled machines)
-  std::uint64_t links_ns = 0;  ///< time spent there waiting for links held by others (modelled machines)
+  std::uint64_t links_ns = 0;     ///< time spent there waiting for links held by others (modelled machines)
   std::uint64_t arrived_ns = 0;   ///< it is at its target (modelled machines)
   std::uint64_t received_ns = 0;  ///< the target's program takes it, or an interrupt's service begins
 };
@@ -114,7 +114,7 @@ struct Passing {
 /// The item on which a call of a program has worked. A call may report several, or none.
 struct Worked {
   NodeId node{};
-  std::uint32_t item = 0;  ///< in the program's numbering
+  std::uint32_t item = 0;   ///< in the program's numbering
   std::uint32_t depth = 1;  ///< the last depth that the call reached in it, as defined by the program
 };
 
@@ -127,9 +127,9 @@ struct Waited {
   std::uint64_t own_ns = 0;  ///< without services for others meanwhile
 
   // Set if paths are followed (modelled machines, Observer::follows_paths()), otherwise 0.
-  std::uint64_t left_ns = 0;  ///< when the message's sender had finished sending it
+  std::uint64_t left_ns = 0;               ///< when the message's sender had finished sending it
   std::optional<PacketKind> request = {};  ///< the kind that the message answers, by an interrupt
-  ProgramPoint from;  ///< the cause of the wait's end: only messages lie between
+  ProgramPoint from;                       ///< the cause of the wait's end: only messages lie between
 };
 
 /// Observes a run. What a call sends, receives and works on is reported before its span, which is reported when it ends. Thread

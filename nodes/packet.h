@@ -17,7 +17,7 @@ using PacketKind = std::uint8_t;
 inline constexpr std::size_t packet_kind_count = 24;
 
 struct PacketHeader {
-  std::uint32_t bytes = 0;  ///< payload, including its immutable end
+  std::uint32_t bytes = 0;   ///< payload, including its immutable end
   std::uint16_t source = 0;  ///< index of the sending NodeId
   PacketKind kind = 0;
   std::uint8_t padding = 0;

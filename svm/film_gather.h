@@ -16,9 +16,9 @@ namespace dmpc::svm {
 struct FilmCapacity {
   nodes::NodeId host{};
   std::uint32_t packet_entries = 1;  ///< per full packet
-  std::uint32_t credits = 1;  ///< packets that may be in flight to the host
+  std::uint32_t credits = 1;         ///< packets that may be in flight to the host
   std::uint32_t in_flight = 1;       ///< pixels that may all finish before a packet can leave
-  std::uint32_t planes = 2;  ///< on which a pixel has light
+  std::uint32_t planes = 2;          ///< on which a pixel has light
 };
 
 /// Never refuses a finished pixel, nor a run of them: a pixel may start only while has_room_for() the pixels in flight and it.

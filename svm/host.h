@@ -79,7 +79,7 @@ class HostProgram final : public pictures::Host {
   std::optional<Home> home_;
   std::uint64_t served_before_ = 0;  ///< pages served for earlier pictures
   std::uint64_t items_given_ = 0;
-  std::uint32_t nodes_masked_ = 0;  ///< number of nodes that have their whole mask
+  std::uint32_t nodes_masked_ = 0;   ///< number of nodes that have their whole mask
   std::uint32_t pixels_found_done_;  ///< pixels of the first pass that were done before the start
   std::uint32_t nodes_done_ = 0;
   std::uint64_t pixels_announced_ = 0;

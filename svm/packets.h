@@ -82,8 +82,8 @@ static_assert(is_small_packet<MaskedWorkReply>);
 /// sent once per pass.
 struct FilmEntry {
   std::uint32_t pixel = 0;  ///< the first
-  std::uint32_t more = 0;  ///< number of pixels that follow it, by index
-  core::PixelSums sums;  ///< of each of them; on as many planes as are sent
+  std::uint32_t more = 0;   ///< number of pixels that follow it, by index
+  core::PixelSums sums;     ///< of each of them; on as many planes as are sent
 };
 static_assert(sizeof(FilmEntry) == 56 && std::is_trivially_copyable_v<FilmEntry>);
 

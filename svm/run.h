@@ -51,7 +51,7 @@ struct Report : pictures::Report<NodeReport> {
   Plan plan = {};
   std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
   std::uint64_t pixels_done = 0;              ///< by this run, over all passes
-  std::uint64_t items_assigned = 0;  ///< work items assigned by the host
+  std::uint64_t items_assigned = 0;           ///< work items assigned by the host
   std::uint64_t host_pages_served = 0;        ///< replies of the host to requests for pages
 
   core::Operations operations() const { return summed(&ProgramReport::operations); }

@@ -20,7 +20,7 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t worker_count = 1;  ///< nodes that have pixels, the first ones
   std::uint32_t width = 1, height = 1;
-  PixelTile tile;  ///< maximum of a task
+  PixelTile tile;                             ///< maximum of a task
   std::uint32_t item_side = 3;                ///< pixels along the side of a work item; 0: no node gives work to another
   PixelShares shares = PixelShares::submaps;  ///< which pixels a node starts with
   /// The host's number, if all items are requested from it: then no node has a share.

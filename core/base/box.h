@@ -80,7 +80,7 @@ struct alignas(16) Bounds {
       high[i] = std::max(high[i], other.high[i]);
     }
   }
-  /// What of this lies in `other`; the nearest part of its border if nothing does.
+  /// The intersection with `other`; if it is empty, the nearest part of this box's border.
   Bounds clamped_to(const Bounds& other) const {
     Bounds bounds;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -11,7 +11,7 @@
 
 namespace dmpc::core {
 
-/// What of an array will be touched: all of it, or here and there a part.
+/// How an array will be used: all of it, or sparsely.
 enum class Touching : std::uint8_t { all, parts };
 
 /// Zero bytes for objects of any kind that are not over-aligned, set aside as they are first touched. Large ones that all is

@@ -48,7 +48,7 @@ struct Conversion {
   struct Textured {
     std::uint32_t primitive;
     std::uint32_t texture;  ///< index into Scene::textures, or Material::no_texture
-    std::uint32_t facets;  ///< index of the texture of metal and roughness, likewise
+    std::uint32_t facets;   ///< index of the texture of metal and roughness, likewise
     TexturedNormals normals;
   };
   std::vector<PrimitiveValues> primitives;
@@ -62,11 +62,11 @@ struct Conversion {
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // From instances of meshes, and from settle_coplanar() and drop_twins():
   std::vector<PrimitivePlane> planes;  ///< by PrimitiveValues::plane() - 1
-  std::int32_t place_layers = 0;  ///< the highest layer of a plane of instances whose copies are left out
+  std::int32_t place_layers = 0;       ///< the highest layer of a plane of instances whose copies are left out
   struct Lamp {
     std::uint32_t primitive;
   };
-  std::vector<Lamp> whole_lamps;  ///< triangles that share a plane, emit, and are not covered
+  std::vector<Lamp> whole_lamps;    ///< triangles that share a plane, emit, and are not covered
   std::uint32_t shared_planes = 0;  ///< total: `planes`, and those given by a coordinate
   std::uint32_t duplicates = 0;     ///< triangles left out
   std::vector<CloseFaces> close_faces;
@@ -77,7 +77,7 @@ Box bounds_of(const Scene& scene, const Parallel& parallel);
 
 struct ConversionWishes {
   std::span<const MeshFaces> meshes = {};  ///< for all of Scene::kept
-  bool keeps_corners = false;  ///< for a scene without base meshes
+  bool keeps_corners = false;              ///< for a scene without base meshes
 };
 
 /// Triangulates, and transforms everything into the grid's coordinates. An instance of a base mesh has its triangles, in its

@@ -53,10 +53,10 @@ struct CollapsedPrimitive {
 /// lie, or that not even doubles tell apart on a ray: where t is the same for both, the first in the file shows, and where layers
 /// move t by more than the distance, the wrong one may show.
 struct CloseFaces {
-  Vec3f place;  ///< on the smaller one, grid-local
+  Vec3f place;                ///< on the smaller one, grid-local
   float size = 0;             ///< its longest edge
   float least = 0, most = 0;  ///< distance of one from the plane of the other
-  std::uint32_t layers = 0;  ///< number of layers between them
+  std::uint32_t layers = 0;   ///< number of layers between them
 };
 
 /// A plane that leaves store, and what their headers say of it.
@@ -94,17 +94,17 @@ struct RecordCounts {
   std::array<std::uint64_t, primitive_kind_count> leaves{};
   std::uint64_t normals = 0;        ///< PatchNormals
   std::uint64_t textured = 0;       ///< TexturedNormals, in all
-  std::uint64_t faceted = 0;  ///< textured ones that begin a FacetedNormals
+  std::uint64_t faceted = 0;        ///< textured ones that begin a FacetedNormals
   std::uint64_t texture_tiles = 0;  ///< on all levels
   std::uint64_t sky_tiles = 0;
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
-  std::uint64_t materials = 0;  ///< without the extensions behind them
-  std::uint64_t emitters_met = 0;  ///< emitting primitives that are not among the header's emitters
+  std::uint64_t materials = 0;         ///< without the extensions behind them
+  std::uint64_t emitters_met = 0;      ///< emitting primitives that are not among the header's emitters
   std::uint64_t emitters_covered = 0;  ///< likewise, and others in their plane may cover them completely
   std::uint64_t instance_leaves = 0, instances = 0;
-  std::uint64_t base_meshes = 0;  ///< number of meshes with instances
+  std::uint64_t base_meshes = 0;                                   ///< number of meshes with instances
   std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
-  ObstacleCounts copied;  ///< instances that have copies though meshes were to be kept
+  ObstacleCounts copied;                                           ///< instances that have copies though meshes were to be kept
 };
 
 class Database {
@@ -136,7 +136,7 @@ class Database {
     forget(bytes_);
     give_back_freed();
   }
-  /// Those of dropped() that are not degenerate in the scene.
+  /// The primitives of dropped() that are not degenerate in the scene.
   std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
   std::span<const CloseFaces> close_faces() const { return close_faces_; }
 
@@ -156,11 +156,12 @@ class Database {
   /// Copies of primitives in leaves, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
-  /// How many pages of one tree in spatial order lie before the first subtree: tables and the BVH nodes above, those of base
-  /// meshes, too. What a page behind them and the open ones holds of a tree holds all that is below it. 0 for any other database.
+  /// Number of pages of one tree in spatial order before the first subtree: tables and the upper BVH nodes, including those of
+  /// base meshes. A page after these and the open ones holds, for each part of a tree in it, everything below. 0 for any other
+  /// database.
   std::size_t forest_page_count() const { return forest_page_count_; }
-  /// How many pages behind those are open, where meshes are kept once: what they have of the tree, and its InstanceRecords, leads
-  /// into meshes, which lie elsewhere. 0 for any other database.
+  /// Number of open pages after those, where meshes are stored once: their part of the tree, and its InstanceRecords, leads into
+  /// meshes, which lie elsewhere. 0 for any other database.
   std::size_t open_page_count() const { return open_page_count_; }
   /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
   double pad() const { return pad_; }
@@ -183,14 +184,15 @@ class Database {
 
 /// Copies that the scene leaves out are added. Throws CapacityError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
-/// The same, but frees the scene's objects on the way: they are never in memory together with the records. View, lights,
-/// materials and background stay, and textures without their texels.
+/// Builds like the other overload, but frees the scene's objects on the way: they are never in memory together with the records.
+/// View, lights, materials and background stay, and textures without their texels.
 Database build_database(Scene&& scene, const BuildOptions& options);
 
 /// For a scene without copies whose instances are to be kept (BuildOptions::keeps_instances).
 struct CopyLimits {
-  /// No more corners of copies than this are put in on the way: then all is said of them that is said of others. Of more,
-  /// places alone are there (core/database/meshes/uncopied_instances.h), and nobody looks at what rounding does to copies.
+  /// The maximum number of corners of copies to be added during the build: then everything is checked as for other primitives.
+  /// With more corners there are only instances (core/database/meshes/uncopied_instances.h), and the effects of rounding on
+  /// copies are not checked.
   std::uint64_t corners_max = std::uint64_t{3} << 21U;
   /// The maximum size of the scene, with the added copies, during conversion.
   std::uint64_t bytes_max = std::numeric_limits<std::uint64_t>::max();

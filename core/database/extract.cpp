@@ -450,7 +450,7 @@ class Extractor {
   std::vector<DirectoryEntry> entries_;  ///< the voxels'
   std::vector<VoxelReference> listed_;   ///< by them
   std::optional<MeshNeeds> needs_;       ///< where meshes are kept once
-  Address next_instance_ = no_address;  ///< for the next copied instance
+  Address next_instance_ = no_address;   ///< for the next copied instance
   AddressMap meshes_;                    ///< by their first BVH nodes
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables

@@ -15,7 +15,7 @@ namespace dmpc::core {
 /// Records and table of contents of one region, or of several that share common records; position-independent like the whole
 /// database. trace() on it returns the same bits as on the whole while the ray is in the header's region.
 struct DatabasePart {
-  DatabaseHeader header;  ///< header.region is the region, or the first of several
+  DatabaseHeader header;         ///< header.region is the region, or the first of several
   std::vector<std::byte> bytes;  ///< overread_bytes more than the records
   std::size_t record_bytes = 0;  ///< the size of the records, also after `bytes` are freed
   /// Lanes of its leaves, where for base meshes the instances count: the sum over all parts, divided by the whole's, is the

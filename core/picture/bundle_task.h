@@ -64,7 +64,7 @@ class BundleTaskWith {
   std::array<std::uint32_t, pixels_max> pixels_;
   std::array<PixelSums, pixels_max> sums_;
   std::array<std::uint8_t, bundle_rays_max> place_;  ///< the pixel's slot of each ray of the bundle
-  std::array<SampleStep, pixels_max> steps_;  ///< each pixel's
+  std::array<SampleStep, pixels_max> steps_;         ///< each pixel's
   Address absent_ = no_address;
   std::uint32_t sample_ = 0;  ///< first sample of the next round, of the pixel at next_place_
   std::uint16_t ended_ = 0;

@@ -10,9 +10,9 @@ enum class MemoryUse : std::uint8_t {
   home_pages,    ///< records that the node has from the start
   cache_frames,  ///< memory for records that arrive
   page_table,    ///< where these are
-  ray_stacks,  ///< rays and pixels in flight
-  film_tiles,  ///< light that waits to be sent to the host
-  constants  ///< the picture's settings, and other data known to all nodes
+  ray_stacks,    ///< rays and pixels in flight
+  film_tiles,    ///< light that waits to be sent to the host
+  constants      ///< the picture's settings, and other data known to all nodes
 };
 
 }  // namespace dmpc::core

@@ -73,8 +73,8 @@ void cover(MaterialRecord& material, float share) {
   material.transmittance = material.transmittance * share + (1.0F - share);
 }
 
-/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 except for rounding, for the sake of which
-/// no ray is sent, and no texel of just the cutoff is cut away.
+/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 except for rounding, for the sake of
+/// which no ray is sent, and no texel of just the cutoff is cut away.
 float share_left(std::uint16_t cutoff, float alpha) {
   constexpr float rounding = 0x1p-16F;
   const float share = alpha > 1.0F - rounding ? 1.0F : alpha < rounding ? 0.0F : alpha;
@@ -84,7 +84,7 @@ float share_left(std::uint16_t cutoff, float alpha) {
   return share * float{MaterialExtensionRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
 }
 
-/// The same for a hit. Returns it.
+/// Applies it to a hit, and returns the coverage.
 float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_index) {
   MaterialRecord& material = state.surface.material;
   const float share = share_left(cutoff, state.coverage());

@@ -43,7 +43,7 @@ struct ShadeOptions {
   /// needs it.
   double pixel_share = 0;
   std::uint32_t first_samples = 1;  ///< per pixel; more follow if the picture is refined
-  FilmScale film_scale = {};  ///< film_scale_for() the scene
+  FilmScale film_scale = {};        ///< film_scale_for() the scene
   Transport transport = {};
 };
 
@@ -97,7 +97,7 @@ class Shader {
   /// Continues a hit at a light with known illumination; `highlight`: lobe_cosine() to the power of its shine. As step(), except
   /// that the caller sets the child's start, direction and end.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
-  /// The same for a hit that mirrors or transmits a ray.
+  /// As shine(), for a hit that mirrors or transmits a ray.
   bool send(HitState& state, Ray& child) const;
   /// Continues a hit of a path after its lights: one more ray, or none.
   bool send_on(HitState& state, Ray& child) const;

@@ -151,7 +151,7 @@ class CurvedValues {
         stride_(stride),
         passes_by_(passes_by_zero(kind, {rows, stride, lane})) {}
 
-  /// That of a radius has its sign.
+  /// A radius has its sign.
   double value(std::size_t row) const {
     const float rounded = rows_[row * stride_];
     const auto four = std::bit_cast<std::uint32_t>(rests_[row / 4 * stride_]);

@@ -26,7 +26,7 @@ constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size,
   return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
 
-/// The same with z fastest, after the article.
+/// directory_index() with z fastest, after the article.
 constexpr std::uint64_t voxel_index(const std::array<std::int32_t, 3>& size, const Corner& cell) {
   return directory_index({size[2], size[1], size[0]}, {cell[2], cell[1], cell[0]});
 }

@@ -18,8 +18,8 @@ struct InstanceRecord {
   std::array<double, 12> world{};  ///< from the mesh's coordinates to the world's: the rows of the linear part, then the shift
   Address root = no_address;       ///< the mesh's first BVH node
   std::uint32_t first = 0;         ///< the id of the mesh's triangle 0 here; the others follow
-  float unit = 1;  ///< power of two: the mesh's coordinates per unit of its records
-  float pad = 0;  ///< the grid's insertion pad along an axis of the mesh, in units of its records
+  float unit = 1;                  ///< power of two: the mesh's coordinates per unit of its records
+  float pad = 0;                   ///< the grid's insertion pad along an axis of the mesh, in units of its records
   std::array<std::uint32_t, 2> unused{};
 };
 static_assert(sizeof(InstanceRecord) == 128);

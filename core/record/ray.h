@@ -29,13 +29,13 @@ inline constexpr std::uint32_t no_primitive = 0xffffffffU;
 struct Ray {
   Vec3f origin;
   float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
-  Vec3f direction;  ///< of unit length, up to rounding
+  Vec3f direction;                                       ///< of unit length, up to rounding
   std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
   Color weight{1, 1, 1};     ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
   std::uint32_t pixel = 0;   ///< y * width + x
   std::uint16_t sample = 0;  ///< below the samples per pixel
-  /// density_bits() of how likely its direction was when a surface scattered it; 0 where nothing asks for that, or it had no
-  /// choice: of the eye's rays, of those of mirrors and glass.
+  /// density_bits() of its direction when a surface scattered it; 0 if that is not needed, or there was no choice: rays of the
+  /// eye, and of mirrors and glass.
   std::uint16_t density = 0;
   std::uint8_t depth = 1;  ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
   RayKind kind = RayKind::primary;

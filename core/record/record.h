@@ -10,7 +10,7 @@
 //   normals     PatchNormals, TexturedNormals, FacetedNormals } shading data, read for final hits only
 //   materials   MaterialRecord, then MaterialExtensionRecord     }
 //   lights      LightRecord                           }
-//   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) where paths aim at what shines
+//   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) for light sampling
 //   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
 //   sky         of a picture: EmitterChoice with the tables, TextureTile behind all (core/record/sky.h)
 #pragma once
@@ -43,7 +43,7 @@ constexpr Address advance(Address base, std::uint64_t bytes) {
   return Address{static_cast<std::uint32_t>(static_cast<std::uint32_t>(base) + bytes / record_alignment)};
 }
 
-/// A value at any byte of a record, whatever its alignment.
+/// A value at any byte of a record, with any alignment.
 template <class T>
 T read(const std::byte* from) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -152,7 +152,7 @@ struct LeafHeader {
   static constexpr std::uint8_t level_plane = 254;
   constexpr bool has_plane() const { return plane != 0; }
   constexpr bool has_exact_plane() const { return plane >= exact_plane; }
-  /// Of an exact plane.
+  /// The layer of an exact plane.
   constexpr std::int32_t layer() const { return plane - exact_plane; }
 };
 static_assert(sizeof(LeafHeader) == 8);
@@ -265,8 +265,8 @@ struct TexturedNormals {
 };
 static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
 
-/// Of a triangle whose metal and roughness come from a texture, too, which lies where that of its colour does: in databases of
-/// pictures by paths.
+/// A TexturedNormals of a triangle with a texture of metal and roughness, too, in the same place as that of its colour: in
+/// databases for pictures by paths.
 struct FacetedNormals {
   TexturedNormals textured;
   TextureReference facets;  ///< of TexelFormat::linear

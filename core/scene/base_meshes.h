@@ -15,15 +15,15 @@ struct BaseMeshInstance {
   Transform world;          ///< from the mesh's coordinates
   std::uint32_t mesh = 0;   ///< index into BaseMeshes::meshes
   std::uint32_t first = 0;  ///< the index of the copy's first object, with all copies: it has as many as the mesh, in its order
-  std::uint32_t at = 0;  ///< index into Scene::objects, where the copy is or, if it is left out, would be
-  bool has_copy = false;  ///< it is among Scene::objects. If it is left out core/scene/placed_objects.h makes it
+  std::uint32_t at = 0;     ///< index into Scene::objects, where the copy is or, if it is left out, would be
+  bool has_copy = false;    ///< it is among Scene::objects. If it is left out core/scene/placed_objects.h makes it
 };
 
 /// Decisions made once for a mesh, and not for each of its instances: how its polygons are triangulated, what its normals mean,
 /// and which of its faces lie in one plane. So it looks the same at any place and size, with copies or instances. Faces in one
 /// plane are not searched for across instances, nor between an instance and the rest of the scene.
 struct BaseMeshes {
-  std::vector<Scene> meshes;  ///< only objects and their pools, in coordinates of their own; materials are the scene's
+  std::vector<Scene> meshes;             ///< only objects and their pools, in coordinates of their own; materials are the scene's
   std::vector<BaseMeshInstance> places;  ///< by `first`, ascending
 };
 
@@ -59,7 +59,7 @@ inline constexpr std::uint64_t beside_places_max = 1U << 21U;
 
 /// Numbers of corners of polygons: 3 per triangle.
 struct InstancingShare {
-  std::uint64_t seen = 0;  ///< with a copy of each mesh for each of its instances
+  std::uint64_t seen = 0;    ///< with a copy of each mesh for each of its instances
   std::uint64_t stored = 0;  ///< with each mesh once; an instance counts as two triangles, since its record is as long as theirs
   std::uint64_t places = 0;
   std::uint64_t own = 0;  ///< primitives that are of no base mesh: triangles, spheres, cones

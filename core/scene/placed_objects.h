@@ -84,7 +84,7 @@ bool leaves_copies_out(const Scene& scene);
 class PlacedObjects {
  public:
   explicit PlacedObjects(const Scene& scene);
-  /// Of copies that are left out it includes only those of these instances, one entry for each of Scene::kept.
+  /// Includes only the left out copies of these instances, one entry for each of Scene::kept.
   PlacedObjects(const Scene& scene, const std::vector<bool>& places);
 
   std::uint64_t size() const { return count_; }

@@ -29,11 +29,11 @@ enum class FacetTexture : std::uint8_t { placed, mean };
 /// A microfacet surface as in glTF's metallic-roughness (core/picture/surfaces/microfacet_lobes.h). What it scatters or reflects
 /// as a metal has the material's colour; emission, index and alpha are the material's, too.
 struct Microfacets {
-  double roughness = -1;  ///< 0 to 1; below 0: no microfacet surface
+  double roughness = -1;      ///< 0 to 1; below 0: no microfacet surface
   double metallic = 0;        ///< 0 to 1
   double reflectance = 0.04;  ///< 0 to 1: the dielectric's at normal incidence
-  double transmission = 0;  ///< 0 to 1: the dielectric's share that transmits light instead of scattering it
-  double opacity = 1;  ///< 0 to 1: coverage of the surface
+  double transmission = 0;    ///< 0 to 1: the dielectric's share that transmits light instead of scattering it
+  double opacity = 1;         ///< 0 to 1: coverage of the surface
   /// The texture whose blue is a factor of `metallic`, and whose green of `roughness`: index into Scene::textures, of
   /// TexelFormat::linear. Such a material has a texture of its colour, too, and is used by textured patches only.
   std::uint32_t texture = no_texture;
@@ -47,7 +47,7 @@ struct Microfacets {
 
 /// NFF's `f`: an object's surface (E. Haines, SPD, NFF.TXT), followed by extensions for other formats.
 struct Material {
-  Vec3d color{0.5, 0.5, 0.5};  ///< the diffuse part's, 0..1
+  Vec3d color{0.5, 0.5, 0.5};   ///< the diffuse part's, 0..1
   double diffuse = 1;           ///< Kd
   double specular = 0;          ///< Ks: weight of the highlight and of the mirror
   double shine = 0;             ///< Phong's cosine power
@@ -56,11 +56,11 @@ struct Material {
   /// Multiplies `color` on textured patches: index into Scene::textures.
   std::uint32_t texture = no_texture;
   AlphaUse alpha = AlphaUse::none;
-  double alpha_cutoff = 0;  ///< for AlphaUse::cut: above 0, at most 1
+  double alpha_cutoff = 0;        ///< for AlphaUse::cut: above 0, at most 1
   Vec3d specular_color{1, 1, 1};  ///< of highlight and mirror: a factor of `specular`
-  double tinted_specular = 0;  ///< weight of further highlight and mirror in the surface's own colour, as for metals
-  double mirror = 1;  ///< the share of both that mirrors; 0 for highlights only
-  Vec3d emission;  ///< its own radiance
+  double tinted_specular = 0;     ///< weight of further highlight and mirror in the surface's own colour, as for metals
+  double mirror = 1;              ///< the share of both that mirrors; 0 for highlights only
+  Vec3d emission;                 ///< its own radiance
   /// Used by pictures by paths in place of `diffuse`, the specular part and `transmittance`, which approximate it.
   Microfacets microfacets;
 
@@ -73,8 +73,8 @@ struct Material {
   bool shines() const { return emission != Vec3d{}; }
   /// Whether it may transmit light somewhere.
   bool lets_through() const { return transmittance > 0 || alpha != AlphaUse::none; }
-  /// Of faces that cover each other in one plane the least is visible: emitters before others, and before both opaque ones, so
-  /// that a lamp is visible in its ceiling's plane, and a glass box shows the floor that it stands on.
+  /// The visible one of faces that cover each other in one plane has the least rank: emitters before others, and before both
+  /// opaque ones, so that a lamp is visible in its ceiling's plane, and a glass box shows the floor that it stands on.
   int rank_in_plane() const { return (lets_through() ? 2 : 0) + (shines() ? 0 : 1); }
   /// The maximum of highlight and mirror in any channel, if `color` is multiplied by at most `texture_max`.
   double specular_max(double texture_max = 1) const;
@@ -147,7 +147,7 @@ struct Scene {
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
   Vec3d background;  ///< linear RGB, as the file gives it
-  Vec3d ambient;  ///< light that comes uniformly to every hit, and is reflected by its diffuse part
+  Vec3d ambient;     ///< light that comes uniformly to every hit, and is reflected by its diffuse part
   std::vector<PointLight> lights;
   std::vector<Material> materials;  ///< equal ones merged
   std::vector<Object> objects;      ///< in file order
@@ -157,8 +157,8 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
-  SkyTexels sky;  ///< with paths, the background, if there is one
-  Vec3d zenith;  ///< of the sky, of unit length, for any view; 0: the view's up
+  SkyTexels sky;               ///< with paths, the background, if there is one
+  Vec3d zenith;                ///< of the sky, of unit length, for any view; 0: the view's up
   std::optional<int> bounces;  ///< with paths, the number of bounces in the file, if given
   /// The relative error of the file's coordinates: 0x1p-25 if it stores them in single precision. Smaller differences do not
   /// distinguish two planes.

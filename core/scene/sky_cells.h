@@ -57,7 +57,7 @@ class SkyCells {
     double top = 1, bottom = 1;
     double angle = 0;     ///< the solid angle of a cell
     double strength = 0;  ///< the sum over its cells
-    double count = 0;  ///< number of its cells
+    double count = 0;     ///< number of its cells
   };
 
   const SkyReference& sky_;

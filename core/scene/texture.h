@@ -24,7 +24,7 @@ struct Texture {
   TexelFormat format{};
   TextureWrap wrap_s{}, wrap_t{};
   double brightest = 0;  ///< of all channels of all texels
-  Color darkest;  ///< each channel's minimum over all texels: for TexelFormat::linear only
+  Color darkest;         ///< each channel's minimum over all texels: for TexelFormat::linear only
   std::vector<TextureLevel> levels;
 };
 

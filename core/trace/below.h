@@ -21,8 +21,8 @@ struct Below {
   float t_max = 0;
   std::uint32_t ignored_primitive = no_primitive;
   BvhChild child = BvhChild::none();
-  float t_low = 0, t_high = 0;  ///< the macro cell's
-  float best_t = 0;  ///< t of the nearest hit so far
+  float t_low = 0, t_high = 0;                  ///< the macro cell's
+  float best_t = 0;                             ///< t of the nearest hit so far
   std::uint32_t best_primitive = no_primitive;  ///< no_primitive: no hit so far
   std::uint32_t any = 0;                        ///< 1: any hit will do
 };

@@ -41,7 +41,7 @@ struct BundleChildren {
   static constexpr std::size_t count_max = MetChildren::count_max + (apart_max - 1) * bvh_children_max;
 
   alignas(64) std::array<Row<float>, count_max> t_enter;  ///< where each of the rays enters the box
-  std::array<float, count_max> nearest;  ///< about the least of t_enter: the sort key
+  std::array<float, count_max> nearest;                   ///< about the least of t_enter: the sort key
   std::array<BvhChild, count_max> record;
   std::array<RayMask, count_max> rays;
   std::uint32_t count;
@@ -83,19 +83,19 @@ struct RayBundle {
   std::array<std::uint32_t, 3> near_row, far_row;  ///< rows of a BVH node's bounds, where all rays agree
   bool is_one_octant;                              ///< all rays agree
   Corner grid_size;                                ///< in finest cells
-  Region region;  ///< the region that is traversed
-  bool is_whole;  ///< the region is the whole grid: no ray leaves it
+  Region region;                                   ///< the region that is traversed
+  bool is_whole;                                   ///< the region is the whole grid: no ray leaves it
   float rest_most;                                 ///< the largest of ShearedRay::rest() of all rays
   Vec3d grid_low;                                  ///< where the grid begins
-  double finest_cells;  ///< finest cells in a unit of length
+  double finest_cells;                             ///< finest cells in a unit of length
 
   // The state of the traversal.
   enum class Stage : std::uint8_t { start, directory, child, finished } stage;
   bool any;                                              ///< any hit will do
-  RayMask alive;  ///< rays whose traversal has not ended
+  RayMask alive;                                         ///< rays whose traversal has not ended
   RayMask found;                                         ///< rays that have a hit
   RayMask left;                                          ///< rays that have left the region: see passage()
-  RayMask group;  ///< live rays in `cell`
+  RayMask group;                                         ///< live rays in `cell`
   Corner cell;                                           ///< the lower corner of the macro cell that comes next, in finest cells
   BvhChild next;                                         ///< what the next step reads, with Stage::child
   RayMask next_rays;                                     ///< for these rays
@@ -103,8 +103,8 @@ struct RayBundle {
   std::array<RayMask, 3> exit_axis;                      ///< through which plane rays leave the cell
   alignas(64) std::array<Row<std::int32_t>, 3> cells;    ///< each ray's macro cell
   alignas(64) Row<double> t_enter, t_exit;               ///< where the ray enters its cell, and leaves it
-  alignas(64) Row<float> t_low, t_high;  ///< t_enter and t_exit for boxes
-  std::array<Row<std::int32_t>, 3> arrival;  ///< the finest cell that a ray enters when it leaves the region
+  alignas(64) Row<float> t_low, t_high;                  ///< t_enter and t_exit for boxes
+  std::array<Row<std::int32_t>, 3> arrival;              ///< the finest cell that a ray enters when it leaves the region
   std::array<std::uint8_t, bundle_rays_max> entry_axis;  ///< the axis of the plane through which it enters
   BundleHits best;
   BundleChildren waiting;

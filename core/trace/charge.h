@@ -13,16 +13,16 @@ namespace dmpc::core {
 
 /// Classes of operations, for each of which a machine model has a price.
 enum class Charge : std::uint8_t {
-  ray_setup,  ///< a ray made and its traversal begun
-  cell_step,  ///< a step of the traversal through the grid
+  ray_setup,      ///< a ray made and its traversal begun
+  cell_step,      ///< a step of the traversal through the grid
   bvh_node_read,  ///< a record of the grid read; entering a base mesh counts as bvh_nodes_an_entry
   triangle_test,  ///< a primitive of a leaf tested with a ray; placing a triangle of a base mesh counts as tests_a_placing
   sphere_test,
   cone_test,
-  shading,  ///< a hit shaded: geometry, normals, material, lights
-  home_lookup,  ///< a record looked up in a page that is at home
+  shading,        ///< a hit shaded: geometry, normals, material, lights
+  home_lookup,    ///< a record looked up in a page that is at home
   cached_lookup,  ///< a record looked up in a page of another home
-  page_install,  ///< a page that arrived put into a frame
+  page_install,   ///< a page that arrived put into a frame
   ray_packing,    ///< a ray put into a packet or taken out of one
   tile_read,      ///< a tile of a texture found and read
   question_setup  ///< a traversal suspended for a question about a ray, or resumed where it is answered

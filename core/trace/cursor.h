@@ -69,12 +69,12 @@ struct Exit {
 struct Cursor {
   Hit best;
   Address absent = no_address;       ///< the record that trace() needs next, after Traced::absent
-  double t_enter = 0;  ///< t at which the ray enters the current cell
+  double t_enter = 0;                ///< t at which the ray enters the current cell
   Exit exit;                         ///< where it leaves the cell or the region; known while children are visited
   Corner cell{};                     ///< lower corner of the current macro cell, in finest cells
   Corner arrival{};                  ///< with Stage::left: the finest cell that is entered
   BvhChild next = BvhChild::none();  ///< what the next step reads, with Stage::child
-  std::uint8_t entry_axis = 3;  ///< axis of the plane through which the cell was entered; 3: the traversal starts here
+  std::uint8_t entry_axis = 3;       ///< axis of the plane through which the cell was entered; 3: the traversal starts here
   /// What the next step reads: the directory entry of `cell`, or `next`.
   enum class Stage : std::uint8_t { start, directory, child, left, finished } stage = Stage::start;
   MetChildren waiting;  ///< known while children are visited

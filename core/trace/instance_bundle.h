@@ -24,8 +24,8 @@ struct InstanceBundle : RayBundle {
   bool is_inside;  ///< in the mesh of `instance`; otherwise the fields below are not set
   InstanceRecord instance;
   Address instance_address;
-  double mesh_pad;  ///< tolerance in front of a box and behind it, in units of the mesh's records
-  BoxRows in_mesh;  ///< rows of the rays that are inside
+  double mesh_pad;         ///< tolerance in front of a box and behind it, in units of the mesh's records
+  BoxRows in_mesh;         ///< rows of the rays that are inside
   BundleChildren outside;  ///< children that wait outside meanwhile
 
   /// Takes `next_rays` into a mesh: `next` becomes its first BVH node.

@@ -15,7 +15,7 @@ namespace dmpc::core {
 /// A ray in a base mesh, in units of the mesh's records. Its direction is not normalised, so t is the grid's.
 struct MeshWay {
   Vec3d origin;
-  Vec3d slope;  ///< the reciprocal of each component of the direction, never infinite
+  Vec3d slope;     ///< the reciprocal of each component of the direction, never infinite
   double pad = 0;  ///< tolerance in front of a box and behind it, for all rounding
 };
 

@@ -19,13 +19,13 @@ struct Operations {
   std::uint64_t empty_cells = 0;
   std::uint64_t bvh_node_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
-  std::uint64_t instance_entries = 0;  ///< rays that entered a base mesh by an instance
+  std::uint64_t instance_entries = 0;                                 ///< rays that entered a base mesh by an instance
   std::uint64_t placed_triangles =
-      0;  ///< triangles of base meshes placed: by a traversal, once for all rays of a bundle, or for shading
-  std::uint64_t shadings = 0;         ///< hits that were shaded
-  std::uint64_t normal_reads = 0;  ///< hits on smooth triangles that were shaded
+      0;                       ///< triangles of base meshes placed: by a traversal, once for all rays of a bundle, or for shading
+  std::uint64_t shadings = 0;  ///< hits that were shaded
+  std::uint64_t normal_reads = 0;     ///< hits on smooth triangles that were shaded
   std::uint64_t texture_lookups = 0;  ///< hits on textured triangles that were shaded
-  std::uint64_t tile_reads = 0;  ///< tiles of textures: 1 to 8 for each probe of a look-up
+  std::uint64_t tile_reads = 0;       ///< tiles of textures: 1 to 8 for each probe of a look-up
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;
@@ -33,8 +33,8 @@ struct Operations {
   std::uint64_t shadow_blocked = 0;
   std::uint64_t total_internal_reflections = 0;
   std::uint64_t deposits_saturated = 0;
-  std::uint64_t rays_cut = 0;  ///< rays that were not shot because they could bring less light than the cutoff
-  std::uint64_t bundles = 0;  ///< traversals of several rays together
+  std::uint64_t rays_cut = 0;         ///< rays that were not shot because they could bring less light than the cutoff
+  std::uint64_t bundles = 0;          ///< traversals of several rays together
   std::uint64_t rays_in_bundles = 0;  ///< rays in these
   SkippedWork skipped;
 

@@ -14,8 +14,8 @@ struct WorkPrices {
   std::uint64_t cell_step_ps = 0;
   std::uint64_t bvh_node_read_ps = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_test_ps{};  ///< per lane
-  std::uint64_t shading_ps = 0;  ///< a hit: geometry, normals, material
-  std::uint64_t tile_read_ps = 0;  ///< a tile of a texture, with its entry in the table
+  std::uint64_t shading_ps = 0;                                         ///< a hit: geometry, normals, material
+  std::uint64_t tile_read_ps = 0;                                       ///< a tile of a texture, with its entry in the table
 };
 
 /// Prices of one core of the machine on which they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot,

@@ -61,8 +61,8 @@ class BufferedRays {
   static constexpr std::uint32_t none = 0xffffffffU;
 
   std::size_t message_bytes_;
-  std::vector<std::byte> messages_;  ///< by slot
-  std::vector<std::uint32_t> older_;  ///< by slot: the next of the same owner, or of the free list
+  std::vector<std::byte> messages_;    ///< by slot
+  std::vector<std::uint32_t> older_;   ///< by slot: the next of the same owner, or of the free list
   std::vector<std::uint32_t> newest_;  ///< by owner
   std::vector<std::uint64_t> counts_;
   std::uint32_t free_ = none;

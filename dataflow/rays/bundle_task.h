@@ -106,14 +106,14 @@ class BundleTask {
   Flights* flights_;
   core::RayBundle* bundle_;  ///< an InstanceBundle if the database has instances
   std::span<core::BundleHit> stack_;
-  std::uint32_t depth_ = 0;  ///< bundles of hits on the stack, all of whose rays have ended
+  std::uint32_t depth_ = 0;       ///< bundles of hits on the stack, all of whose rays have ended
   std::uint32_t fresh_hits_ = 0;  ///< in the next one
-  std::uint32_t count_ = 0;  ///< number of rays to be traced: the first ones
-  core::RayMask entered_ = 0;  ///< those of them that did not start here
-  std::uint32_t waiting_ = 0;  ///< number of rays after the traced ones, to be traced in another region
-  std::uint32_t ended_ = 0;  ///< number of rays that were traced and handled
-  std::uint32_t traced_ = 0;  ///< number of rays that were traced
-  bool knows_stops_ = false;  ///< for those that have left
+  std::uint32_t count_ = 0;       ///< number of rays to be traced: the first ones
+  core::RayMask entered_ = 0;     ///< those of them that did not start here
+  std::uint32_t waiting_ = 0;     ///< number of rays after the traced ones, to be traced in another region
+  std::uint32_t ended_ = 0;       ///< number of rays that were traced and handled
+  std::uint32_t traced_ = 0;      ///< number of rays that were traced
+  bool knows_stops_ = false;      ///< for those that have left
 };
 
 /// Makes it in the slot where it is traced.

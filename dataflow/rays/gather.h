@@ -21,7 +21,7 @@ namespace dmpc::dataflow {
 struct PairCounters {
   std::array<std::uint64_t, core::ray_kind_count> rays{};  ///< by kind; confirmed hits included
   std::uint64_t packets = 0;                               ///< with rays; their bytes follow from both
-  std::uint64_t rays_overflowed = 0;  ///< with rays; their bytes follow from both
+  std::uint64_t rays_overflowed = 0;                       ///< with rays; their bytes follow from both
 
   std::uint64_t rays_total() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 };
@@ -43,8 +43,8 @@ class Gather {
     std::uint32_t node_count = 1;
     std::uint32_t ray_batch = 1;       ///< rays in a full packet
     std::uint32_t ray_credits = 1;     ///< for each other node
-    bool shares_slots = false;  ///< owners are asked for credits; if not, and without credits, all go through the host
-    std::uint32_t open_packets = 0;  ///< maximum number that is filled at a time; 0: one for each node
+    bool shares_slots = false;         ///< owners are asked for credits; if not, and without credits, all go through the host
+    std::uint32_t open_packets = 0;    ///< maximum number that is filled at a time; 0: one for each node
     std::uint32_t host_credits = 1;    ///< for the host, node `node_count`; at least 1
     std::uint32_t queue_packets = 0;   ///< full packets that may wait for their owners' credits
     std::uint32_t tested_objects = 0;  ///< names per ray
@@ -59,12 +59,12 @@ class Gather {
 
   /// What the gather has sent.
   struct Counters {
-    std::uint64_t packets = 0;  ///< by either way
+    std::uint64_t packets = 0;             ///< by either way
     std::uint64_t rays = 0;                ///< in them
     std::uint64_t packets_overflowed = 0;  ///< packets sent through the host
     std::uint64_t rays_overflowed = 0;
-    std::uint64_t packets_flushed = 0;  ///< packets closed before they were full
-    std::uint64_t packets_queued = 0;  ///< packets sent after a time in the queue
+    std::uint64_t packets_flushed = 0;   ///< packets closed before they were full
+    std::uint64_t packets_queued = 0;    ///< packets sent after a time in the queue
     std::uint64_t queue_high_water = 0;  ///< the most packets in the queue at once
 
     /// Sums; the maximum for the high water.
@@ -132,7 +132,7 @@ class Gather {
   struct Owner {
     std::uint16_t open = none;                ///< the slot that is being filled
     std::uint16_t first = none, last = none;  ///< queued, in the order of closing
-    std::uint16_t has_asked = 0;  ///< 1: for a slot that is not granted yet
+    std::uint16_t has_asked = 0;              ///< 1: for a slot that is not granted yet
     PairCounters pair;
   };
   static std::size_t stride_bytes(std::size_t bytes);
@@ -179,7 +179,7 @@ class Gather {
   std::uint32_t queued_ = 0;
   std::uint32_t open_count_ = 0;
   std::uint32_t asked_ = 0;              ///< owners
-  bool has_put_off_asking_ = false;  ///< some owner was not asked, since the maximum number was
+  bool has_put_off_asking_ = false;      ///< some owner was not asked, since the maximum number was
   std::optional<nodes::NodeId> closed_;  ///< owner whose open packet is closed
   Counters counters_;
   std::uint32_t rays_left_ = 0;  ///< to be reported

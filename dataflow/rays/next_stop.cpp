@@ -13,8 +13,8 @@ namespace {
 
 constexpr float never = std::numeric_limits<float>::infinity();
 
-/// The same in a proxy whose cells are cubes of several voxels. Each of their planes is one of the voxels', crossed at the
-/// same t, since doubling is exact; beyond the voxels they may go on for a while.
+/// As above, in a proxy whose cells are cubes of several voxels. Each of their planes is a plane of voxels, crossed at the same
+/// t, since doubling is exact; they may extend beyond the voxels.
 float first_in_cubes(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                      core::Operations& operations) {
   core::LocalRecords records = surroundings.records;

@@ -146,7 +146,7 @@ class PrimaryOwners {
   std::array<std::size_t, JointLattice::partitions_max>
       deciding_{};  ///< the cells that determined the owners of the current ray, in order
   std::size_t deciding_count_ = 0;
-  bool is_sky_ = false;  ///< the current ray has only owners of the sky
+  bool is_sky_ = false;        ///< the current ray has only owners of the sky
   std::uint32_t sky_end_ = 0;  ///< if so: the first place where one of them differs
 };
 

@@ -30,11 +30,11 @@ class RayQueue {
  public:
   struct Capacity {
     std::uint32_t sender_count = 0;    ///< senders have indices below this
-    std::uint32_t packets_each = 0;  ///< maximum by one sender's credits
-    std::uint32_t packets = 0;  ///< maximum by all credits together
+    std::uint32_t packets_each = 0;    ///< maximum by one sender's credits
+    std::uint32_t packets = 0;         ///< maximum by all credits together
     std::uint32_t ray_batch = 1;       ///< rays in a full packet
     std::uint32_t depth_max = 1;       ///< rays have depths 1 .. depth_max
-    bool are_kinds_apart = false;  ///< shadow rays of a depth are separate from its other rays
+    bool are_kinds_apart = false;      ///< shadow rays of a depth are separate from its other rays
     std::uint32_t tested_objects = 0;  ///< names per ray
 
     std::uint32_t rays() const { return packets * ray_batch; }
@@ -171,12 +171,12 @@ class RayQueue {
   std::uint32_t packets_each_, ray_batch_, lists_a_depth_, group_rays_;
   std::size_t message_bytes_;
   std::span<std::byte> rays_;       ///< group by group
-  std::span<std::uint32_t> from_;  ///< sender of each
+  std::span<std::uint32_t> from_;   ///< sender of each
   std::span<std::uint32_t> older_;  ///< by group: the next of the same list, or of the free list
   std::span<List> lists_;           ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;
   std::uint32_t free_ = none;  ///< first free group
-  std::uint32_t last_ = 0;  ///< no list after it has a ray
+  std::uint32_t last_ = 0;     ///< no list after it has a ray
   std::uint32_t size_ = 0, high_water_ = 0;
 };
 

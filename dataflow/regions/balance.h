@@ -20,8 +20,8 @@ namespace dmpc::dataflow {
 enum class Balance : std::uint8_t {
   subsampled,  ///< regions of about equal predicted load
   equal_size,  ///< the naive split
-  scattered,  ///< a regular lattice with many regions per node, neighbours on different nodes
-  moving  ///< subsampled regions, each of many units, which nodes migrate to others during the run
+  scattered,   ///< a regular lattice with many regions per node, neighbours on different nodes
+  moving       ///< subsampled regions, each of many units, which nodes migrate to others during the run
 };
 
 struct BalanceOptions {

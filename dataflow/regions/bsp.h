@@ -26,7 +26,7 @@ static_assert(region_count_max >= nodes::node_count_max, "every node has a regio
 /// teapot-12, 35 % on mount-6-t6, 1 % on tetra-6 and 78 % on the flat balls-4.
 enum class CutOrder : std::uint8_t {
   longer_axis,  ///< across the longer side of the box, the second cut axis when they are equal
-  alternating  ///< the first cut axis, then the second, and so on: the article's order
+  alternating   ///< the first cut axis, then the second, and so on: the article's order
 };
 
 struct BspOptions {

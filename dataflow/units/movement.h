@@ -30,11 +30,11 @@ namespace dmpc::dataflow {
 struct MovementCounters {
   std::uint64_t units_given = 0, units_taken = 0;
   std::uint64_t pages_sent = 0, pages_installed = 0;
-  std::uint64_t records_walked = 0;  ///< to find the pages of requested units
+  std::uint64_t records_walked = 0;                        ///< to find the pages of requested units
   std::uint64_t primaries_given = 0, primaries_taken = 0;  ///< rays that had not started, with units
-  std::uint64_t asks = 0, refusals = 0;  ///< by this node, and refusals of these
+  std::uint64_t asks = 0, refusals = 0;                    ///< by this node, and refusals of these
   std::uint64_t rays_sent_on = 0;  ///< rays forwarded because another node was responsible for their unit by then
-  std::uint64_t units = 0;  ///< for which it is responsible
+  std::uint64_t units = 0;         ///< for which it is responsible
 };
 
 /// Thread safety: belongs to one node.
@@ -101,13 +101,13 @@ class Movement {
   nodes::Node* node_;
   Units units_;
   Migration migration_;
-  std::span<std::uint32_t> version_;  ///< by unit: number of migrations up to the known owner
-  std::span<std::uint32_t> pages_of_;  ///< by unit: its number of pages, once they were searched
+  std::span<std::uint32_t> version_;        ///< by unit: number of migrations up to the known owner
+  std::span<std::uint32_t> pages_of_;       ///< by unit: its number of pages, once they were searched
   std::span<std::uint32_t> rays_reported_;  ///< primary rays left, by node
-  std::span<std::uint32_t> stale_;  ///< by sending node: a unit to be reported, or none
-  std::span<std::byte> packet_;  ///< buffer in which a page and its header are put together
+  std::span<std::uint32_t> stale_;          ///< by sending node: a unit to be reported, or none
+  std::span<std::byte> packet_;             ///< buffer in which a page and its header are put together
   std::uint32_t marked_ = none;             ///< the unit whose pages are marked
-  nodes::NodeId recipient_{};  ///< here and below: for the unit that is being given
+  nodes::NodeId recipient_{};               ///< here and below: for the unit that is being given
   std::uint32_t unit_ = none, pages_left_ = 0, next_frame_ = 0;
   bool are_primaries_left_ = false;  ///< to be sent after the last page
   MovementCounters counters_;

@@ -37,7 +37,7 @@ class ExchangeProfile final : public Observer {
 
   /// Packets that count: for each receiver, the host being the last, from a sender at receiver * (node_count + 1) + sender.
   const StepCounts& pairs() const { return pairs_; }
-  /// The same packets by their first number.
+  /// These packets by their first number.
   const StepCounts& numbers() const { return numbers_; }
   /// Bytes that a link has carried, including headers, by arrival time. `from` and `to` are named as in LinkUse; empty for a link
   /// that carried nothing, and for a memory port.

@@ -38,7 +38,7 @@ concept HeatKinds = std::is_enum_v<Kind> && requires {
   Kind::time;   // picoseconds of computing
   Kind::node;   // number of the node that the item belongs to
   Kind::depth;  // depth of the deepest Worked
-  Kind::done;  // nanoseconds from the start until it was last processed (DoneObserver)
+  Kind::done;   // nanoseconds from the start until it was last processed (DoneObserver)
 };
 
 /// A number for each item and recorded kind; other kinds are dropped. Thread safety: several nodes may write at a time, even to

@@ -56,7 +56,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
   Ends sent, received;
   std::array<std::uint64_t, Levels::count_max> levels{};
-  TraceSpan current;  ///< the current call's, with what it has worked on
+  TraceSpan current;                   ///< the current call's, with what it has worked on
   std::uint64_t room = 0;              ///< events that may be kept
   std::uint64_t lost = 0;              ///< events
   std::optional<RecordedTimes> times;  ///< if something was forgotten
@@ -351,7 +351,7 @@ void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
   }
 }
 
-/// Of the recorders here and those added.
+/// Sum over the recorders here and those added.
 std::uint64_t TraceRecorder::events_lost() const {
   std::uint64_t lost = 0;
   for (const auto& log : logs_) {

@@ -16,8 +16,8 @@
 
 namespace dmpc::nodes {
 
-/// What of a run is recorded: a window of time, everything that begins or ends in it, and if there are more events than memory,
-/// the begin and end of the window, and in between the same part of each period, at all nodes.
+/// The part of a run that is recorded: a window of time, everything that begins or ends in it, and if there are more events than
+/// memory, the begin and end of the window, and in between the same part of each period, at all nodes.
 struct TraceChoice {
   std::uint64_t from_ns = 0;
   std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
@@ -115,8 +115,8 @@ class TraceRecorder final : public Observer {
 
   TraceChoice choice_;
   std::vector<Log> logs_;
-  std::uint64_t shared_room_ = 0;  ///< events, for the first that need it
-  std::atomic<std::uint64_t> taken_{0};  ///< of them, including requests in vain
+  std::uint64_t shared_room_ = 0;         ///< events, for the first that need it
+  std::atomic<std::uint64_t> taken_{0};   ///< of them, including requests in vain
   std::atomic<std::uint32_t> period_{0};  ///< bits of the first one to be thinned, plus 1
 };
 

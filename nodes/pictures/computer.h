@@ -48,7 +48,7 @@ struct Outcome {
   nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
   nodes::NodeCounters host = {};
   core::RefinementResult refinement = {};
-  std::vector<nodes::RankFigures> ranks = {};  ///< if there are several, or could be
+  std::vector<nodes::RankFigures> ranks = {};                       ///< if there are several, or could be
   std::optional<nodes::VirtualReport> virtual_time = std::nullopt;  ///< of a modelled machine
 };
 
@@ -109,8 +109,8 @@ class Computer {
   nodes::Runner& runner() { return *runner_; }
   Host& host() { return dynamic_cast<Host&>(runner_->program(node_count_)); }
 
-  /// The next picture, after one that has been rendered to its end: `film` is as new, of the same size. Where there are other
-  /// ranks they are told of `settings`. These and `detail` outlive the picture.
+  /// Begins the next picture, after one that has been completed: `film` is new, of the same size. Other ranks get `settings`.
+  /// These and `detail` outlive the picture.
   void begin_frame(core::Film film, const core::RenderSettings& settings, const core::FineDetail* detail);
 
   /// Runs. gather() gathers the reports of the plan's nodes.

@@ -9,7 +9,7 @@ namespace dmpc::nodes {
 
 enum class Idle : std::uint8_t {
   sleep,  ///< where other threads want the core
-  spin  ///< if it has a core of its own: no frame waits for it to wake
+  spin    ///< if it has a core of its own: no frame waits for it to wake
 };
 
 /// Its own nodes wake it when it is to act for them; it has to poll for frames of other ranks. It does not yield before it

@@ -95,7 +95,7 @@ class ClosingTalk {
   struct TerminationMessage {
     Ending ending = Ending::none;
     FailureKind kind = FailureKind::internal;  ///< of a failed rank
-    std::string text;  ///< of a failed rank, or in a deadlock a line for each program
+    std::string text;                          ///< of a failed rank, or in a deadlock a line for each program
   };
 
   TerminationMessage own_message() const {

@@ -44,7 +44,7 @@ class Fabric {
   virtual std::size_t arrival_bytes() const = 0;
   /// The buffer for the next frame to another rank, frame_bytes() long; the same until it is sent. Empty while two are in flight.
   virtual std::span<std::byte> room(std::uint32_t rank) = 0;
-  /// Sends the first `bytes` of the room.
+  /// Sends the first `bytes` of room().
   virtual void send(std::uint32_t rank, std::size_t bytes) = 0;
   /// The next received frame, if there is one; it is valid until the next call.
   virtual std::optional<Arrival> take() = 0;

@@ -18,24 +18,24 @@ using FrameNumber = std::uint64_t;
 enum class Item : std::uint8_t {
   packet,    ///< from a node to a node
   counts,    ///< Counts, of the sender's next wave
-  text,  ///< a part of the text of the sender's messages
-  closing,  ///< how the run has ended for the sender: its termination message of the run
-  report,  ///< a part of a node's report after it
+  text,      ///< a part of the text of the sender's messages
+  closing,   ///< how the run has ended for the sender: its termination message of the run
+  report,    ///< a part of a node's report after it
   reported,  ///< no more reports come from the sender
 
-  rank_traffic,  ///< RankTraffic, of the sender, after the reports
-  rank_report,  ///< a part of the sender's report after the run, in addition to its nodes'
+  rank_traffic,   ///< RankTraffic, of the sender, after the reports
+  rank_report,    ///< a part of the sender's report after the run, in addition to its nodes'
   rank_reported,  ///< no more of that comes from it
 
   stream,          ///< from rank 0, before the run: a part of what a rank's nodes are made from
-  stream_read,  ///< to rank 0: how many bytes of the stream have been read
+  stream_read,     ///< to rank 0: how many bytes of the stream have been read
   ready,           ///< to rank 0: all nodes are made
-  clock_asked,  ///< from rank 0, before the start or after the run: asks for the receiver's clock
+  clock_asked,     ///< from rank 0, before the start or after the run: asks for the receiver's clock
   clock_reported,  ///< to rank 0: the clock
   clocks_read,     ///< from rank 0, after the run: it asks no more
-  start,  ///< from rank 0: all are ready, and what the receiver's clock showed when the run began
-  failure,  ///< to rank 0: why no node is made, or no report
-  dismissal  ///< from rank 0, its last message: the status with which all end
+  start,           ///< from rank 0: all are ready, and what the receiver's clock showed when the run began
+  failure,         ///< to rank 0: why no node is made, or no report
+  dismissal        ///< from rank 0, its last message: the status with which all end
 };
 
 /// Precedes an item's bytes.

@@ -23,7 +23,7 @@ namespace dmpc::nodes {
 /// waiting jobs, none was silent.
 struct RankSilence {
   std::chrono::milliseconds heartbeat{2'000};  ///< a rank with nothing to send sends a heartbeat after this time
-  std::chrono::milliseconds longest{600'000};  ///< a rank that is silent for this time is lost: it may be in a debugger, or swapping
+  std::chrono::milliseconds longest{600'000};  ///< a rank that is silent for this time is lost: long enough for debuggers
   std::chrono::milliseconds reported{30'000};  ///< each time a rank has been silent for this time that is reported
   /// A longer time between two checks means that this rank did not run, and counts only as this much.
   std::chrono::milliseconds look_max() const { return std::min(longest, reported) / 8; }
@@ -97,7 +97,7 @@ class RankLinks {
     Clock::time_point spoken_to;
   };
 
-  /// Counts what has passed since it was called last as time in which this rank ran, as far as it did, and returns all of that.
+  /// Adds the time since the last call, as far as this rank ran, to its running time, and returns the total.
   Clock::duration time_run();
 
   bool is_other(std::size_t rank) const { return rank != fabric_->rank(); }

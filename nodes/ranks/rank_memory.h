@@ -15,10 +15,10 @@ namespace dmpc::nodes {
 
 /// A rank's memory in addition to its nodes' memories: sums of what can be in flight.
 struct NetworkMemory {
-  std::size_t outbox_bytes = 0;  ///< for the worst case; little is ever written
+  std::size_t outbox_bytes = 0;   ///< for the worst case; little is ever written
   std::size_t sent_bytes = 0;     ///< two frames to each other rank
   std::size_t arrived_bytes = 0;  ///< frames that have come
-  std::size_t stream_bytes = 0;  ///< stream bytes that it is sent before the run and has not read yet
+  std::size_t stream_bytes = 0;   ///< stream bytes that it is sent before the run and has not read yet
 
   std::size_t total() const { return outbox_bytes + sent_bytes + arrived_bytes + stream_bytes; }
 };

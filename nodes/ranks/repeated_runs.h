@@ -21,7 +21,7 @@ namespace dmpc::nodes {
 
 /// The content of a stream from rank 0, by its first byte.
 enum class StreamKind : std::uint8_t {
-  job,  ///< a run on new nodes, which are made from what follows
+  job,   ///< a run on new nodes, which are made from what follows
   again  ///< another run on the existing nodes
 };
 

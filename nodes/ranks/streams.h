@@ -82,7 +82,7 @@ class StreamFromHost final : public ByteStream {
 
   RankLinks* links_;
   Exchange exchange_;
-  std::vector<std::byte> window_;  ///< a ring: received and not read
+  std::vector<std::byte> window_;      ///< a ring: received and not read
   std::size_t first_ = 0, count_ = 0;  ///< of it
   std::uint64_t bytes_read_ = 0, bytes_reported_ = 0;
 };

@@ -148,8 +148,8 @@ class NodeThreads final : public Network {
   Observer* observer_;
   const Outlet* outlet_;
   std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
-  AwakeCount awake_;  ///< nodes or worker threads, and the bringer while it brings
-  AwakeCount uncounted_;  ///< for the outbox, whose receiver is no node: never read
+  AwakeCount awake_;            ///< nodes or worker threads, and the bringer while it brings
+  AwakeCount uncounted_;        ///< for the outbox, whose receiver is no node: never read
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins

@@ -147,13 +147,13 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   std::optional<ChaosPauses> pauses;
   std::uint64_t held_before = 0;  ///< packets held back in earlier runs
   std::uint32_t quanta_idle = 0;
-  std::uint64_t call = 0;  ///< number of the program's call, if there is an observer
+  std::uint64_t call = 0;                                 ///< number of the program's call, if there is an observer
   Charges charged;                                        ///< until the last one's end, likewise
-  std::uint32_t interrupt_kinds;  ///< which do not end a wait
-  bool is_waiting = false;  ///< it has nothing to do, if there is an observer
+  std::uint32_t interrupt_kinds;                          ///< which do not end a wait
+  bool is_waiting = false;                                ///< it has nothing to do, if there is an observer
   std::uint64_t waits_since_ns = 0, service_idle_ns = 0;  ///< likewise; what it did for others meanwhile
-  std::uint32_t quanta_to_run = 0;  ///< the node runs again after this number of quanta
-  bool is_asleep = false;  ///< on a worker thread: its mailbox's word was made ASLEEP
+  std::uint32_t quanta_to_run = 0;                        ///< the node runs again after this number of quanta
+  bool is_asleep = false;                                 ///< on a worker thread: its mailbox's word was made ASLEEP
   std::uint64_t asleep_since_ns = 0;
   Thread thread;  ///< unless on a worker thread
 };

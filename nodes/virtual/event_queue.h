@@ -20,7 +20,7 @@ struct Event {
   enum class Kind : std::uint8_t {
     enters,   ///< a message enters the network
     arrives,  ///< a message is at its target
-    is_free  ///< a node's processor has finished its activity
+    is_free   ///< a node's processor has finished its activity
   };
   __extension__ using Order = unsigned __int128;
   /// As one number; sequences are below 2^48.

@@ -168,13 +168,13 @@ struct alignas(64) VirtualProcessor final : Network {
   std::unique_ptr<Program> program;
   std::uint64_t sequence = 0;
   std::uint64_t occupied_until_ns = 0;
-  std::uint64_t charged_ps = 0;  ///< the price of all charges
+  std::uint64_t charged_ps = 0;    ///< the price of all charges
   std::uint64_t remainder_ps = 0;  ///< the part of it that is not yet a whole nanosecond
   NodeId id;
   bool has_more = true;                 ///< work() may have something to do
   bool is_occupied = false;             ///< an is_free event is under way
   MessageQueue inbox;                   ///< arrived and not received
-  std::vector<std::uint32_t> sent;  ///< in the current call, in order
+  std::vector<std::uint32_t> sent;      ///< in the current call, in order
   std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not finished yet
   VirtualTimes times;
 
@@ -185,9 +185,9 @@ struct alignas(64) VirtualProcessor final : Network {
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;
   core::ZeroedArray<Way> ways;  ///< by target
-  std::uint64_t calls = 0;  ///< of the program, if there is an observer
+  std::uint64_t calls = 0;      ///< of the program, if there is an observer
   Charges charged;              ///< likewise
-  Span span, service;  ///< current activity, and the service that interrupted it, likewise
+  Span span, service;           ///< current activity, and the service that interrupted it, likewise
   LocalMemory memory;
   Node node;
 };

@@ -128,7 +128,7 @@ class Forest : public PlainRecords {
   }
   /// Asks what the ray of `slot` hits below a child that find() has just reported absent.
   void ask(std::uint32_t slot, const core::Below& below);
-  /// The same in a mesh, by its instance.
+  /// As above, in a mesh, by its instance.
   void ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place);
   /// Asks for a record that find() has just reported absent, for `slot`.
   void ask(std::uint32_t slot, core::RecordKind kind, core::Address address);

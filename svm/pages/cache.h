@@ -77,7 +77,7 @@ class Cache {
   PageTable table_;
   std::span<std::uint64_t> stamps_;      ///< time of each frame's last reference
   std::span<PageId> pages_;              ///< the page in each frame
-  std::uint32_t filled_count_ = 0;  ///< number of frames that have a page: the first ones
+  std::uint32_t filled_count_ = 0;       ///< number of frames that have a page: the first ones
   std::uint32_t last_frame_ = no_frame;  ///< the frame of the last page that was installed or reported as a hit
   std::unique_ptr<ReplacementPolicy> policy_;
 };

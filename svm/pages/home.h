@@ -11,7 +11,7 @@ namespace dmpc::svm {
 /// Where pages are at home.
 enum class PageHomes : std::uint8_t {
   spread,  ///< distributed over the nodes
-  host,  ///< all at the host, which every node asks, like the virtual memory of the Pixel Machine
+  host,    ///< all at the host, which every node asks, like the virtual memory of the Pixel Machine
   tree     ///< all at the host, which is the root of a tree of nodes that ask their parents (svm/pages/request_tree.h)
 };
 /// As the command line calls it.

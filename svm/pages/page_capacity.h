@@ -19,15 +19,15 @@ inline constexpr std::uint32_t in_flight_max = 4096;
 struct PageCapacity {
   std::uint32_t page_count = 0;  ///< in the database
   std::uint32_t node_count = 1;
-  PageHomes where = PageHomes::spread;  ///< where they are at home
-  std::uint32_t resident_count = 0;  ///< pages that every node keeps permanently, wherever they are at home
+  PageHomes where = PageHomes::spread;    ///< where they are at home
+  std::uint32_t resident_count = 0;       ///< pages that every node keeps permanently, wherever they are at home
   std::span<const PageId> resident = {};  ///< which; as many, once they are known, and they outlive the making of programs
-  CacheShape cache;  ///< with frames of the page size
-  std::uint32_t in_flight = 1;  ///< pixels in flight
-  std::uint32_t faults_max = 0;  ///< maximum in flight
-  std::uint32_t request_credits = 0;  ///< page requests, or other packets that ask, that may be in flight to one home
-  std::uint32_t leading_pages = 0;  ///< the first ones, if every node holds them: they have no home
-  std::uint32_t open_pages = 0;  ///< the last of these, or those after them, that lead into pages elsewhere
+  CacheShape cache;                       ///< with frames of the page size
+  std::uint32_t in_flight = 1;            ///< pixels in flight
+  std::uint32_t faults_max = 0;           ///< maximum in flight
+  std::uint32_t request_credits = 0;      ///< page requests, or other packets that ask, that may be in flight to one home
+  std::uint32_t leading_pages = 0;        ///< the first ones, if every node holds them: they have no home
+  std::uint32_t open_pages = 0;           ///< the last of these, or those after them, that lead into pages elsewhere
 
   std::size_t page_size_bytes() const { return cache.page_size_bytes; }
   std::size_t database_bytes() const { return page_count * page_size_bytes(); }

@@ -16,10 +16,10 @@ using Stamps = std::span<std::uint64_t>;
 
 /// The environment of a policy.
 struct PolicySite {
-  nodes::LocalMemory& memory;  ///< the node's: everything that grows with the number of frames lies there
+  nodes::LocalMemory& memory;     ///< the node's: everything that grows with the number of frames lies there
   Stamps stamps;                  ///< of the cache's frames, written by the cache at each reference
   std::span<const PageId> pages;  ///< pages of the filled frames
-  std::uint32_t seed = 0;  ///< the node's number
+  std::uint32_t seed = 0;         ///< the node's number
 
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps.size()); }
 };
@@ -43,9 +43,9 @@ enum class Replacement : std::uint8_t { lru, clock, fifo, random, two_queues, ad
 
 /// The description of a policy.
 struct PolicyKind {
-  std::string_view name;  ///< option's value; lives as long as the program
+  std::string_view name;     ///< option's value; lives as long as the program
   std::string_view meaning;  ///< which page is evicted, in some words; likewise
-  bool hears_hits = false;  ///< otherwise the policy reads only time stamps, and hits cost nothing more
+  bool hears_hits = false;   ///< otherwise the policy reads only time stamps, and hits cost nothing more
   /// The memory that make() takes for a cache of `frame_count` frames, possibly 0.
   nodes::MemoryPlan (*layout)(std::uint32_t frame_count) = nullptr;
   std::unique_ptr<ReplacementPolicy> (*make)(const PolicySite& site) = nullptr;

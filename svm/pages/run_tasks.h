@@ -33,7 +33,7 @@ struct TaskFigures {
   std::vector<nodes::NodeCounters> counters;         ///< by node
   std::vector<nodes::Charges> charges;               ///< by node
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
-  std::vector<nodes::RankFigures> ranks;  ///< on rank 0, if there are ranks
+  std::vector<nodes::RankFigures> ranks;             ///< on rank 0, if there are ranks
 
   /// The sum over all nodes.
   PageCounters all_pages() const;
@@ -48,7 +48,7 @@ struct TaskReport : TaskFigures {
 struct TaskWatching {
   nodes::Observer* observer = nullptr;
   std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, to record its references
-  TaskHeat* heat = nullptr;  ///< for all tasks; each task's costs are added to it
+  TaskHeat* heat = nullptr;                             ///< for all tasks; each task's costs are added to it
   /// On ranks, after the nodes that are here are made: calls `run`, in which ranks communicate, on the communicating thread, as
   /// soon as all ranks have their nodes.
   std::function<void(const std::function<void()>& run)> communicate = [](const auto& run) { run(); };

@@ -15,11 +15,11 @@ namespace dmpc::svm {
 
 /// The costs of one task. Over all tasks of a node they add up to the node's counters.
 struct TaskTaken {
-  std::uint32_t node = 0;  ///< the node that ran it
-  std::uint64_t steps = 0;  ///< its calls, including those in which its page was absent
+  std::uint32_t node = 0;        ///< the node that ran it
+  std::uint64_t steps = 0;       ///< its calls, including those in which its page was absent
   std::uint64_t references = 0;  ///< look-ups of a page, each counted once
-  std::uint64_t faults = 0;  ///< requests for pages that it started
-  nodes::Charges charges = {};  ///< an arriving page is charged to its first waiter
+  std::uint64_t faults = 0;      ///< requests for pages that it started
+  nodes::Charges charges = {};   ///< an arriving page is charged to its first waiter
 };
 
 /// By task. Thread safety: each task belongs to one node; read when none runs.

@@ -19,8 +19,8 @@ struct TaskOptions {
   nodes::ComputerRequest computer = {};
   std::size_t page_size_bytes = 1024;                       ///< a power of two, 512 B to 64 KiB
   std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< frames of each node; by default a quarter of the pages
-  Replacement replacement = Replacement::lru;  ///< which page is evicted
-  std::uint32_t in_flight = 16;  ///< tasks in flight on a node, 1 to 4096
+  Replacement replacement = Replacement::lru;               ///< which page is evicted
+  std::uint32_t in_flight = 16;                             ///< tasks in flight on a node, 1 to 4096
 };
 
 /// Tasks are distributed beforehand, consecutive ones to each node. Immutable; everything is checked when it is made.
@@ -28,7 +28,7 @@ class TaskPlan {
  public:
   /// Sizes of a task.
   struct Sizes {
-    std::size_t task_bytes = 0;  ///< of a task in flight
+    std::size_t task_bytes = 0;    ///< of a task in flight
     std::size_t result_bytes = 0;  ///< of each result, in flight or done
   };
 

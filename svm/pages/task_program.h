@@ -127,7 +127,7 @@ class TaskProgram final : public AnyTaskProgram {
   const TaskKind<Records>& kind_;
   std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first, and their number
   std::uint32_t done_ = 0;
-  std::span<std::byte> tasks_;  ///< in flight
+  std::span<std::byte> tasks_;        ///< in flight
   std::span<std::uint32_t> numbers_;  ///< task number, by slot
   std::span<std::uint32_t> runnable_, free_;
   std::uint32_t runnable_count_ = 0, free_count_ = 0;

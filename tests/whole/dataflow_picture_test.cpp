@@ -44,8 +44,8 @@ constexpr Wish ray_batches[] = {1, 3, std::nullopt};
 constexpr Wish ray_credits[] = {0, 1, std::nullopt};
 constexpr Wish queues[] = {0, 1, std::nullopt};
 
-/// A triangle in whose plane a pixel's ray lies, except for the last places of its coordinates. What single precision makes of that
-/// is a hit between the triangle's nearest and farthest point, but a tenth of the scene behind the box around it: far more
+/// A triangle in whose plane a pixel's ray lies, except for the last places of its coordinates. What single precision makes of
+/// that is a hit between the triangle's nearest and farthest point, but a tenth of the scene behind the box around it: far more
 /// than the pad within which blocks are held. Such triangles are few in a million of those seen edge-on; this one was found by
 /// search. The others give the grid its bounds, and are so many that it has a block of its own.
 core::Scene seen_edge_on() {

@@ -16,8 +16,8 @@ namespace dmpc::core {
 /// for one near zero relative to the scene, since it comes from larger ones.
 inline constexpr double exact_rounding = 0x1p-49;
 
-/// The triangles of a conversion whose floats say little of their planes, as the doubles of its scene have them, and `moved` as
-/// floats do; each takes the place of its own in `faces`. Returns whether there are any.
+/// Replaces in `faces` the triangles whose floats say little of their planes by those of the scene's doubles, with `moved` as for
+/// floats. Returns whether there are any.
 bool put_exact_corners(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::span<Face> faces);
 
 /// Triangles of a conversion with the doubles of the scene, grid-local, in the order of `ids`. Takes time in proportion to them,

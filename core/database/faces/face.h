@@ -55,7 +55,7 @@ struct Face {
   std::array<Vec3d, 3> corner;
   FacePlane plane;
   double altitude = 0;  ///< the least of the three altitudes
-  double moved = 0;  ///< the largest distance by which rounding moves a corner across the plane
+  double moved = 0;     ///< the largest distance by which rounding moves a corner across the plane
   std::uint32_t id, object;
   bool is_by_doubles = false;  ///< its corners are not rounded to float, so that its slopes are known for any `moved`
 };

@@ -105,7 +105,7 @@ std::size_t longest_axis_of(std::span<const Face> faces) {
   return half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
 }
 
-/// Of two faces that meet, the one that begins first tests the other one.
+/// If two faces meet, the one that begins first tests the other one.
 class Meetings {
  public:
   using Judge = std::function<void(std::uint32_t, std::uint32_t)>;

@@ -18,7 +18,7 @@ struct Bucket {
 
   std::uint64_t key;     ///< its place; the lowest bits: the axis
   std::uint32_t object;  ///< the object of its faces, if only one
-  std::uint32_t count;  ///< number of its faces
+  std::uint32_t count;   ///< number of its faces
 };
 
 /// That a face is in a bucket.

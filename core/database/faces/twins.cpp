@@ -73,7 +73,7 @@ class TwinFinder {
   std::vector<bool>& is_twin_;
   std::vector<std::uint32_t> ids_;
   std::vector<bool> is_first_;  ///< among equal ones
-  std::vector<Face> kept_;  ///< one for each set of equal ones
+  std::vector<Face> kept_;      ///< one for each set of equal ones
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ class MacroCells {
   /// The state of a chunk of primitives.
   struct Listed {
     std::vector<Touch> touches;
-    std::size_t next = 0;  ///< the next primitive
+    std::size_t next = 0;     ///< the next primitive
     bool is_cut_off = false;  ///< there are more touches than were to be listed
   };
   struct Cell {

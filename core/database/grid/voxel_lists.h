@@ -46,7 +46,7 @@ class VoxelLists {
   VoxelRule rule_;
   std::vector<Leaf> leaves_;              ///< in the order of ids
   std::vector<std::uint32_t> leaf_of_;    ///< by id
-  std::vector<std::uint32_t> order_;  ///< leaves in the order of pages
+  std::vector<std::uint32_t> order_;      ///< leaves in the order of pages
   std::vector<std::uint32_t> listed_;     ///< leaves, list by list
   std::vector<std::uint64_t> list_ends_;  ///< by voxel
 };

@@ -18,10 +18,10 @@ enum class Obstacle : std::uint8_t {
   none,
   no_triangle,         ///< the mesh has none with an area
   too_many_triangles,  ///< more than base_mesh_triangles_max
-  shining,  ///< an emitter: light sampling selects its triangles one by one
+  shining,             ///< an emitter: light sampling selects its triangles one by one
   numbers,             ///< a float does not hold a coordinate or a normal
-  far_away,  ///< for an instance: a corner beyond any grid
-  smallness  ///< for an instance: its boxes are too small beside the pad to tell rays apart
+  far_away,            ///< for an instance: a corner beyond any grid
+  smallness            ///< for an instance: its boxes are too small beside the pad to tell rays apart
 };
 
 /// Number of instances by obstacle; those without are not counted.

@@ -22,16 +22,16 @@ struct StoredInstance {
   Transform world;
   std::uint32_t mesh = 0;   ///< index into StoredInstances::meshes
   std::uint32_t first = 0;  ///< the id of the mesh's triangle 0 in this instance
-  Bounds bounds;  ///< the copy's, grid-local
+  Bounds bounds;            ///< the copy's, grid-local
 };
 
 struct StoredInstances {
   std::vector<MeshRecords> meshes;
   std::vector<StoredInstance> places;   ///< by `first`, ascending
-  std::vector<std::uint32_t> own_ids;  ///< primitives that are no copies, ascending: indices into the conversion's lists
+  std::vector<std::uint32_t> own_ids;   ///< primitives that are no copies, ascending: indices into the conversion's lists
   std::vector<std::uint32_t> reported;  ///< by index into the conversion's lists: ids
-  std::uint64_t unlisted = 0;  ///< triangles of instances that have an id, but are in no list of the conversion
-  ObstacleCounts copied;  ///< all other instances
+  std::uint64_t unlisted = 0;           ///< triangles of instances that have an id, but are in no list of the conversion
+  ObstacleCounts copied;                ///< all other instances
 
   bool empty() const { return places.empty(); }
   /// An instance's record, without the mesh's address. `pad`: the grid's.

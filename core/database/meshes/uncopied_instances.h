@@ -63,7 +63,7 @@ class UncopiedInstances {
   std::vector<BaseMeshInstance> instances_;  ///< those whose copies are left out
   MeshesRecords meshes_;
   std::vector<std::vector<Chunk>> chunks_;  ///< by MeshesRecords::index
-  std::uint64_t triangles_ = 0;  ///< of all these instances
+  std::uint64_t triangles_ = 0;             ///< of all these instances
 };
 
 }  // namespace dmpc::core

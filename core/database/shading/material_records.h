@@ -11,7 +11,7 @@ namespace dmpc::core {
 
 /// One after the other they form the array at DatabaseHeader::materials.
 struct MaterialRecords {
-  std::vector<MaterialRecord> materials;  ///< for the scene's, in order
+  std::vector<MaterialRecord> materials;          ///< for the scene's, in order
   std::vector<MaterialExtensionRecord> finishes;  ///< for those that have an extension, in order
 };
 

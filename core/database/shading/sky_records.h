@@ -12,7 +12,7 @@ namespace dmpc::core {
 
 struct SkyRecords {
   SkyReference reference;              ///< without addresses
-  std::vector<TextureTile> tiles;  ///< as many as `tiles`
+  std::vector<TextureTile> tiles;      ///< as many as `tiles`
   std::vector<EmitterChoice> choices;  ///< as many
 };
 

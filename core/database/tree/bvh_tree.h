@@ -35,7 +35,7 @@ struct BvhNodeDraft {
 struct BvhTree {
   BvhNodeDraft top;
   std::vector<std::uint32_t> ids;  ///< by leaf, ascending in each
-  Address address = no_address;  ///< of the first BVH node, once it is allocated
+  Address address = no_address;    ///< of the first BVH node, once it is allocated
   bool lies_in_subtrees = false;   ///< take_forest_room() has been called
 
   /// Adds its BVH nodes and leaves.
@@ -46,8 +46,8 @@ struct BvhTree {
   /// with everything below them, and the leaves beside them; take_room() then puts each subtree, from a BVH node or a leaf down,
   /// into one page.
   void take_forest_room(RecordWriter& writer, std::size_t page_size);
-  /// Takes room between the two for the other BVH nodes that have instances below them, and the leaves of these, since the meshes
-  /// themselves lie elsewhere: the part of a subtree that is open, in one page. Takes none if there are no instances.
+  /// Allocates, between the two, the other BVH nodes that have instances below them, and their leaves, since the meshes
+  /// themselves lie elsewhere: the open part of a subtree, in one page. Does nothing if there are no instances.
   void take_open_room(RecordWriter& writer);
   /// Writes the records, which have been allocated and made writable. `told`: as in LeafWriter.
   void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,

@@ -43,10 +43,10 @@ class CutTree {
   std::unique_ptr<CutTree> first_, second_;
   bool has_kinds_ = false;  ///< its parts are of different kinds
   // Results if this takes at most n of a BVH node's children, at least one, which is a BVH node of its own:
-  std::array<float, choices> surface_{};  ///< total of all BVH nodes needed
+  std::array<float, choices> surface_{};        ///< total of all BVH nodes needed
   std::array<std::uint8_t, choices> levels_{};  ///< levels of those
-  std::array<std::uint8_t, choices> share_{};  ///< how many of the n are the first part's; 0: fewer than n suffice
-  std::uint8_t bvh_node_share_ = 0;  ///< number of the first part's children in a BVH node for this group
+  std::array<std::uint8_t, choices> share_{};   ///< how many of the n are the first part's; 0: fewer than n suffice
+  std::uint8_t bvh_node_share_ = 0;             ///< number of the first part's children in a BVH node for this group
 };
 
 }  // namespace dmpc::core

@@ -47,8 +47,8 @@ class Camera {
   double start_of(const Vec3d& towards) const;
 
   Vec3d eye_;
-  Vec3d middle_;  ///< the grid's middle
-  double reach_ = 0;  ///< distance from there at which rays of a distant eye start; 0: they start at the eye
+  Vec3d middle_;                  ///< the grid's middle
+  double reach_ = 0;              ///< distance from there at which rays of a distant eye start; 0: they start at the eye
   Vec3d forward_, right_, down_;  ///< right_ and down_: one pixel's step in the plane at distance 1
   int width_, height_, samples_;
 };

@@ -120,7 +120,7 @@ class Film {
 
 struct FilmRange {
   std::uint64_t pixels_cut = 0;  ///< pixels with a saturated channel
-  double cut_from = 0;  ///< the least radiance of such a channel, which is too small; 0: none is saturated
+  double cut_from = 0;           ///< the least radiance of such a channel, which is too small; 0: none is saturated
   double brightest = 0;          ///< the largest radiance of a channel
 };
 

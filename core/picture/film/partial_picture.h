@@ -15,9 +15,9 @@ namespace dmpc::core {
 struct PartialPicture {
   /// The light of the passes that have ended and of finished pixels of the current one; sample counts are those of the former.
   Film film;
-  std::uint32_t passes = 1;  ///< including the current one
-  Pass pass;  ///< the current one
-  PixelMask done;  ///< its pixels for which all light of their samples is on the film
+  std::uint32_t passes = 1;          ///< including the current one
+  Pass pass;                         ///< the current one
+  PixelMask done;                    ///< its pixels for which all light of their samples is on the film
   std::vector<PixelPast> past = {};  ///< one for each pixel if the picture is refined; in the first pass unused
 
   /// Pixels of the pass that still have to be rendered.
@@ -31,10 +31,10 @@ PartialPicture partial_picture(const Film& film, const Refinement& refinement, c
 
 /// What determines which partial pictures are possible.
 struct PictureTerms {
-  std::uint32_t samples = 1;  ///< per pixel, in the first pass
-  RefinementOptions refinement;  ///< for the other passes
+  std::uint32_t samples = 1;                                      ///< per pixel, in the first pass
+  RefinementOptions refinement;                                   ///< for the other passes
   double radiance_max = std::numeric_limits<double>::infinity();  ///< a sample's maximum in any channel, up to rounding
-  FilmScale film_scale = {};  ///< the film's
+  FilmScale film_scale = {};                                      ///< the film's
 };
 
 /// What is impossible about the picture, as a part of a sentence; nullptr if it may be right. Checks passes, masks, samples and

@@ -15,7 +15,7 @@ namespace {
 
 /// Half a unit in the last place of a float, of its value; of one with a rest, a 256th of that.
 constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
-/// The same for the position and the radius of a surface that passes by local zero.
+/// Rounding of the position and the radius of a surface that passes by local zero.
 constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
 /// A unit in the last place of a hit's t, of its value at most.
 constexpr double tie_rounding = 0x1p-23;

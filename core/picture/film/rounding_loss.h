@@ -15,11 +15,11 @@ inline constexpr double rounding_allowed_pixels = 0x1p-8;
 /// among them (core/scene/detail.h).
 struct RoundingLoss {
   std::uint64_t moved = 0;      ///< primitives that may be off by more than rounding_allowed_pixels
-  double moved_pixels = 0;  ///< the largest shift
+  double moved_pixels = 0;      ///< the largest shift
   std::uint64_t collapsed = 0;  ///< primitives that are left out because their corners or ends coincide
   double collapsed_pixels = 0;  ///< size of the largest of them; 0 if all are behind the eye
-  std::uint64_t swapped = 0;  ///< faces that may show where another one that covers them is nearer, or be hidden by it
-  double swapped_pixels = 0;  ///< the largest extent of that
+  std::uint64_t swapped = 0;    ///< faces that may show where another one that covers them is nearer, or be hidden by it
+  double swapped_pixels = 0;    ///< the largest extent of that
 
   bool is_none() const { return moved == 0 && collapsed == 0 && swapped == 0; }
 };

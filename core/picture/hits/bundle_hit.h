@@ -28,7 +28,7 @@ struct BundleHit {
   std::array<HitState, bundle_rays_max> hit;
   std::array<std::uint8_t, bundle_rays_max> place;  ///< the pixel's slot of each hit
   std::uint32_t count = 0;
-  std::uint32_t next = 0;  ///< the next hit to continue, while surfaces or emitters are read
+  std::uint32_t next = 0;   ///< the next hit to continue, while surfaces or emitters are read
   std::uint32_t light = 0;  ///< the light whose shadow rays are next
   Phase phase = Phase::surface;
 

@@ -21,7 +21,7 @@ namespace dmpc::core {
 
 /// The distance from a hit's point at which rays start, grid-local.
 struct Clearance {
-  double along = 0;  ///< distance along a ray that leaves the surface at a right angle; others start farther
+  double along = 0;   ///< distance along a ray that leaves the surface at a right angle; others start farther
   double across = 0;  ///< distance across the surface, for grazing rays
   double radius = 0;  ///< radius of a curved surface, which a ray within must not pass; unlimited if flat
 
@@ -39,13 +39,13 @@ struct HitState {
     color_texture,  ///< once the texture of metal and roughness has been looked up: the normals' record once more
     material,
     textured_material,  ///< with a colour that is multiplied by that of the look-up or the corners
-    finish,  ///< the material's extension of NFF
-    sky,  ///< for a ray that has hit nothing: the sky's picture there
+    finish,             ///< the material's extension of NFF
+    sky,                ///< for a ray that has hit nothing: the sky's picture there
     light,
     emitter_choice,  ///< paths: which emitter is sampled
     emitter,
     sky_choice,  ///< paths: which tile of the sky's picture is sampled
-    sky_aim,  ///< and the place in it
+    sky_aim,     ///< and the place in it
     reflected,
     refracted,
     continued,  ///< paths: one more ray, or none
@@ -56,13 +56,13 @@ struct HitState {
   struct Surface {
     MaterialRecord material;
     std::uint32_t next_light = 0;  ///< after the lights: the choice of an emitter or of a tile of the sky, or the chosen one
-    float place = 0;  ///< the first of two numbers for a point on it: DrawnEmitter::place
+    float place = 0;               ///< the first of two numbers for a point on it: DrawnEmitter::place
   };
 
   /// Factors of highlight and mirror, relative to the material's `specular`, which is their brightest channel.
   struct Gloss {
     Color tint{1, 1, 1};  ///< 1 in the brightest channel
-    float mirror = 1;  ///< the share that mirrors
+    float mirror = 1;     ///< the share that mirrors
   };
 
   /// What a microfacet surface has in place of highlight and mirror.
@@ -152,14 +152,14 @@ struct HitState {
     Surface surface;       ///< once its material has been read
     TextureLookup lookup;  ///< before that, if there is a texture
     CutEllipse ellipse;    ///< before that, where there may be one
-    MeshNormals of_mesh;  ///< begins with the ellipse
+    MeshNormals of_mesh;   ///< begins with the ellipse
   };
   ShadingReference shading;
-  bool curved = false;  ///< a ray from here may hit the same primitive again
-  bool leaving = false;  ///< the ray goes along the true normal: out of the body
+  bool curved = false;              ///< a ray from here may hit the same primitive again
+  bool leaving = false;             ///< the ray goes along the true normal: out of the body
   bool has_refraction : 1 = false;  ///< Snell's law has a solution: set if this hit may have children
-  bool is_in_mirror : 1 = false;  ///< for a base mesh: its instance mirrors it, so corners are in reverse order
-  bool has_normals : 1 = false;  ///< for a placed base mesh
+  bool is_in_mirror : 1 = false;    ///< for a base mesh: its instance mirrors it, so corners are in reverse order
+  bool has_normals : 1 = false;     ///< for a placed base mesh
   Stage stage = Stage::geometry;
 
   /// Whether its material has been read.

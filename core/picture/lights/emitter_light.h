@@ -24,9 +24,9 @@ DrawnEmitter choice_of(double number, std::uint32_t count);
 DrawnEmitter drawn_by(const EmitterChoice& choice, const DrawnEmitter& at);
 
 struct LightSample {
-  Vec3d towards;  ///< unit direction to the point
+  Vec3d towards;       ///< unit direction to the point
   double distance;     ///< grid-local
-  double cosine;  ///< between that direction and the emitter's normal, 0 to 1
+  double cosine;       ///< between that direction and the emitter's normal, 0 to 1
   double density = 0;  ///< per steradian, including the probability of the emitter
 };
 

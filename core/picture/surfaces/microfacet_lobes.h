@@ -52,17 +52,17 @@ class MicrofacetLobes {
 
   const HitState& state_;
   HitState::Microfacets facets_;
-  Vec3d out_;  ///< towards the ray's origin, or mirrored to above the normal
-  double cosine_;  ///< of out_ with the normal
+  Vec3d out_;           ///< towards the ray's origin, or mirrored to above the normal
+  double cosine_;       ///< of out_ with the normal
   double index_;        ///< relative_index()
-  Vec3d straight_;  ///< reflectance at normal incidence
-  Vec3d scattered_;  ///< colour of light that is not reflected
+  Vec3d straight_;      ///< reflectance at normal incidence
+  Vec3d scattered_;     ///< colour of light that is not reflected
   double unreflected_;  ///< the share of light towards `out_` that is not reflected, times the reflectance at normal incidence
   Chances chances_;
 };
 
 struct MicrofacetBound {
-  double direct = 0;  ///< maximum of any channel, pi times MicrofacetLobes::response(): for a point light
+  double direct = 0;     ///< maximum of any channel, pi times MicrofacetLobes::response(): for a point light
   double passed_on = 0;  ///< maximum of any channel of the weight of MicrofacetLobes::step()
 };
 

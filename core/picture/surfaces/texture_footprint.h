@@ -26,7 +26,7 @@ static_assert(std::is_trivially_copyable_v<CutEllipse>);
 struct TextureFootprint {
   TexturePlace middle;
   TexturePlace stride;  ///< from probe to probe along the line
-  double width = 0;  ///< a probe's, in texels of the finest level; not below 0
+  double width = 0;     ///< a probe's, in texels of the finest level; not below 0
   double strides = 1;   ///< the length of the line: 1 to probes_max
 };
 

@@ -18,20 +18,20 @@ namespace dmpc::core {
 /// level, probe by probe, tile by tile: at most 8 tiles per probe, each found through an entry of the texture's table, one record
 /// per step; consecutive probes in one tile share the step. The footprint's middle is kept by the owner.
 struct TextureLookup {
-  Color sum;  ///< weighted sum of the texels so far
+  Color sum;                       ///< weighted sum of the texels so far
   std::array<float, 2> stride{};   ///< from probe to probe: s and t
-  Address tiles = no_address;  ///< as in the texture's reference, also the members below
-  std::uint32_t tile : 31 = 0;  ///< the next one: its number in the texture's table; once that has been read, its address
+  Address tiles = no_address;      ///< as in the texture's reference, also the members below
+  std::uint32_t tile : 31 = 0;     ///< the next one: its number in the texture's table; once that has been read, its address
   std::uint32_t is_found : 1 = 0;  ///< `tile` is an address
   std::uint16_t width = 1, height = 1;
   std::uint16_t coarse_share = 0;  ///< the coarser level's, in 1/65536
-  std::uint16_t end_share = 0;  ///< weight of the first and of the last probe, in 1/65536: minus one
+  std::uint16_t end_share = 0;     ///< weight of the first and of the last probe, in 1/65536: minus one
   TexelFormat format : 3 = {};
   TextureWrap wrap_s : 2 = {}, wrap_t : 2 = {};
   std::uint32_t level : 4 = 0;      ///< the finer one
-  std::uint32_t ends : 3 = 0;  ///< number of probes on either side of the middle one
-  std::uint32_t probe : 4 = 0;  ///< the next one, from one end to the other
-  std::uint32_t quarter : 2 = 0;  ///< which of the probe's tiles: bit 1 in the lower row, bit 0 on the right
+  std::uint32_t ends : 3 = 0;       ///< number of probes on either side of the middle one
+  std::uint32_t probe : 4 = 0;      ///< the next one, from one end to the other
+  std::uint32_t quarter : 2 = 0;    ///< which of the probe's tiles: bit 1 in the lower row, bit 0 on the right
   std::uint32_t is_coarse : 1 = 0;  ///< on the coarser level
   std::uint32_t is_done : 1 = 0;
 };

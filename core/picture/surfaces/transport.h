@@ -21,7 +21,7 @@ struct Transport {
   bool has_sky = false;
   /// For tests alone: light sampling has full weight, and emitters that paths hit have none.
   bool only_aims = false;
-  bool never_aims = false;  ///< for tests alone: the sky's picture has full weight where paths hit it, and is not sampled
+  bool never_aims = false;    ///< for tests alone: the sky's picture has full weight where paths hit it, and is not sampled
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
   /// From this hit on, the eye's being the first, paths may end by roulette.
   std::uint8_t roulette_from = 3;

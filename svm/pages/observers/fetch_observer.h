@@ -20,10 +20,10 @@ namespace dmpc::svm {
 enum class FetchPart : std::uint8_t {
   asking,       ///< the requester's processor sends the request
   request_way,  ///< the request is in transit
-  home_wait,  ///< the request waits for the home
+  home_wait,    ///< the request waits for the home
   service,      ///< the home looks the page up and sends it
-  reply_way,  ///< the page is in transit
-  reply_wait  ///< the page waits for the requester
+  reply_way,    ///< the page is in transit
+  reply_wait    ///< the page waits for the requester
 };
 inline constexpr std::array<std::string_view, 6> fetch_part_names = {
     "asking", "request on its way", "waiting for the home", "service", "page on its way", "waiting for the requester"};
@@ -43,7 +43,7 @@ inline constexpr std::size_t fetch_sample_max = 100'000;
 
 /// The result of a FetchObserver.
 struct Fetches {
-  std::uint32_t peer_count = 0;  ///< nodes, and the host, as the last, if it is home to all pages
+  std::uint32_t peer_count = 0;        ///< nodes, and the host, as the last, if it is home to all pages
   std::vector<std::uint64_t> by_pair;  ///< number of fetches of requester a that h served, at a * peer_count + h
   std::vector<std::uint64_t> by_page;  ///< number of fetches, by page
   /// One of `every`, a power of two, chosen by a hash of requester, home and the number of the fetch between them, sorted by
