@@ -42,7 +42,7 @@ class Frames {
 
   const Prepared& prepared_;
   RunOptions options_;
-  core::RenderSettings settings_;  ///< of the current frame
+  core::RenderSettings settings_;  ///< the current frame's
   core::FineDetail detail_;
   Plan plan_;
   std::optional<pictures::Computer> computer_;

@@ -156,7 +156,7 @@ inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage,
 /// Precedes `count` rays.
 struct RayPacketHeader {
   std::uint16_t count = 0;
-  std::uint16_t owner = 0;      ///< of the rays, by either way
+  std::uint16_t owner = 0;  ///< target of the rays, by either way
   std::uint32_t rays_left = 0;  ///< if regions move: primary rays of the sender's units that have not started
 };
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
@@ -257,7 +257,7 @@ struct FilmEntry {
   std::uint32_t pixel = 0;  ///< the first
   std::uint16_t plane = 0;
   std::uint16_t more = 0;  ///< number of pixels that follow it, by index
-  core::FixedColor light;  ///< of each pixel
+  core::FixedColor light;  ///< each pixel's
 };
 /// The maximum number of pixels of an entry.
 inline constexpr std::uint32_t film_entry_pixels_max = 0x10000;

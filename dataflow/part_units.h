@@ -101,7 +101,7 @@ class MovingUnits {
 
   Regions* regions_;
   UnitPages pages_;
-  UnitPrimaries primaries_;  ///< those assigned before the start
+  UnitPrimaries primaries_;  ///< assigned before the start
   Movement movement_;
 };
 

@@ -79,12 +79,12 @@ class NodeProgram : public nodes::Program, public pictures::PictureProgram {
 
 /// A node's assignment, read in the constructor of its program only.
 struct NodeAssignment {
-  const core::DatabaseHeader& header;  ///< of its part of the database
+  const core::DatabaseHeader& header;  ///< its part's
   nodes::ByteSource records;           ///< the records of the part
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& proxy;                   ///< of the whole database
+  const core::DatabasePart& proxy;  ///< the whole database's
   std::span<const std::uint32_t> pages = {};         ///< if regions move: the numbers of the part's pages
   std::span<const std::uint32_t> runs_of_unit = {};  ///< if regions move: the number of runs of each unit, in turn
 };

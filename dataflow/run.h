@@ -52,7 +52,7 @@ struct NodeReport : nodes::NodeFigures {
 };
 
 struct Report : pictures::Report<NodeReport> {
-  std::uint64_t samples_found_done = 0;  ///< of all pixels, done before the start
+  std::uint64_t samples_found_done = 0;  ///< all pixels' samples that were done before the start
   Plan plan;
   Regions regions;
   std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty without one

@@ -83,7 +83,7 @@ static_assert(is_small_packet<MaskedWorkReply>);
 struct FilmEntry {
   std::uint32_t pixel = 0;  ///< the first
   std::uint32_t more = 0;   ///< number of pixels that follow it, by index
-  core::PixelSums sums;     ///< of each of them; on as many planes as are sent
+  core::PixelSums sums;  ///< each pixel's; on as many planes as are sent
 };
 static_assert(sizeof(FilmEntry) == 56 && std::is_trivially_copyable_v<FilmEntry>);
 
@@ -138,7 +138,7 @@ static_assert(is_small_packet<Done>);
 struct MaskPart {
   std::uint32_t first_pixel = 0;
   std::uint32_t padding = 0;
-  std::array<core::SampleStep, 480> steps{};  ///< those beyond the share add none
+  std::array<core::SampleStep, 480> steps{};  ///< steps beyond the share add none
 };
 static_assert(std::is_trivially_copyable_v<MaskPart> && sizeof(MaskPart) > nodes::small_payload_bytes, "every part is bulk");
 

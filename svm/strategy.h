@@ -1,5 +1,5 @@
-// What tells the strategies by which pixels stay apart before and after a run: what a node has of the database, what it asks
-// others for, and what that takes. While it lasts their kinds of records do (svm/pages/plain_records.h).
+// The differences before and after a run between the strategies in which pixels stay on their node: a node's part of the
+// database, its requests to others, and their memory. During the run they differ in their records (svm/pages/plain_records.h).
 #pragma once
 
 #include <cstddef>

@@ -70,7 +70,7 @@ class WorkItems {
   PixelRectangle item(std::uint64_t index) const;
 
   PixelRectangle share_;
-  std::uint32_t side_x_, side_y_;  ///< of an unclipped item
+  std::uint32_t side_x_, side_y_;  ///< unclipped item's sides
   std::uint64_t columns_ = 0;      ///< items side by side
   std::uint64_t next_ = 0, end_ = 0;
 };

@@ -111,7 +111,7 @@ class WorkSource {
   bool passes_over_idle_;
   PixelTile tile_;
   PixelRectangle share_;
-  std::span<core::SampleStep> mask_;  ///< of the share, row by row; empty unless is_masked()
+  std::span<core::SampleStep> mask_;  ///< steps of the share, row by row; empty unless is_masked()
   WorkItems items_;
   PixelScan scan_;
   ItemSteps steps_;  ///< the current item's, if is_masked()

@@ -58,7 +58,7 @@ struct Conversion {
   std::vector<std::array<std::uint32_t, 3>> corners;
   std::vector<Smooth> smooth;
   std::vector<Textured> textured;
-  std::vector<CollapsedPrimitive> collapsed;  ///< those that were not degenerate before rounding
+  std::vector<CollapsedPrimitive> collapsed;  ///< without those that were degenerate before rounding
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // From instances of meshes, and from settle_coplanar() and drop_twins():
   std::vector<PrimitivePlane> planes;  ///< by PrimitiveValues::plane() - 1

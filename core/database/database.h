@@ -103,7 +103,7 @@ struct RecordCounts {
   std::uint64_t emitters_covered = 0;  ///< likewise, and others in their plane may cover them completely
   std::uint64_t instance_leaves = 0, instances = 0;
   std::uint64_t base_meshes = 0;                                   ///< number of meshes with instances
-  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
+  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< triangles of these meshes; of all instances
   ObstacleCounts copied;                                           ///< instances that have copies though meshes were to be kept
 };
 

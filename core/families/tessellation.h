@@ -32,8 +32,8 @@ class TessellatingSink final : public SceneSink {
   void add_sphere_triangle(const Vec3d& center, double radius, const Vec3d* corner);
 
   SceneSink& target_;
-  std::vector<Vec3d> directions_;  ///< of a unit sphere, three for each triangle, in the order they are sent
-  std::vector<Turn> turns_;        ///< of a cone's sides, 4 N + 1 from 0 to a whole turn
+  std::vector<Vec3d> directions_;  ///< on a unit sphere, three for each triangle, in the order they are sent
+  std::vector<Turn> turns_;  ///< around a cone's side, 4 N + 1 from 0 to a whole turn
 };
 
 }  // namespace dmpc::core::scenes

@@ -15,7 +15,7 @@ struct EmitterRecord {
   /// Grid-local: the corners of a triangle, the very floats of its leaf; of a sphere the centre, then its radius as x.
   std::array<Vec3f, 3> corner;
   Color radiance;
-  float chance = 0;  ///< of being selected, at any hit
+  float chance = 0;  ///< probability of being selected, at any hit
   PrimitiveKind kind{};
   std::uint32_t primitive = 0;  ///< its id
   std::uint32_t padding = 0;

@@ -52,12 +52,12 @@ struct Material {
   double specular = 0;          ///< Ks: weight of the highlight and of the mirror
   double shine = 0;             ///< Phong's cosine power
   double transmittance = 0;     ///< T; above 0 the surface transmits
-  double refraction_index = 1;  ///< of the inside; used only if transmittance > 0
+  double refraction_index = 1;  ///< the inside's; used only if transmittance > 0
   /// Multiplies `color` on textured patches: index into Scene::textures.
   std::uint32_t texture = no_texture;
   AlphaUse alpha = AlphaUse::none;
   double alpha_cutoff = 0;        ///< for AlphaUse::cut: above 0, at most 1
-  Vec3d specular_color{1, 1, 1};  ///< of highlight and mirror: a factor of `specular`
+  Vec3d specular_color{1, 1, 1};  ///< tint of highlight and mirror: a factor of `specular`
   double tinted_specular = 0;     ///< weight of further highlight and mirror in the surface's own colour, as for metals
   double mirror = 1;              ///< the share of both that mirrors; 0 for highlights only
   Vec3d emission;                 ///< its own radiance
@@ -158,7 +158,7 @@ struct Scene {
   std::vector<Cone> cones;
   std::vector<Texture> textures;
   SkyTexels sky;               ///< with paths, the background, if there is one
-  Vec3d zenith;                ///< of the sky, of unit length, for any view; 0: the view's up
+  Vec3d zenith;  ///< the sky's, unit length, for any view; 0: the view's up
   std::optional<int> bounces;  ///< with paths, the number of bounces in the file, if given
   /// The relative error of the file's coordinates: 0x1p-25 if it stores them in single precision. Smaller differences do not
   /// distinguish two planes.
@@ -225,7 +225,7 @@ class SceneBuilder final : public SceneSink {
   void add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal);
 
   Scene& scene_;
-  std::size_t vertices_;  ///< of all objects so far
+  std::size_t vertices_;  ///< number of all objects' vertices so far
   std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
   std::uint32_t material_ = 0;
   bool has_material_ = false;

@@ -44,7 +44,7 @@ class SkyCells {
 
   struct Drawn {
     SkyPlace place;
-    Vec3d towards;  ///< of unit length
+    Vec3d towards;  ///< unit length
   };
   /// For two uniform numbers in [0, 1).
   Drawn draw(double x, double y) const;

@@ -23,7 +23,7 @@ struct Texture {
   std::string name;  ///< the file's, for messages
   TexelFormat format{};
   TextureWrap wrap_s{}, wrap_t{};
-  double brightest = 0;  ///< of all channels of all texels
+  double brightest = 0;  ///< maximum over all channels of all texels
   Color darkest;         ///< each channel's minimum over all texels: for TexelFormat::linear only
   std::vector<TextureLevel> levels;
 };

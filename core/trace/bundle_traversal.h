@@ -378,7 +378,7 @@ class BundleTraversal {
   Operations& operations_;
   const BundleSteps& steps_;
   const BundleIntersectors& intersectors_;
-  std::conditional_t<may_go_inside, std::optional<PlacedMesh>, std::monostate> place_;  ///< of the mesh that the bundle is in
+  std::conditional_t<may_go_inside, std::optional<PlacedMesh>, std::monostate> place_;  ///< the instance that the bundle is in
 };
 
 /// Traverses the grid with the rays of `bundle` until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,

@@ -124,7 +124,7 @@ class Gather {
 
   /// A packet's slot.
   struct Slot {
-    std::uint16_t next = none;  ///< of the same owner's queued packets, or of the free slots
+    std::uint16_t next = none;  ///< next slot of the same owner's queue, or of the free list
     std::uint16_t count = 0;    ///< rays
   };
   /// Begins as zeros, so that no memory is committed for owners to which no ray of this node goes: most of them, if there are

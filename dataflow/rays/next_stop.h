@@ -25,7 +25,7 @@ struct NextStop {
 /// Data about all of space.
 struct Surroundings {
   const Regions& regions;
-  const core::DatabaseHeader& proxy;  ///< of the database's proxy (core/database/proxy.h); without a directory if there is none
+  const core::DatabaseHeader& proxy;  ///< the database's proxy's (core/database/proxy.h); without a directory if there is none
   core::LocalRecords records;         ///< the proxy's
   core::Skips skips;
 

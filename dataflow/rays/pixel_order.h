@@ -35,7 +35,7 @@ class PixelOrder {
  private:
   constexpr PixelOrder(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {}
 
-  std::uint32_t width_ = 0, height_ = 0;  ///< of the picture, if in squares
+  std::uint32_t width_ = 0, height_ = 0;  ///< the picture's, if in squares
 };
 
 }  // namespace dmpc::dataflow

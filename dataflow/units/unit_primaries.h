@@ -130,7 +130,7 @@ class UnitPrimaries {
  private:
   struct List {
     std::uint32_t unit = 0;
-    std::uint32_t first = 0, count = 0;  ///< of runs
+    std::uint32_t first = 0, count = 0;  ///< range of runs
     std::uint64_t rays = 0;
   };
   /// Its list of rays; nullptr if it has none.

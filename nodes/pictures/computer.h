@@ -49,7 +49,7 @@ struct Outcome {
   nodes::NodeCounters host = {};
   core::RefinementResult refinement = {};
   std::vector<nodes::RankFigures> ranks = {};                       ///< if there are several, or could be
-  std::optional<nodes::VirtualReport> virtual_time = std::nullopt;  ///< of a modelled machine
+  std::optional<nodes::VirtualReport> virtual_time = std::nullopt;  ///< on a modelled machine
 };
 
 /// An outcome with the reports of its nodes.

@@ -94,8 +94,8 @@ class ClosingTalk {
   };
   struct TerminationMessage {
     Ending ending = Ending::none;
-    FailureKind kind = FailureKind::internal;  ///< of a failed rank
-    std::string text;                          ///< of a failed rank, or in a deadlock a line for each program
+    FailureKind kind = FailureKind::internal;  ///< if the rank has failed
+    std::string text;  ///< if the rank has failed; in a deadlock a line for each program
   };
 
   TerminationMessage own_message() const {
@@ -122,7 +122,7 @@ class ClosingTalk {
 
   RankLinks* links_;
   NodeThreads* nodes_;
-  std::vector<TerminationMessage> termination_messages_;  ///< of other ranks, as far as they have come
+  std::vector<TerminationMessage> termination_messages_;  ///< other ranks', as far as they have arrived
   bool is_closing_ = false;
 };
 

@@ -7,7 +7,7 @@ namespace dmpc::nodes {
 
 /// Thrown where a rank waits for something else: rank 0 has ended the command, and has reported the reason if there is one.
 struct Dismissed {
-  int status = 0;  ///< of the process
+  int status = 0;  ///< the process's exit status
 };
 
 /// Sends the status to all others, on rank 0, as its termination message. Throws LostRank as RankLinks do.

@@ -85,8 +85,8 @@ class GatheringTalk {
   }
 
   RankLinks* links_;
-  std::vector<std::string> reports_;      ///< of other ranks' nodes, by node
-  std::vector<RankReport> rank_reports_;  ///< of other ranks themselves
+  std::vector<std::string> reports_;  ///< by other ranks' nodes, by node
+  std::vector<RankReport> rank_reports_;  ///< by other ranks
   std::uint32_t ranks_reported_ = 0, reports_ended_ = 0;
 };
 

@@ -19,7 +19,7 @@ struct RankFigures {
   std::string name;  ///< "rank 2 on host b"
   RankMemory memory;
   RankTraffic traffic;
-  ClockDrift clock;  ///< of an observed run
+  ClockDrift clock;  ///< if the run is observed
 };
 
 /// The figures of all ranks, by number: the memory of their nodes and the host, and each rank's report.

@@ -11,7 +11,7 @@ namespace dmpc::nodes {
 
 /// The traffic between a rank and others.
 struct RankTraffic {
-  std::uint64_t packets_sent = 0, packets_received = 0;  ///< of nodes
+  std::uint64_t packets_sent = 0, packets_received = 0;  ///< nodes' packets
   std::uint64_t frames_sent = 0, bytes_sent = 0;         ///< since the end of the run before
   std::uint64_t waves = 0;                               ///< counted until termination
 };
@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to
 
 struct RankReport {
   RankTraffic traffic;
-  ClockDrift clock;      ///< of an observed run
+  ClockDrift clock;  ///< if the run is observed
   std::string reported;  ///< the caller's report there
 };
 

@@ -83,7 +83,7 @@ class StreamFromHost final : public ByteStream {
   RankLinks* links_;
   Exchange exchange_;
   std::vector<std::byte> window_;      ///< a ring: received and not read
-  std::size_t first_ = 0, count_ = 0;  ///< of it
+  std::size_t first_ = 0, count_ = 0;  ///< range of the window
   std::uint64_t bytes_read_ = 0, bytes_reported_ = 0;
 };
 

@@ -147,14 +147,14 @@ class NodeThreads final : public Network {
   std::optional<Chaos> chaos_;
   Observer* observer_;
   const Outlet* outlet_;
-  std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
+  std::uint64_t start_ns_ = 0;  ///< start of the run; written before the threads start
   AwakeCount awake_;            ///< nodes or worker threads, and the bringer while it brings
   AwakeCount uncounted_;        ///< for the outbox, whose receiver is no node: never read
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
-  std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< those that are here
-  std::vector<ThreadProcessor*> by_index_;                    ///< of all; nothing for those that are elsewhere
+  std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< nodes that are here
+  std::vector<ThreadProcessor*> by_index_;  ///< all nodes; nullptr if elsewhere
   std::vector<std::unique_ptr<WorkerThread>> worker_threads_;  ///< none where each node has a thread
   std::vector<Start> starts_;
 };

@@ -43,7 +43,7 @@ struct ThreadComputer {
   Network& network;
   const std::optional<Chaos>& chaos;
   Observer* observer;
-  const std::uint64_t& start_ns;  ///< of the run
+  const std::uint64_t& start_ns;  ///< start of the run
   std::size_t core_count;         ///< 0: not known
 };
 

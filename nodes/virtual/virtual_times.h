@@ -21,7 +21,7 @@ struct VirtualTimes {
   std::uint64_t sending_ns = 0;       ///< sending packets, except those sent by an interrupt's service
   std::uint64_t receiving_ns = 0;     ///< receiving packets, except those that interrupted
   std::uint64_t service_busy_ns = 0;  ///< service of interrupts while the program had something to do
-  std::uint64_t service_idle_ns = 0;  ///< the same while it had nothing to do
+  std::uint64_t service_idle_ns = 0;  ///< service of interrupts while it had nothing to do
   /// Idle time, by the kind of the packet that ended it.
   std::array<std::uint64_t, packet_kind_count> waiting_ns{};
   std::uint64_t end_ns = 0;  ///< idle time at the end
@@ -44,7 +44,7 @@ struct VirtualReport {
   std::uint64_t hash = 0;
   std::uint64_t machine_digest = 0;  ///< Machine::digest()
   LinkTraffic links;
-  std::size_t links_used = 0;                      ///< those that carried anything, including memory ports
+  std::size_t links_used = 0;  ///< number that carried anything, including memory ports
   std::vector<LinkUse> busiest_links;              ///< as Links::busiest(), at most busiest_links_max
   std::vector<VirtualTimes> nodes;                 ///< in order, the host last
   std::optional<CriticalPath> critical_path = {};  ///< if an observer followed paths; adds up to total_ns

@@ -49,7 +49,7 @@ constexpr bool is_about_ray(QuestionKind kind) { return kind == QuestionKind::be
 
 /// Precedes a core::Below, in a mesh followed by a core::ReportedInstance, or, for a record, its core::Address.
 struct QuestionHeader {
-  std::uint16_t slot = 0;  ///< of the waiting pixel, for the answer
+  std::uint16_t slot = 0;  ///< the waiting pixel's, for the answer
   QuestionKind kind{};
   std::uint8_t padding = 0;
 };
@@ -202,7 +202,7 @@ class Forest : public PlainRecords {
   std::span<Queue> queues_;    ///< by owner
   std::span<std::byte> packet_;
   std::span<std::byte> lent_;
-  std::span<core::ReportedInstance> places_;  ///< of questions in meshes, by slot
+  std::span<core::ReportedInstance> places_;  ///< for questions in meshes, by slot
   core::Address lent_address_ = core::no_address;
   std::uint32_t waiting_ = 0, under_way_ = 0;
 };

@@ -80,19 +80,19 @@ class Pager : public PlainRecords {
   /// Takes a page reply: installs the page and returns the first slot that waited for it. The caller calls retried() before
   /// running each of those slots, and runs them all before the next install().
   std::uint32_t install(const nodes::Packet& reply);
-  /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs.
+  /// The slot that waits for the same page after `slot`, or no_slot. Read it before the slot runs.
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
-  /// The next reference is the repetition of one that was counted as a page miss.
+  /// To be called when the next reference repeats one that was counted as a page miss.
   void retried() { ++retries_; }
-  /// Takes a page request and replies at once; in a tree, if the page is not here, asks the parent for whoever asks. Installs
-  /// nothing, so a computing node may be interrupted for it.
+  /// Takes a page request and replies at once; in a tree, if the page is not here, passes the request on to the parent. Installs
+  /// nothing, so it may interrupt a computing node.
   void serve(const nodes::Packet& request);
-  /// The page is here for good, at home or resident.
+  /// Whether the page is stored here permanently, at home or resident.
   bool keeps(PageId page) const { return homes_.find(page) != nullptr || resident_.frame_of(page) != Cache::no_frame; }
 
-  /// Faults that have not ended.
+  /// Number of faults that have not ended.
   std::uint32_t faults() const { return faults_.count(); }
-  /// Pages in the cache.
+  /// Number of pages in the cache.
   std::uint32_t cached_pages() const { return cache_.filled_count(); }
   std::uint32_t pending() const { return faults(); }
   PageCounters counters() const;
@@ -100,11 +100,11 @@ class Pager : public PlainRecords {
   nodes::Levels levels() const { return {{"pages in cache", cached_pages()}, {"pages awaited", faults()}}; }
 
  private:
-  /// Where a page was found last: in front of the arithmetic and the cache's table, small enough to stay in the processor's
-  /// own cache.
+  /// The place where a page was found last: tested before the arithmetic and the cache's table, small enough to stay in the
+  /// processor's own cache.
   struct Translation {
     PageId page = no_page;
-    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is here for good
+    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is stored here permanently
     const std::byte* bytes = nullptr;
   };
   static constexpr std::size_t translation_count = 256;
@@ -119,15 +119,15 @@ class Pager : public PlainRecords {
   void request(Faults::Fault& fault);
   void forget_page(PageId evicted);
 
-  // What a reference reads comes first.
+  // Members read by a reference come first.
   PageGeometry geometry_;
   PageId last_page_ = no_page;
   const std::byte* last_bytes_ = nullptr;
   std::uint64_t* last_hits_ = nullptr;
-  std::optional<PagesInPlace> in_place_;  ///< on a modelled machine: in place of translations
+  std::optional<PagesInPlace> in_place_;  ///< on a modelled machine: instead of translations
   std::span<Translation> translations_;
   HomePages homes_;
-  Cache resident_;  ///< of pages that never leave it
+  Cache resident_;  ///< for pages that never leave it
   PageCounters counters_;
   std::uint64_t retries_ = 0;
   Cache cache_;

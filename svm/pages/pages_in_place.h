@@ -1,4 +1,4 @@
-// Where pages are on a modelled machine, all of whose nodes share the real computer's caches.
+// The places of pages on a modelled machine, all of whose nodes share the real computer's caches.
 #pragma once
 
 #include <algorithm>

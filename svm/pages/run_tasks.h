@@ -32,7 +32,7 @@ struct TaskFigures {
   std::vector<PageCounters> pages;                   ///< by node
   std::vector<nodes::NodeCounters> counters;         ///< by node
   std::vector<nodes::Charges> charges;               ///< by node
-  std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
+  std::optional<nodes::VirtualReport> virtual_time;  ///< on a modelled machine
   std::vector<nodes::RankFigures> ranks;             ///< on rank 0, if there are ranks
 
   /// The sum over all nodes.

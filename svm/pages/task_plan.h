@@ -28,8 +28,8 @@ class TaskPlan {
  public:
   /// Sizes of a task.
   struct Sizes {
-    std::size_t task_bytes = 0;    ///< of a task in flight
-    std::size_t result_bytes = 0;  ///< of each result, in flight or done
+    std::size_t task_bytes = 0;  ///< per task in flight
+    std::size_t result_bytes = 0;  ///< per result, in flight or done
   };
 
   /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of range

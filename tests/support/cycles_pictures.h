@@ -20,7 +20,7 @@ namespace dmpc::tests::cycles {
 inline constexpr int side = 16, leaves = 4;
 /// Red, green and blue.
 using Light = std::array<double, 3>;
-/// Of 4x4 pixels each, row by row from the top left.
+/// 4x4 pixels each, row by row from the top left.
 using Leaves = std::array<Light, leaves * leaves>;
 
 /// Polygons, z up, before a camera whose angle spans its pixels from side to side.
@@ -55,7 +55,7 @@ class Model {
   core::SceneBuilder builder_;
 };
 
-/// Paths aim at up to 100 of what shines.
+/// Light sampling of up to 100 emitters.
 inline core::Film film_of(const core::Scene& scene, int samples, int bounces, const core::Transport& transport) {
   core::BuildOptions options = apps::several_macro_cells(scene);
   options.emitters_max = 100;

@@ -5,7 +5,7 @@
 
 namespace dmpc::tests {
 
-/// Those of this computer, of which none is removed.
+/// The files of this computer, none of which is removed.
 class ImmutableFiles final : public apps::Files {
  public:
   int open(const std::filesystem::path& path, int flags) override { return files_.open(path, flags); }

@@ -62,7 +62,7 @@ class Loopback {
       std::uint32_t late_polls = 0;
     };
     std::array<Frame, 2> frames;
-    std::uint64_t lost = 0;  ///< of the frames that were to be sent; the writer's
+    std::uint64_t lost = 0;  ///< frames to be sent; the writer's
     std::atomic<std::uint64_t> sent{0}, taken{0};
   };
   class End final : public Fabric {

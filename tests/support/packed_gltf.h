@@ -43,7 +43,7 @@ class GltfDocument {
                          R"(,"count":)" + std::to_string(count) + R"(,"type":")" + type + "\"}");
     return accessors_.size() - 1;
   }
-  /// Of rows of `width` numbers, as they are; returns its number as text.
+  /// Adds rows of `width` numbers, as they are; returns the accessor's number as text.
   template <class List>
   std::string add(const List& numbers, std::size_t width, const std::string& more = "") {
     using T = typename List::value_type;

@@ -22,7 +22,7 @@ namespace dmpc::tests {
 
 inline constexpr core::Transport paths{.kind = core::TransportKind::paths};
 
-/// Pictures of a scene by the reference renderer. Paths aim at up to `emitters_max` of what shines, by default at nothing.
+/// Pictures of a scene by the reference renderer. Light sampling of up to `emitters_max` emitters, by default none.
 class Studio {
  public:
   explicit Studio(const core::Scene& scene, std::uint32_t emitters_max = 0)
@@ -32,7 +32,7 @@ class Studio {
     operations = {};
     return film_of(database_, scene_.view, {transport, side, side, samples, bounces, skips}, operations);
   }
-  /// Of the picture's light, its mean; the red channel's.
+  /// The mean of the picture's light, in the red channel.
   double mean(int side, int samples, const core::Transport& transport, int bounces) const {
     return mean_of(film(side, samples, transport, bounces));
   }
@@ -66,7 +66,7 @@ class Studio {
   const core::DatabaseHeader& header() const { return database_.header(); }
   const core::GridFrame& frame() const { return database_.header().frame; }
 
-  mutable core::Operations operations;  ///< of the last film
+  mutable core::Operations operations;  ///< for the last film
 
  private:
   static core::BuildOptions options_for(const core::Scene& scene, std::uint32_t emitters_max) {

@@ -13,7 +13,7 @@ inline const std::string pbrt_camera =
     "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 32\nWorldBegin\n";
 inline const std::string pbrt_triangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]\n";
 
-/// Of these statements behind that camera.
+/// A scene of these statements after that camera.
 inline apps::MeshFile read_pbrt(const std::string& world, const apps::MeshOptions& options = {}) {
   return read_mesh("a.pbrt", pbrt_camera + world, options);
 }

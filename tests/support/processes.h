@@ -12,7 +12,7 @@
 
 namespace dmpc::tests {
 
-/// Those whose words, with nothing between them, have `part`; without those that have ended and are not waited for.
+/// Processes whose command line, without separators, contains `part`; without those that have ended and are not waited for.
 inline std::vector<pid_t> processes_with(const std::string& part) {
   std::vector<pid_t> found;
   std::error_code ended;

@@ -60,7 +60,7 @@ struct FakePages {
 template <class Records>
 struct FakeTracer {
   Records* records;
-  std::uint64_t record_count;  ///< of 8 bytes
+  std::uint64_t record_count;  ///< records of 8 bytes
 };
 
 /// In place of core::PixelTask: a walk through the pages in which each number says where the next is read. Some rays of some

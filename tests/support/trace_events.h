@@ -9,7 +9,7 @@
 
 namespace dmpc::tests {
 
-/// Of what stands in an event of Perfetto's track_event.proto what these tests ask for.
+/// The fields of an event of Perfetto's track_event.proto that these tests read.
 struct TraceEvent {
   enum class Type : std::uint8_t { slice_begin = 1, slice_end, instant, counter };
 

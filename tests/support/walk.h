@@ -12,7 +12,7 @@
 
 namespace dmpc::tests {
 
-/// Each of them is seen from so much farther to the right than the scene's own.
+/// Each of them is seen from this much farther to the right than the scene's own.
 struct Walk {
   explicit Walk(int side, const core::BuildOptions& build = {.page_size_bytes = 512},
                 std::initializer_list<double> steps = {0, 0.02, 0.04})

@@ -73,7 +73,7 @@ struct SmallSource {
 TEST_CASE("items of background that lie side by side are taken as one rectangle, and only those that come next") {
   const core::Camera camera(core::View{}, core::GridFrame{}, 12, 8, 1);
   core::BackgroundTiles::Bits bits{};
-  // Of a picture of 12x8 pixels all but the last column of the upper half shows nothing else.
+  // The picture has 12x8 pixels; all of its upper half except the last column shows only background.
   for (std::uint32_t row = 0; row < 32; ++row) {
     bits[row] = ~std::uint64_t{0} >> 6U;
   }

@@ -111,7 +111,7 @@ struct Relay {
 
   std::optional<Part> last;
   std::uint32_t runs = 0;
-  bool has_fault = false;  ///< of what was kept
+  bool has_fault = false;  ///< in what was saved
 };
 
 void check_relays(const core::Scene& scene, const Subject::Size& size, std::uint32_t runs_least) {

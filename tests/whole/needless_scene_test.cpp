@@ -74,12 +74,12 @@ Features features_of(const core::Operations& operations) {
           {"lights behind surfaces", operations.skipped.unlit}};
 }
 
-/// Those of scenes whose meshes are kept once.
+/// The skips of scenes with base meshes.
 Features instancing_features_of(const core::Operations& operations) {
   return {{"ways into base meshes", operations.instance_entries}, {"triangles placed", operations.placed_triangles}};
 }
 
-/// Those that also several nodes can do without.
+/// Skips without effect also on several nodes.
 Features features_of(const svm::Report& report) {
   Features features = features_of(report.operations());
   features["later passes"] = report.refinement.passes - 1;
@@ -87,7 +87,7 @@ Features features_of(const svm::Report& report) {
   return features;
 }
 
-/// Those that one node can do without.
+/// Skips without effect on one node.
 Features lonely_features_of(const svm::Report& report) {
   return {{"page faults", report.pages().faults},
           {"cached pages", report.pages().cache_hits},

@@ -51,8 +51,8 @@ core::Scene ball_in_the_air() {
   return scene;
 }
 
-/// Lit by points and by a dozen of what shines, of which paths aim at triangles and spheres: mirrors, glass and textures, or
-/// tiny mirrors.
+/// Lit by points and by a dozen emitters, of which triangles and spheres are used for light sampling: mirrors, glass and
+/// textures, or microfacet surfaces.
 core::Scene shining(bool is_faceted = false) {
   core::Scene scene = is_faceted ? faceted_surfaces() : mirrors_and_glass();
   if (!is_faceted) {

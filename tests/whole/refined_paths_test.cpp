@@ -20,7 +20,8 @@ using namespace core;
 using tests::scaled_edge, tests::slowness;
 
 constexpr int side = scaled_edge(32);
-/// Of those that errors are against: the pictures that are refined have some forty, of which these take next to nothing.
+/// Samples of the pictures that errors are measured against: refined pictures have about forty, so that the error of these is
+/// negligible.
 constexpr int true_samples = 512;
 /// Bounds of the estimate over the error. Few pixels tell little of either.
 constexpr double least_estimate = slowness == 1 ? 0.8 : 0.5, most_estimate = slowness == 1 ? 1.25 : 2.0;

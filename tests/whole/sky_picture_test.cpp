@@ -33,7 +33,7 @@ core::Scene below_picture(core::Scene scene) {
   return scene;
 }
 
-/// With textures, and what shines and is aimed at.
+/// With textures, and with emitters for light sampling.
 core::Scene much_of_all() {
   core::Scene scene = mirrors_and_glass();
   add_textured_walls(scene);

@@ -25,7 +25,7 @@ struct FaceStack {
   /// The faces of one plane, as far as doubles tell.
   struct Layer {
     PrimitivePlane plane;
-    std::vector<std::uint32_t> ids;  ///< of its faces, ascending
+    std::vector<std::uint32_t> ids;  ///< its faces, ascending
   };
   std::vector<Layer> layers;
   /// Faces that cover another one in their layer, in two planes or in one for lack of precision, or in another layer but on both

@@ -60,10 +60,10 @@ class UncopiedInstances {
 
   const Scene& scene_;
   std::span<const MeshFaces> faces_;
-  std::vector<BaseMeshInstance> instances_;  ///< those whose copies are left out
+  std::vector<BaseMeshInstance> instances_;  ///< without copies
   MeshesRecords meshes_;
   std::vector<std::vector<Chunk>> chunks_;  ///< by MeshesRecords::index
-  std::uint64_t triangles_ = 0;             ///< of all these instances
+  std::uint64_t triangles_ = 0;  ///< in all these instances
 };
 
 }  // namespace dmpc::core

@@ -44,7 +44,7 @@ const char* fault_of(const PartialPicture& picture, const PictureTerms& terms);
 /// How a run resumes another, lets others resume it, and is observed. Called on the host's thread; if a function throws, the run
 /// ends with its exception.
 struct Continuation {
-  const PartialPicture* start = nullptr;  ///< of the same picture, outlives the run; nullptr: from the beginning
+  const PartialPicture* start = nullptr;  ///< a state of the same picture, outlives the run; nullptr: from the beginning
   /// Whether the state should be saved now: called whenever light arrives. May be empty if `keep` is.
   std::function<bool()> is_due = {};
   /// Saves a partial picture: the film, the pass, and which of its pixels are done, as in PartialPicture.

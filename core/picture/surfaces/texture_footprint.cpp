@@ -16,7 +16,7 @@ struct Matrix {
 
 /// The ellipse to which a matrix takes the unit circle.
 struct Ellipse {
-  TexturePlace direction{1, 0};  ///< of the longer axis, of unit length
+  TexturePlace direction{1, 0};  ///< the longer axis, unit length
   double longer = 0, shorter = 0;
 };
 

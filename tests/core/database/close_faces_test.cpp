@@ -89,7 +89,7 @@ TEST_CASE("a poster that leans against a wall is seen as one that does not") {
   }
 }
 
-/// The same stand, so many times as large.
+/// The stand above, scaled by a factor.
 Stand grown(const Stand& stand, double times) { return {stand.place, stand.right * times, stand.up * times, stand.out * times}; }
 
 TEST_CASE("a poster that is small beside its scene is seen from its side however much it leans, up to a quarter") {

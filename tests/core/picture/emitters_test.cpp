@@ -52,7 +52,7 @@ View of_unit_square(const Vec3d& middle, double height, int side) {
           .angle_degrees = 2 * middles * 180 / 3.14159265358979324};
 }
 
-/// A hollow ball of radius 1 about the origin that reflects so much, and in it a small black one that shines.
+/// A hollow ball of radius 1 around the origin with this reflectance, and in it a small black emitting one.
 Scene hollow_ball(double albedo, const Vec3d& place, double radius) {
   Scene scene;
   SceneBuilder builder(scene);

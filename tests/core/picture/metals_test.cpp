@@ -47,7 +47,7 @@ Scene floor_of(const Material& material, double cosine) {
   return scene;
 }
 
-/// The same floor of gold, whose texture of metal and roughness has these texels side by side.
+/// The floor of gold, with a texture of metal and roughness with these texels side by side.
 Scene textured_floor(std::vector<std::uint32_t> texels, Microfacets facets) {
   Scene scene;
   const auto width = static_cast<std::uint32_t>(texels.size());

@@ -100,7 +100,7 @@ TEST_CASE("a closed room without any light is black, and its paths end") {
 }
 
 TEST_CASE("where no light can be no path goes on, which is counted, and the film has the bits of one whose paths do") {
-  // Of albedo 1, so that no roulette ends a path.
+  // Albedo 1, so that no path ends by roulette.
   const Studio studio(room(grey(1), false));
   constexpr Transport black_sky{.kind = TransportKind::paths, .has_sky = true, .has_gradient = true};
   for (const Transport& transport : {paths, black_sky}) {

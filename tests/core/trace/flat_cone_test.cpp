@@ -33,7 +33,7 @@ Ring random_ring(Random& random) {
   return {random.in_box(-2, 2), random.direction(), wide, random.below(3) == 0 ? 0.0 : wide * random.unit() * 0.9};
 }
 
-/// The same as a cone of so small a height, within a scene of extent 8.
+/// The disc as a cone of this small height, within a scene of extent 8.
 Scene as_cone(const Ring& ring, double height) {
   Scene scene;
   SceneBuilder builder(scene);

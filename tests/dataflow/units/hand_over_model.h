@@ -20,7 +20,7 @@ namespace dmpc::tests {
 struct HandOverRules {
   bool sends_on = true;              ///< a ray that comes to a former owner goes on to the one it knows
   bool counts_transfers = true;      ///< for the proof of the end, as packets of rays
-  bool counts_primaries = true;      ///< those that go along with a unit, too
+  bool counts_primaries = true;  ///< including those that go along with a unit
   bool gives_primaries_away = true;  ///< who hands them over starts none of them
   bool active_until_content = true;  ///< a node that is about to ask keeps the token
   bool news_wakes = false;           ///< a node that hears who has the unit may ask
@@ -46,20 +46,20 @@ class HandOverModel {
   enum class Kind : std::uint8_t { ray, ask, refusal, page, primaries, acknowledgement, moved, token };
   struct Message {
     Kind kind{};
-    std::uint8_t version = 0;  ///< of news and pages; of a token: whether it is black
-    std::uint8_t owner = 0;    ///< of news; of a page: whether it is the last
-    std::int8_t balance = 0;   ///< of a token; of primary rays: how many
+    std::uint8_t version = 0;  ///< for news and pages; for a token: whether it is black
+    std::uint8_t owner = 0;  ///< for news; for a page: whether it is the last
+    std::int8_t balance = 0;  ///< for a token; for primary rays: how many
   };
   using Channel = ModelChannel<Message, 6>;
   struct Member {
     dataflow::Migration migration;
     dataflow::Termination termination = dataflow::Termination::initiator(model_tree);
-    std::uint8_t owner = 0, version = 0;  ///< of the unit, as it is known
+    std::uint8_t owner = 0, version = 0;  ///< the unit's, as known here
     std::uint8_t rays = 0;                ///< not looked at yet
     std::uint8_t held = 0;                ///< not started
     std::uint8_t walking = 0;             ///< rays taken up while the node answered for the unit
-    std::uint8_t recipient = 0;           ///< of the unit that is being given
-    std::uint8_t parts_left = 0;          ///< of that: its last page, its primary rays
+    std::uint8_t recipient = 0;  ///< for the unit that is being given
+    std::uint8_t parts_left = 0;  ///< parts of that unit: its last page, its primary rays
     std::uint8_t unstored = 0;            ///< a last page that a broken node has acknowledged: its version
     bool has_pages = false;
     bool wants = false;  ///< finds another worth asking

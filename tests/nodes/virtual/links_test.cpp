@@ -31,21 +31,21 @@ Machine wired_as(TopologyKind kind) {
 
 Links links_of(TopologyKind kind, std::uint32_t node_count) { return Links(wired_as(kind), node_count); }
 
-/// Such links without contention.
+/// Links without contention.
 Links free_links_of(TopologyKind kind, std::uint32_t node_count) {
   Machine machine = wired_as(kind);
   machine.has_contention = false;
   return Links(machine, node_count);
 }
 
-/// Such links with a memory port for each node.
+/// Links with a memory port for each node.
 Links ported_links_of(TopologyKind kind, std::uint32_t node_count) {
   Machine machine = wired_as(kind);
   machine.has_memory_port = true;
   return Links(machine, node_count);
 }
 
-/// Such links switched by packets, each hop of which takes 3 ns.
+/// Links with packet switching, each hop of which takes 3 ns.
 Links packet_links_of(TopologyKind kind, std::uint32_t node_count, bool has_memory_port = false) {
   Machine machine = wired_as(kind);
   machine.switching = nodes::Switching::packet;

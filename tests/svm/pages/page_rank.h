@@ -21,7 +21,7 @@ namespace dmpc::tests {
 /// A vertex's edges come from few others, which most have in common.
 struct Graph {
   std::uint32_t vertex_count = 0;
-  std::vector<std::vector<std::uint32_t>> sources;  ///< of the edges to each vertex
+  std::vector<std::vector<std::uint32_t>> sources;  ///< sources of the edges to each vertex
   std::vector<std::uint32_t> out_degrees;
 };
 

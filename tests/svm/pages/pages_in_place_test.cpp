@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t page_size = 512;
 
-/// Of a node whose memory keeps what lasts so, and a database of so many pages.
+/// For a node whose memory keeps immutable bytes in this way, and a database of this many pages.
 std::optional<PagesInPlace> pages_of(nodes::Immutable immutable, const std::vector<std::byte>& database) {
   const nodes::LocalMemory memory(nodes::MemoryPlan{}, immutable);
   PageCapacity capacity;

@@ -28,7 +28,7 @@ std::vector<VectorWidth> widths() {
   return all;
 }
 
-/// Of all sizes; every fourth lies level.
+/// Faces of all sizes; every fourth is level.
 std::vector<Face> some_faces(std::uint32_t count) {
   Random random(1);
   std::vector<Face> faces;

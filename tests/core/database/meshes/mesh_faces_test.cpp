@@ -36,7 +36,7 @@ constexpr std::uint32_t rug_triangles = 2 * rug_side * rug_side;
 
 Scene rugs(bool is_tilted) { return rug_on_floor(is_tilted, true, rug_side); }
 
-/// Of the sizes that meshes have in scenes, the largest first.
+/// Sizes of meshes in scenes, the largest first.
 std::vector<Transform> many_places() {
   std::vector<Transform> places;
   for (const double size : {0.2, 0.02, 0.002, 0.0002}) {

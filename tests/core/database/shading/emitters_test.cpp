@@ -18,7 +18,7 @@ namespace {
 
 Material shining(double strength) { return {.color = {1, 1, 1}, .emission = {strength, strength, strength}}; }
 
-/// Of each kind something that shines, and something that does not.
+/// One emitter of each kind, and one primitive that is none.
 Scene mixed() {
   Scene scene;
   SceneBuilder builder(scene);

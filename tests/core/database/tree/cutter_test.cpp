@@ -72,7 +72,7 @@ Cutter cutter_of(const std::vector<Bounds>& boxes, VectorWidth width = vector_wi
   return cutter;
 }
 
-/// Those that this processor has.
+/// The widths that this processor has.
 std::vector<VectorWidth> widths_here() {
   std::vector<VectorWidth> widths;
   for (const VectorWidth width : {VectorWidth::any, VectorWidth::bits_256, VectorWidth::bits_512}) {

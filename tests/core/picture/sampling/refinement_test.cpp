@@ -36,7 +36,7 @@ void shine_evenly(Film& film, const Refinement& refinement) {
   }
 }
 
-/// Those whose samples are doubled twice, because they are chosen or because they are explored.
+/// The pixels whose samples are doubled twice, because they are chosen or explored.
 std::vector<std::uint32_t> pixels_doubled(const Refinement& refinement) {
   std::vector<std::uint32_t> pixels;
   for (std::uint32_t pixel = 0; pixel < refinement.pass().steps().size(); ++pixel) {
@@ -53,7 +53,7 @@ bool are_doubled(const Refinement& refinement, const std::vector<std::uint32_t>&
   return std::includes(doubled.begin(), doubled.end(), pixels.begin(), pixels.end());
 }
 
-/// Those of them that do not touch a pixel: if no other shows an error, they are explored.
+/// Those pixels that do not touch a given one: if no other shows an error, they are explored.
 std::vector<std::uint32_t> pixels_explored(const Refinement& refinement, std::uint32_t bad, std::uint32_t width) {
   std::vector<std::uint32_t> pixels = pixels_doubled(refinement);
   const auto touches = [&](std::uint32_t pixel) {
@@ -175,7 +175,7 @@ TEST_CASE("one pass brings pixels of all levels as many samples as each of them 
 }
 
 TEST_CASE("what is worth far less than the rest waits for the next pass, though all is needed") {
-  // Of every ten pixels one has an error, and another a fainter one.
+  // One of ten pixels has an error, and another a smaller one.
   const auto is_chosen = [](float faint) {
     Film film(400, 1);
     Refinement refinement({.error = 1e-4}, 2, 400, 1);

@@ -46,7 +46,7 @@ void over_hemisphere(int steps, int sectors, const Over& over) {
   }
 }
 
-/// Of light from everywhere the share that goes to an eye at this cosine, by quadrature.
+/// The share of uniform light that goes to an eye at this cosine, by quadrature.
 Vec3d share_by_sum(const Material& material, double cosine, int steps = 400) {
   const int sectors = steps * (material.microfacets.roughness < 0.25 ? 8 : 1);  // grazing light goes on in a narrow fan
   const HitState state = hit_on(material, eye_at(cosine));
@@ -56,7 +56,7 @@ Vec3d share_by_sum(const Material& material, double cosine, int steps = 400) {
   return sum;
 }
 
-/// The same by steps.
+/// That share by sampled steps.
 Vec3d share_by_steps(const Material& material, double cosine) {
   const HitState state = hit_on(material, eye_at(cosine));
   const MicrofacetLobes lobes(state);

@@ -33,7 +33,7 @@ Vec3d direction_at(double height, double turn) {
   return {wide * std::cos(turn), wide * std::sin(turn), height};
 }
 
-/// Of whoever looks from `out`, for reflection into `in`, which may be below the surface.
+/// Seen from `out`, for reflection into `in`, which may be below the surface.
 double density(double alpha, const Vec3d& out, const Vec3d& in) {
   const Vec3d half = normalize(in + out);
   return half.z > 0 ? reflected_density(alpha, out.z, half.z) : 0;

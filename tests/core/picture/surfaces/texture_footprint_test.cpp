@@ -14,7 +14,7 @@ namespace {
 /// A right triangle whose legs are the sides of a texture of 64 by 32 texels.
 TexturedNormals half_of_texture() { return {.texture = {.width = 64, .height = 32}, .place = {{{0, 0}, {1, 0}, {0, 1}}}}; }
 
-/// Across its axes so much of the first and of the second leg.
+/// Across its axes these shares of the first and of the second leg.
 CutEllipse along_legs(float first, float second) { return {{{{first, 0}, {0, second}}}}; }
 
 /// On the texture.
