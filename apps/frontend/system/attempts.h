@@ -1,4 +1,4 @@
-// Steps of which none that fails keeps the next from its turn, so that a file that cannot be written takes no other with it.
+// Steps that run independently of each other's failures, so that a file that cannot be written does not prevent others.
 #pragma once
 
 #include <exception>
@@ -12,14 +12,16 @@ namespace dmpc::apps {
 /// Not thread-safe.
 class Attempts {
  public:
-  /// What fails for bad input, or for want of room, is said on `messages`, which outlives it, a line each, by the program's name.
+  /// Errors of bad input, or resource exhaustion, are printed to `messages`, which outlives it, a line each, with the program's
+  /// name.
   explicit Attempts(std::ostream& messages, std::string name = "dmpc") : messages_(messages), name_(std::move(name)) {}
 
-  /// Calls `step`; whether it came to its end. An Interrupted passes; a broken pipe, of which nobody reads, is not said.
+  /// Calls `step`; returns whether it succeeded. An Interrupted passes through; a broken pipe, which has no reader, is not
+  /// printed.
   bool make(const std::function<void()>& step);
 
-  /// The exit status after all of them: that of the first that failed. Throws what was neither bad input nor want of room, or a
-  /// broken pipe, if there was such a thing.
+  /// The exit status of the first failed step. Rethrows an error of another kind than bad input and resource exhaustion, or a
+  /// broken pipe, if there was one.
   int status() const;
 
  private:

@@ -1,4 +1,4 @@
-// Bytes that stand in a text: RFC 4648's base 64.
+// Base 64 (RFC 4648).
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace dmpc::apps {
 
-/// The bytes, in its alphabet or that for addresses; blanks and ends of lines are passed over, the padding
-/// may be missing. Nothing if another character stands in it.
+/// Decodes the standard or the URL-safe alphabet; blanks and line ends are skipped, and padding is optional. Nothing if the text
+/// has any other character.
 std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text);
 
 /// With padding.

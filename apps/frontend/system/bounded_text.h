@@ -1,4 +1,4 @@
-// A file, or a pipe, as one text that has an end.
+// Reads a file or a pipe as text of limited size.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// All of it. Throws core::InputError, "PATH: ...", if it cannot be read, or has more than `bytes_max`, of which not a byte more
-/// is kept; `expected` says what it should have been.
+/// Throws core::InputError, "PATH: ...", if it cannot be read, or has more than `bytes_max`, of which no further byte is stored;
+/// `expected` describes the expected file.
 std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected);
 
 }  // namespace dmpc::apps

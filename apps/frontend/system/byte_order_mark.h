@@ -1,4 +1,4 @@
-// With what some editors of text in UTF-8 begin a file.
+// The mark with which some editors begin UTF-8 files.
 #pragma once
 
 #include <string_view>

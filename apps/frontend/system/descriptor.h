@@ -1,4 +1,4 @@
-// A descriptor of the operating system's, closed in the end.
+// Owns a file descriptor of the operating system.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// A number that stands for many bytes: equal bytes, equal digests. Against accidents, not against intent.
+// A digest of bytes. It detects accidents, not intent.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace dmpc::apps {
 
-/// Eight bytes a step, each an invertible change of the whole: two inputs that differ in one word never have the same digest. It
-/// depends on what was added at a time, not only on the bytes. Not thread-safe.
+/// Adds eight bytes a step, each an invertible change of the state: two inputs that differ in one word never have the same
+/// digest. It depends on how the bytes are divided into calls, too. Not thread-safe.
 class Digest {
  public:
   void add(std::uint64_t word) {
@@ -20,7 +20,7 @@ class Digest {
     value_ ^= value_ >> 32U;
   }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  /// Their number, too.
+  /// Adds their number, too.
   void add(std::span<const std::byte> bytes) {
     add(std::uint64_t{bytes.size()});
     for (; !bytes.empty(); bytes = bytes.subspan(std::min(sizeof(std::uint64_t), bytes.size()))) {

@@ -1,4 +1,4 @@
-// A claim on a file that only one process at a time has.
+// A lock file that one process at a time holds.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace dmpc::apps {
 
-/// While it lives no other FileLock of any process has the same `path`. The file there, which has nothing in it, is made if need
-/// be, and removed in the end, after a killed process too by the next that locks it: the kernel itself takes the lock from a
-/// process that has ended. Not thread-safe.
+/// No other FileLock of any process has the same `path` during its lifetime. The file, which is empty, is created if needed and
+/// removed at the end; a killed process's is removed by the next that locks it, as the kernel releases the lock when a process
+/// ends. Not thread-safe.
 class FileLock {
  public:
-  /// Nothing, if another has it. Where the file system knows no locks everybody gets one. Throws core::InputError if the file
+  /// Nothing if another process has it. On file systems without locks it always succeeds. Throws core::InputError if the file
   /// cannot be made, or is a symbolic link, which is not followed.
   static std::optional<FileLock> try_lock(const std::filesystem::path& path);
   FileLock(FileLock&& other) = default;

@@ -1,4 +1,4 @@
-// A stream of text or bytes from a file that Files opens, which tells an end from a fault.
+// A stream from a file that Files opens, which distinguishes the end of the file from an error.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@ namespace dmpc::apps {
 /// Not thread-safe. `files` outlives it.
 class FileSource final : private std::streambuf, public std::istream {
  public:
-  /// Fails if there is no such file, as reading it does.
+  /// Fails at the first read if there is no such file.
   FileSource(const std::filesystem::path& path, Files& files);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
 
-  /// 0, or errno's value of the first call that failed: then what was read is not what the file has.
+  /// 0, or errno's value of the first call that failed: then the data are incomplete.
   int error() const { return error_; }
 
  private:

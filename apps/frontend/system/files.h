@@ -1,5 +1,5 @@
-// What is asked of the file system to keep a file and to read it back, so that tests can have each call fail and the computer
-// lose its power.
+// The file system calls for storing a file and reading it back, as an interface, so that tests can let each call fail and
+// simulate a loss of power.
 #pragma once
 
 #include <sys/types.h>
@@ -10,7 +10,7 @@
 
 namespace dmpc::apps {
 
-/// Each call does what POSIX says of the one of its name, and returns -1 and sets errno if it fails. Thread safety: that of the
+/// Each call behaves as the POSIX function of that name, and returns -1 and sets errno if it fails. Thread safety: that of the
 /// operating system.
 class Files {
  public:
@@ -19,19 +19,19 @@ class Files {
   Files& operator=(const Files&) = delete;
   virtual ~Files() = default;
 
-  /// A descriptor, which a program that is started does not get. What O_CREAT makes, all may read and write whom the mask lets.
+  /// Returns a descriptor, which child programs do not inherit. New files (O_CREAT) have all permissions that the mask allows.
   virtual int open(const std::filesystem::path& path, int flags) = 0;
-  /// How many bytes there were, up to the room for them: perhaps not all; 0 at the end.
+  /// Returns the number of bytes, perhaps fewer than there is space for; 0 at the end.
   virtual ssize_t read(int file, std::span<char> room) = 0;
-  /// How many bytes were taken: perhaps not all.
+  /// Returns the number of bytes written, perhaps fewer than all.
   virtual ssize_t write(int file, std::string_view bytes) = 0;
-  /// Waits until the file is on the disk; a folder's are its names.
+  /// Waits until the file is on the disk; for a folder, its names.
   virtual int sync(int file) = 0;
   virtual int close(int file) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int remove(const std::filesystem::path& path) = 0;
-  /// Lets those read and write the file whom the ordinary file at `like`, if there is one, lets. What fails here is no failure:
-  /// file systems without modes.
+  /// Copies the permissions of the ordinary file at `like`, if there is one. Failures are ignored: some file systems have no
+  /// modes.
   virtual void take_mode(int /*file*/, const std::filesystem::path& /*like*/) {}
 };
 

@@ -1,4 +1,4 @@
-// How much of this computer's memory foreign matter may take.
+// Limit of this computer's memory for foreign files.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Three quarters of what there is for this process at the first call, in a container of what that has.
+/// Three quarters of the memory available to this process (in a container, to that) at the first call.
 inline std::uint64_t reader_memory_bytes_max() {
   static const std::uint64_t bytes = available_memory().bytes / 4 * 3;
   return bytes;

@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM and other signals that end a process as a stop token, or as the end at once.
+// Ctrl-C, SIGTERM and other terminating signals as a stop token, or as an immediate end.
 #pragma once
 
 #include <atomic>
@@ -15,45 +15,46 @@ namespace dmpc::apps {
 /// Thrown by a command that was stopped by a signal, after it has cleaned up. Exit status 130.
 struct Interrupted {};
 
-/// While it lives, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1 and SIGUSR2 are blocked in the thread that made it
-/// and in all threads that this one starts afterwards; a thread of its own waits for them. So none of these ever runs inside a
-/// signal handler. The first signal requests a stop, the second ends the process at once with status 130. One that was ignored
-/// when the process started, as SIGHUP is under nohup, still is. At most one at a time, made before any other thread.
+/// During its lifetime, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1 and SIGUSR2 are blocked in the thread that
+/// made it and in all threads that this one starts afterwards; a separate thread waits for them. So no code of ours runs inside a
+/// signal handler. The first signal requests a stop, the second ends the process at once with status 130. Signals that were
+/// ignored when the process started, as SIGHUP is under nohup, stay ignored. At most one at a time, made before any other thread.
 ///
-/// Thread safety: token(), requested(), stop_once(), set_consequence() and what is about SIGUSR1 from any thread, the rest from
+/// Thread safety: token(), requested(), stop_once(), set_consequence() and the functions about SIGUSR1 from any thread, the
+/// others from one thread at a time.
 /// one at a time.
 class Interrupt {
  public:
   Interrupt();
-  /// The thread that waits for signals calls look(), if there is one, about once a second. It must not throw.
+  /// The thread that waits for signals calls look(), if it is set, about once a second. It must not throw.
   explicit Interrupt(std::function<void()> look);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// Stop is requested once a signal has come.
+  /// A stop is requested by the first signal.
   std::stop_token token() const { return source_.get_token(); }
   bool requested() const { return source_.stop_requested(); }
-  /// Throws Interrupted if a signal has come.
+  /// Throws Interrupted if a signal has arrived.
   void check() const;
 
-  /// From now on SIGUSR1 stops nothing, but asks that what is done be kept.
+  /// From now on SIGUSR1 does not stop the process, but requests a checkpoint.
   void take_usr1_for_keep() { takes_usr1_for_keep_ = true; }
-  /// Whether that has been asked since the last call.
+  /// Whether that was requested since the last call.
   bool take_keep_request() { return is_keep_requested_.exchange(false); }
 
-  /// Means what the first signal means, and nothing where one has come; one that comes after it is still the first. Who asks for
-  /// it knows of no other that does.
+  /// Acts like the first signal, and does nothing after one; the next signal still counts as the first. The caller must be the
+  /// only one that calls it.
   void stop_once();
 
-  /// What an interruption from now on means for the outputs, as its message ends; at first "nothing was written". `words` is a
-  /// literal.
+  /// Sets the end of the message about an interruption, which says what it means for the outputs; initially "nothing was
+  /// written". `words` is a literal.
   void set_consequence(const char* words) { consequence_ = words; }
   const char* consequence() const { return consequence_; }
 
-  /// A scope in which the first signal, too, ends the process at once, saying so, with status 130: for long steps that look at
-  /// no token and have nothing to clean up but files that are RemovedAtOnce. Making one throws Interrupted if a signal has come
-  /// before, unless that is to be passed over: then only a further one ends the process.
+  /// A scope in which the first signal ends the process at once, too, with a message and status 130: for long steps that do not
+  /// check a token and have nothing to clean up except files that are RemovedAtOnce. The constructor throws Interrupted if a
+  /// signal has arrived before, unless that is to be ignored: then only a further one ends the process.
   class EndAtOnce {
    public:
     enum class Before { counts, is_passed_over };
@@ -68,7 +69,7 @@ class Interrupt {
 
  private:
   void wait_for_signals(const std::stop_token& closing);
-  /// 0 if there was none, and a look was due.
+  /// 0 if there was none, and a call of look() is due.
   int next_signal() const;
   [[noreturn]] void end_now() const;
 
@@ -80,12 +81,11 @@ class Interrupt {
   std::jthread waiter_;
 };
 
-/// While it lives, an end at once removes the file at `path` if there is one, or the folder with all in it if it is one's own.
-/// There are few at a
-/// time, which is asserted.
+/// During its lifetime, an immediate end removes the file at `path` if there is one, or, if it is our own folder, the folder with
+/// its contents. The number at a time is limited, which is asserted.
 ///
-/// Thread safety: none needed; the thread that ends the process takes the path out of its slot, and so does the destructor: only
-/// one of them gets it.
+/// Thread safety: none needed; both the thread that ends the process and the destructor take the path out of its slot, so that
+/// only one of them gets it.
 class RemovedAtOnce {
  public:
   enum class Kind { file, folder };
@@ -98,7 +98,8 @@ class RemovedAtOnce {
   std::size_t slot_;
 };
 
-/// Removes all files that are RemovedAtOnce, for an end without destructors, also by abort(). Takes and frees no memory.
+/// Removes all files that are RemovedAtOnce, for an end without destructors, also by abort(). It neither allocates nor frees
+/// memory.
 void remove_files_under_way();
 
 }  // namespace dmpc::apps

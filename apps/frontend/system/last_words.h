@@ -1,21 +1,21 @@
-// How the program ends where nothing can be allocated any more, or nobody is left to catch what was thrown.
+// The end of the program where memory is exhausted, or an exception is not caught.
 #pragma once
 
 #include <string_view>
 
 namespace dmpc::apps {
 
-/// Says that memory has run out, which takes none; returns the exit status.
+/// Prints, without allocations, that memory is exhausted; returns the exit status.
 int complain_of_memory();
 
-/// From now on it says, too, who grants no more: `source` is a container or a shell, as a part of a sentence, or empty.
+/// Adds the cause to that message: `source` is a container or a shell, as a part of a sentence, or empty.
 void name_memory_limit(std::string_view source, std::string_view bytes);
 
-/// An allocation has failed since end_without_abort(): what seems to be a bug may come of that.
+/// Whether an allocation has failed since end_without_abort(): an apparent bug may be its consequence.
 bool memory_has_run_out();
 
-/// While one lives, std::terminate() comes of a library that wants threads or memory as it is loaded, where nothing can be
-/// caught: the status is 4.
+/// During its lifetime, std::terminate() is attributed to a library that needs threads or memory while it is loaded, where
+/// nothing can be caught: the status is 4.
 struct LoadsLibrary {
   LoadsLibrary();
   ~LoadsLibrary();
@@ -23,8 +23,9 @@ struct LoadsLibrary {
   LoadsLibrary& operator=(const LoadsLibrary&) = delete;
 };
 
-/// From now on std::terminate() removes the files under way, says why, and ends the process with the status of what was thrown,
-/// rather than to abort it: libraries call it where memory runs out. So does a crash for want of memory; any other stays a crash.
+/// From now on std::terminate() removes temporary files, prints the cause, and ends the process with the exception's status
+/// instead of abort(): libraries call it when memory is exhausted. A crash for lack of memory does the same; any other stays a
+/// crash.
 void end_without_abort();
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// A file that is nowhere but in memory, for libraries that write to names alone.
+// A file in memory, for libraries that write to named files only.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace dmpc::apps {
 
-/// Gone in the end, whatever ends the process. Not thread-safe.
+/// Removed at the end of the process, however it ends. Not thread-safe.
 class MemoryFile {
  public:
-  /// Throws ComputerCapacityError if there is no room for one more file.
+  /// Throws ComputerCapacityError if no further file can be made.
   MemoryFile();
 
   int descriptor() const { return file_.number(); }
-  /// A name that this process can open it by.
+  /// A name by which this process can open it.
   std::string path() const;
-  /// All that has been written to it.
+  /// Its contents.
   std::string bytes() const;
 
  private:

@@ -1,4 +1,4 @@
-// Parts of dmpc with foreign libraries that are slow to load: shared modules, opened when they are first wanted.
+// Shared modules with foreign libraries that are slow to load: opened on first use.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace dmpc::apps {
 
-/// What a module exports, as the C symbol dmpc_module.
+/// The export of a module, as the C symbol dmpc_module.
 struct Module {
-  const char* build;      ///< DMPC_MODULES_BUILD as it was compiled
-  const void* interface;  ///< what its header says it is
+  const char* build;      ///< DMPC_MODULES_BUILD at its compilation
+  const void* interface;  ///< of the type that its header names
 };
 
-/// Opens a shared library, which is never closed again; nullptr if it cannot be opened. Its libraries may start threads as they
-/// are loaded, and change the arithmetic, which then is as usual again. `complaint` becomes
-/// what the loader says if it cannot. Thread-safe.
+/// Opens a shared library, which is never closed; nullptr if it cannot be opened. Its libraries may start threads while they are
+/// loaded, and change the floating-point mode, which is restored. `complaint` receives the loader's message on failure.
+/// Thread-safe.
 void* open_library(const std::string& path, std::string* complaint = nullptr);
-/// What an opened library exports by this name; nullptr if it has none of it. Thread-safe.
+/// A library's symbol of this name; nullptr if there is none. Thread-safe.
 void* exported_by(void* library, const char* name);
 
-/// The interface of apps/modules/NAME.cpp, whose file, found as companion_path() says, is never closed again. `purpose` goes on
-/// "the module dmpc_NAME.so, with which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is of another
-/// build, ComputerCapacityError if this computer has no room for it. Thread-safe.
+/// The interface of apps/modules/NAME.cpp. The module is found by companion_path() and never closed. `purpose` continues "the
+/// module dmpc_NAME.so, with which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is from another
+/// build, ComputerCapacityError if resources of this computer are exhausted. Thread-safe.
 const void* open_module(const std::string& name, const std::string& purpose, CompanionOf whose = CompanionOf::dmpc);
 
 }  // namespace dmpc::apps

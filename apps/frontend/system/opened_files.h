@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Where they lie, links resolved, each once: the scene's own file, and what that refers to (materials, textures, buffers).
+/// Their paths, links resolved, each once: the scene's own file, and the files that it refers to (materials, textures, buffers).
 class OpenedFiles {
  public:
   void add(const std::filesystem::path& path) {

@@ -1,4 +1,4 @@
-// A file that is written whole or not at all: to a temporary name beside it, renamed at the end.
+// Writes a file atomically: under a temporary name in the same folder, renamed at the end.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class FileStream final : private std::streambuf, public std::ostream {
  public:
   FileStream(Files& files, int file);
 
-  /// Hands over what is still kept here. Returns 0, or errno's value of the first call that failed.
+  /// Flushes. Returns 0, or errno's value of the first call that failed.
   int finish();
 
  private:
@@ -37,49 +37,49 @@ class FileStream final : private std::streambuf, public std::ostream {
   std::vector<char> kept_;
 };
 
-/// Throws core::InputError unless a file can be made at `path`, as far as can be known beforehand: its folder exists, a file with
-/// something in it can be made there (it is removed again), and `path` is no folder. A device is asked whether it takes anything.
-/// `option` names the option that gave it, for the message.
+/// Throws core::InputError unless a file can be made at `path`, as far as can be known in advance: its folder exists, a file with
+/// contents can be made there (it is removed again), and `path` is no folder. A device is tested for whether it accepts data.
+/// `option` names the option that gave the path, for the message.
 void check_output_path(const std::filesystem::path& path, std::string_view option);
 
-/// Makes a folder for several files at `path` unless there is one. Throws core::InputError unless files can be made in it.
+/// Makes a folder for several files at `path` unless it exists. Throws core::InputError unless files can be made in it.
 void make_output_folder(const std::filesystem::path& path, std::string_view option);
 
-/// Whether something is at `path` that is no ordinary file: a pipe, a device, a folder.
+/// Whether `path` is not an ordinary file: a pipe, a device, a folder.
 bool is_special(const std::filesystem::path& path);
 
-/// Whether writing to `path` would write to what the standard output is, as /dev/stdout does.
+/// Whether `path` is the standard output, as /dev/stdout is.
 bool is_standard_output(const std::filesystem::path& path);
 
-/// Throws core::InputError, naming `what`, unless all that was written to the standard output, `output`, has arrived.
+/// Throws core::InputError, naming `what`, unless all data for the standard output, `output`, have been written.
 void finish_output(std::ostream& output, std::string_view what);
 
-/// What a file is called before it is whole.
+/// Choice of the temporary name.
 enum class TemporaryName : std::uint8_t {
   random,    ///< any number of processes on any number of computers may write the same target
-  of_target  ///< always the same, for a target that one process at a time has: of those that are killed one file is left at most
+  of_target  ///< always the same, for a target that one process at a time has: killed processes leave one file at most
 };
 
-/// Whether a file that was committed is there after a loss of power.
+/// Whether a committed file survives a loss of power.
 enum class Durability : std::uint8_t { on_disk, until_power_loss };
 
-/// What gives way to a file that is committed.
+/// What a committed file replaces.
 enum class Replaces : std::uint8_t {
   what_it_names,  ///< the file behind symbolic links; a device or a pipe is written to
-  name            ///< whatever has the name, a link or a pipe itself: for folders that others may write
+  name            ///< whatever has the name, a link or a pipe itself: for folders where others may write
 };
 
 /// `.dmpc-WHO-NAME` beside `target`: hidden.
 std::filesystem::path hidden_name(const std::filesystem::path& target, const std::string& who);
-/// What `target`, which is no symbolic link, is called before it is whole, as TemporaryName::of_target says.
+/// The temporary name of `target`, which is no symbolic link, for TemporaryName::of_target.
 std::filesystem::path next_name(const std::filesystem::path& target);
 
-/// The file behind a chain of symbolic links, also if it is not there yet; `path` itself if there is none. Throws
-/// core::InputError if they lead round in a circle, or if the system does not let us follow them: links of others in a folder
-/// where all may write.
+/// The file behind a chain of symbolic links, even if it does not exist yet; `path` itself if it is no link. Throws
+/// core::InputError if the links form a cycle, or if the system does not let us follow them: links of others in a folder where
+/// all may write.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
-/// One output under way. Whatever ends its life before commit() removes the temporary file, an Interrupt's end at once included.
+/// One output in progress. If its life ends before commit(), the temporary file is removed, also by an Interrupt's immediate end.
 /// Not thread-safe.
 class OutputFile {
  public:
@@ -87,26 +87,26 @@ class OutputFile {
     TemporaryName name = TemporaryName::random;
     Durability durability = Durability::on_disk;
     Replaces replaces = Replaces::what_it_names;
-    std::string option = {};  ///< that gave the target, for messages
+    std::string option = {};  ///< option that gave the target, for messages
   };
 
-  /// Makes a new file with a hidden name in the target's folder: no file that is there, and no link, is ever opened. If the
-  /// target exists and is no ordinary file (/dev/stdout, a pipe), which cannot be renamed over, it is written itself. A symbolic
-  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. `settings.replaces` may
-  /// ask that the name itself gets the file. Throws core::InputError if that fails. `files` outlives it.
+  /// Makes a new file with a hidden name in the target's folder: no existing file, and no link, is ever opened. If the target
+  /// exists and is no ordinary file (/dev/stdout, a pipe), which cannot be replaced by renaming, it is written directly. A
+  /// symbolic link is followed, so that the file behind it is replaced. The new file keeps the mode of the one that it replaces.
+  /// `settings.replaces` may demand that the name itself is replaced. Throws core::InputError if that fails. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// What is written goes to the file; whether it arrived is known after commit().
+  /// Data go to the file; errors are reported by commit().
   std::ostream& stream() { return *stream_; }
   /// Writes `text`. Throws core::InputError if that fails.
   void write(std::string_view text);
 
-  /// Gives the finished file its name, when it is on the disk, and waits until the name is, too. Throws core::InputError if that
-  /// fails.
+  /// Gives the finished file its name once it is on the disk, and waits until the name is on the disk, too. Throws
+  /// core::InputError if that fails.
   void commit();
 
  private:
@@ -114,7 +114,7 @@ class OutputFile {
   void open();
   void make(const std::filesystem::path& temporary);
   int close();
-  /// Leaves no file that was not finished.
+  /// Removes an unfinished file.
   void drop();
   void sync_folder() const;
   [[noreturn]] void fail(const std::string& what, int error) const;
@@ -129,7 +129,7 @@ class OutputFile {
   std::optional<RemovedAtOnce> removed_at_once_;
 };
 
-/// Writes `text` to `path`, whole or not at all. Throws core::InputError if that fails.
+/// Writes `text` to `path` atomically. Throws core::InputError if that fails.
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability = Durability::on_disk,
                 Files& files = real_files());
 

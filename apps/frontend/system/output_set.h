@@ -1,4 +1,4 @@
-// The files that a command leaves, each declared once: the option that names it, how it is tried, and what it holds.
+// The output files of a command, each declared once: the option that names it, its check, and its contents.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace dmpc::apps {
 
-/// Throws core::UsageError or core::InputError unless such a file can be made at the path; the option's name is for the message.
+/// Throws core::UsageError or core::InputError unless such a file can be made at the path; the message names the option.
 using OutputCheck = void (*)(const std::filesystem::path&, std::string_view);
 
 /// An output file's name, without its contents, by which a set is checked.
@@ -24,24 +24,23 @@ struct OutputName {
   OutputCheck check = check_output_path;
 };
 
-/// Throws core::UsageError or core::InputError unless all of them can be made, as far as can be known beforehand, and none falls
-/// on another or on an input.
+/// Throws core::UsageError or core::InputError unless all of them can be made, as far as can be known in advance, and none is the
+/// same file as another or an input.
 void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<OutputName>& outputs);
 
-/// Their names alone.
 std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs);
 
-/// Throws core::InputError, naming `what` was to go there and with `advice`, if the standard output takes nothing.
+/// Throws core::InputError, naming `what` was to be written and with `advice`, if the standard output does not accept data.
 void check_standard_output(const std::string& what, const std::string& advice);
 
-/// Throws ComputerCapacityError unless as many files can be open at a time as writing them takes.
+/// Throws ComputerCapacityError unless enough files can be open at a time to write them.
 void check_open_files();
 
 /// Files that are written from a Result. Not thread-safe.
 template <class Result>
 class OutputSet {
  public:
-  /// What the file holds; nothing if something else writes it.
+  /// Writes the file's contents; nothing if something else writes the file.
   using Write = std::function<void(const Result&, std::ostream&)>;
 
   void add(std::string option, std::filesystem::path path, OutputCheck check, Write write) {
@@ -51,7 +50,7 @@ class OutputSet {
 
   const std::vector<OutputName>& names() const { return names_; }
 
-  /// Writes them in the order in which they were added; what fails keeps none that follows from being written.
+  /// Writes the files in the order in which they were added; a failure does not prevent later ones.
   void write(const Result& result, Attempts& attempts, Files& files = real_files()) const {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (writes_[i]) {

@@ -1,4 +1,4 @@
-// How far a render is, on one line of a terminal.
+// The progress of a render, on one line of a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,26 +9,26 @@
 namespace dmpc::apps {
 
 /// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end; `unit` is what is counted. `done` <= `total`,
-/// `total` > 0, `seconds` >= 0 since the start. What cannot be known yet is left out: a time left is said from a second on, once
-/// a hundredth is done or ten seconds have passed.
+/// `total` > 0, `seconds` >= 0 since the start. Unknown values are left out: the time left is shown from a second on, once a
+/// hundredth is done or ten seconds have passed.
 std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds, const std::string& unit = "pixels");
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
 
-/// From now on no Progress is shown, in the whole process: for --quiet, before anything is done.
+/// Suppresses all Progress in this process: for --quiet, called first.
 void silence_progress();
 
-/// Rewrites its line at most ten times a second and takes it away in the end. Not thread-safe: one thread at a time.
+/// Rewrites its line at most ten times a second and removes it at the end. Not thread-safe: one thread at a time.
 class Progress {
  public:
-  /// Says nothing at all unless `shown`; else `label`, if there is one, at once and before every line. `output` outlives it.
+  /// Prints nothing unless `shown`; otherwise `label`, if there is one, at once and before every line. `output` outlives it.
   Progress(std::ostream& output, bool shown, std::string label = "", std::string unit = "pixels");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Less done than before: another stretch has begun, with a total and a rate of its own.
+  /// If less is done than before, a new stretch has begun, with a total and a rate of its own.
   void update(std::uint64_t done, std::uint64_t total);
   /// As above under another label, without a rate.
   void show(const std::string& label, std::uint64_t done, std::uint64_t total);
@@ -44,7 +44,7 @@ class Progress {
   std::string label_, unit_;
   std::uint64_t done_ = 0;
   Clock::time_point start_;
-  Clock::time_point next_;  ///< no rewriting before
+  Clock::time_point next_;  ///< earliest time for the next line
 };
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What the real computer has, and what else it does, while something is timed on it.
+// Cores and load of the real computer, for measurements.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 
 namespace dmpc::apps {
 
-/// Cores that are at work in the real computer; at least 1.
+/// Online cores of the real computer; at least 1.
 std::uint32_t core_count();
 
-/// The load of the last minute; 0 where the system does not say.
+/// The load average of the last minute; 0 where it is unknown.
 double machine_load();
 
 /// A sentence with the load `before` and the load now.

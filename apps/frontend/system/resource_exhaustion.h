@@ -1,4 +1,4 @@
-// What this computer has run out of, and what to do about it.
+// Errors for exhausted resources of this computer.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace dmpc::apps {
 
-/// The input would do on a computer that lets dmpc have more: memory, processes, threads, open files.
+/// A resource of this computer is exhausted: memory, processes, threads or open files. The input is valid.
 struct ComputerCapacityError : core::CapacityError {
   using core::CapacityError::CapacityError;
 };
 
-/// Throws ComputerCapacityError "WHAT: ..." if errno's value says that something has run out.
+/// Throws ComputerCapacityError "WHAT: ..." if errno's value means that a resource is exhausted.
 void throw_if_short(int error, const std::string& what);
 
-/// Throws it if a program that did not get ready says so; as the dynamic loader and libraries put it.
+/// Throws it if a program that did not get ready reports so, in the words of the dynamic loader and libraries.
 void throw_if_short(std::string_view complaint, const std::string& what);
 
 }  // namespace dmpc::apps

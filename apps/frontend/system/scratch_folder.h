@@ -1,4 +1,4 @@
-// A folder for files that nobody wants to keep.
+// A folder for temporary files.
 #pragma once
 
 #include <stdlib.h>
@@ -14,9 +14,8 @@
 
 namespace dmpc::apps {
 
-/// A process (/bin/sh) that waits for the end of this one, by whatever, a signal that cannot be caught included, and removes the
-/// folder then. An heir who is no more in the end removes nothing. Where none can be started there is none: it is for what
-/// nobody expects.
+/// A process (/bin/sh) that waits for the end of this one, even by SIGKILL, and then removes the folder. It removes nothing if it
+/// is ended first. If it cannot be started, the folder has none: it is for unexpected ends only.
 class FolderHeir {
  public:
   explicit FolderHeir(const std::filesystem::path& folder);
@@ -29,8 +28,8 @@ class FolderHeir {
   pid_t id_ = -1;
 };
 
-/// Made where the system keeps temporary files; gone with everything in it in the end, whatever ends the process. Throws
-/// core::InputError if none can be made.
+/// Made in the system's folder for temporary files; removed with its contents at the end, however the process ends. Throws
+/// core::InputError if it cannot be made.
 class ScratchFolder {
  public:
   ScratchFolder() {

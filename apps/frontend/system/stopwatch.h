@@ -1,4 +1,4 @@
-// Clocks, lap by lap.
+// Stopwatches, with lap times.
 #pragma once
 
 #include <time.h>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Wall clock. Runs from its making. Not thread-safe.
+/// Wall clock. Starts on construction. Not thread-safe.
 class Stopwatch {
  public:
   /// Seconds since the last call or the making.
@@ -21,10 +21,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time, which what others do on the machine meanwhile changes little. Runs from its making.
+/// Processor time, which other processes hardly influence. Starts on construction.
 class ProcessorStopwatch {
  public:
-  /// CLOCK_PROCESS_CPUTIME_ID: of all threads together; CLOCK_THREAD_CPUTIME_ID: of the one that makes and asks it.
+  /// CLOCK_PROCESS_CPUTIME_ID: all threads together; CLOCK_THREAD_CPUTIME_ID: the thread that makes and reads it.
   explicit ProcessorStopwatch(clockid_t clock) : clock_(clock), last_(seconds()) {}
 
   /// Seconds since the last call or the making.
@@ -44,13 +44,13 @@ class ProcessorStopwatch {
   double last_;
 };
 
-/// What something took.
+/// Measured times.
 struct Times {
   double wall_seconds = 0;
   double processor_seconds = 0;  ///< sum over all threads of the process
 };
 
-/// Both clocks at once. Runs from its making.
+/// Both clocks at once. Starts on construction.
 class DoubleStopwatch {
  public:
   Times lap() { return {wall_.lap(), processor_.lap()}; }

@@ -1,25 +1,25 @@
-// What a process needs around it before it opens anything.
+// Prepares the process before it opens files.
 #pragma once
 
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
-/// To be called first. What nobody reads or takes any more becomes an error of the write, where a signal would have ended the
-/// process with its files half written; and a standard stream that is closed is one that gives and takes nothing, since the next
-/// file opened would get its number, and what is said would go into that. Whatever libraries were loaded, the calling thread has
-/// the usual arithmetic. From folders that the environment names OpenImageIO loads no plugins.
+/// To be called first. Writing to a closed pipe becomes an error instead of a signal that would end the process with half-written
+/// files. A closed standard stream is replaced by an empty one, since otherwise the next opened file would get its number, and
+/// messages would be written into that file. The calling thread gets the default floating-point mode, whatever libraries were
+/// loaded. OpenImageIO does not load plugins from folders named by the environment.
 void settle_in();
 
-/// Thrown where it was the standard output that nobody reads any more.
+/// Thrown if the standard output has no reader any more.
 struct BrokenPipe : core::InputError {
   using InputError::InputError;
 };
 
-/// Whether the standard output is a pipe that nobody reads any more.
+/// Whether the standard output is a pipe without a reader.
 bool is_pipe_broken();
 
-/// Ends the process as the signal would have that settle_in() keeps away.
+/// Ends the process by the signal that settle_in() suppresses.
 [[noreturn]] void end_by_broken_pipe();
 
 }  // namespace dmpc::apps

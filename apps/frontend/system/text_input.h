@@ -1,4 +1,4 @@
-// Text from a file or a pipe, which may turn out to be neither.
+// Reads text from a file or a pipe.
 #pragma once
 
 #include <chrono>
@@ -12,18 +12,18 @@
 
 namespace dmpc::apps {
 
-/// How long a pipe may keep its reader waiting: for somebody to open its other end, and for the next byte.
+/// Timeouts of a pipe: for its other end to be opened, and for the next byte.
 struct PipeTimeout {
   std::chrono::milliseconds writer{1000}, byte{60'000};
 };
 
-/// Throws core::InputError, "PATH: ...": from the constructor, if there is no file, or if it is a device
-/// or a folder; from reading, if a pipe makes it wait too long, or gives more than the scene of it had room for in memory.
+/// Throws core::InputError, "PATH: ...": from the constructor, if there is no file, or if it is a device or a folder; from
+/// reading, if a pipe reaches a timeout, or gives more than there was memory for its scene.
 class TextInput final : private std::streambuf, public std::istream {
  public:
   explicit TextInput(const std::filesystem::path& path, const PipeTimeout& timeout = {});
 
-  /// The bytes of an ordinary file; nothing is known of a pipe.
+  /// The bytes of an ordinary file; nothing for a pipe.
   std::uint64_t file_bytes() const { return file_bytes_; }
 
  private:

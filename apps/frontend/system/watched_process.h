@@ -1,4 +1,4 @@
-// A program as a process of its own, whose memory is watched from outside.
+// Runs a program as a child process and observes its memory from outside.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,19 @@
 
 namespace dmpc::apps {
 
-/// What became of it.
 struct WatchedProcess {
   int status = 0;  ///< its exit status; below 0: the signal that ended it
-  /// The most anonymous memory (RssAnon of Linux) that it was seen to have; nothing if it ended before it was seen with any.
+  /// The largest anonymous memory (RssAnon of Linux) observed; nothing if it ended before any was observed.
   std::optional<std::size_t> peak_anonymous_bytes;
-  std::string complaint;  ///< what it wrote to stderr
+  std::string complaint;  ///< its output to stderr
 };
 
-/// Runs `program` with `arguments`, with nothing to read, to its end, and looks at its memory each millisecond. It does not get
-/// the terminal's Ctrl-C. Throws core::InputError if it cannot be started; Interrupted after a signal, when it has been ended
-/// too.
+/// Runs `program` with `arguments` and no input to its end, and samples its memory each millisecond. It does not get the
+/// terminal's Ctrl-C. Throws core::InputError if it cannot be started; Interrupted after a signal, once it has been ended, too.
 WatchedProcess watch_process(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                              const Interrupt& interrupt);
 
-/// The memory of such a process. Throws core::InputError if it ended otherwise than with status 0, or was never seen, too.
+/// The peak memory of such a process. Throws core::InputError also if its status is not 0, or no memory was observed.
 std::size_t peak_anonymous_bytes(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                                  const Interrupt& interrupt);
 

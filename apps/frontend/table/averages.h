@@ -10,7 +10,7 @@ namespace dmpc::apps {
 /// The geometric mean of numbers above 0; nothing if there are none.
 std::optional<double> geometric_mean(std::span<const double> numbers);
 
-/// The middle one, or the mean of the two in the middle. Requires some.
+/// The middle number, or the mean of the two in the middle. Requires at least one.
 double median(std::vector<double> numbers);
 
 }  // namespace dmpc::apps

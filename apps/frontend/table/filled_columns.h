@@ -1,4 +1,4 @@
-// Columns that say what stands in them, so that the head of a table and its rows are told once.
+// Columns that define their cells, so that the head of a table and its rows are declared once.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// A column, and what it has of a subject: a run, a result, one of many.
+/// A column, and its cell for a subject: a run, a result, or the like.
 template <class Subject>
 struct FilledColumn {
   Column column;
@@ -21,13 +21,13 @@ struct FilledColumn {
 template <class Subject>
 using FilledColumns = std::vector<FilledColumn<Subject>>;
 
-/// Nothing for nothing.
+/// An empty cell for nothing.
 template <class Value>
 Cell cell_of(const std::optional<Value>& value) {
   return value ? Cell(*value) : Cell();
 }
 
-/// What `cell` has of the subjects that are `meant`; nothing of the others.
+/// A cell by `cell` for subjects that are `meant`; empty for others.
 template <class Meant, class Fill>
 auto only_if(Meant meant, Fill cell) {
   return [meant, cell](const auto& subject) { return meant(subject) ? Cell(cell(subject)) : Cell(); };

@@ -1,4 +1,4 @@
-// Sizes to try where any could be tried.
+// Geometric sequences of sizes to try.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,7 @@
 
 namespace dmpc::apps {
 
-/// At most `count` sizes from 1 to `most`, each about the same times the one before, without repetition. Requires count >= 2;
-/// nothing if `most` is 0.
+/// At most `count` distinct sizes from 1 to `most`, with a nearly constant ratio. Requires count >= 2; empty if `most` is 0.
 std::vector<std::uint32_t> geometric_sizes(std::uint32_t most, std::uint32_t count);
 
 }  // namespace dmpc::apps

@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// Calls visit(round, index) for every index below `count` before the next round, so that a busy minute of the machine hits all
-/// indices alike and not the last ones.
+/// Calls visit(round, index) for every index below `count` before the next round, so that a temporary load on the machine affects
+/// all indices alike.
 template <class Visit>
 void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
   for (std::size_t round = 0; round < rounds; ++round) {
@@ -18,7 +18,7 @@ void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
   }
 }
 
-/// Goes round by round with visit(index), and shows how many there have been.
+/// Calls visit(index) round by round, and shows the number of rounds done.
 template <class Visit>
 void round_by_round(std::size_t rounds, std::size_t count, Progress& progress, const Visit& visit) {
   round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {

@@ -1,4 +1,4 @@
-// A table's rows, shown one by one while the others are still awaited.
+// Shows a table's rows one by one while others are still computed.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace dmpc::apps {
 
-/// Whether somebody waits at a terminal for a table to be read there.
+/// Whether a user waits at a terminal for a table that is printed there.
 bool shows_rows(const TableOutput& output, bool quiet);
 
 /// Shows each row once. Not thread-safe.
 class ShownRows {
  public:
-  /// Says nothing at all unless `is_shown`. `messages` outlives it.
+  /// Prints nothing unless `is_shown`. `messages` outlives it.
   ShownRows(bool is_shown, std::ostream& messages) : is_shown_(is_shown), messages_(messages) {}
 
   bool is_shown() const { return is_shown_; }
 
-  /// Writes the table's rows that were not shown before, each as a line over the line of progress, which is written anew below
-  /// it. Rows are the same that have the same texts in their first `key_count` cells.
+  /// Writes the table's new rows, each as a line above the progress line, which is rewritten below them. Rows are the same if
+  /// their first `key_count` cells have the same texts.
   void show(const Table& table, std::size_t key_count = std::numeric_limits<std::size_t>::max());
 
  private:

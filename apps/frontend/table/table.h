@@ -1,4 +1,4 @@
-// What a study finds: rows of figures under named columns, written as Markdown, CSV or JSON.
+// A table of results: rows under named columns, written as Markdown, CSV or JSON.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 
 namespace dmpc::apps {
 
-/// What stands in one place of a table: nothing, a text, a whole number, or a finite real one.
+/// A cell's value: nothing, a text, an integer, or a finite real number.
 using Cell = std::variant<std::monostate, std::string, std::uint64_t, double>;
 
 struct Column {
-  std::string name;  ///< in words, unlike any other column's: "average load"
-  std::string unit;  ///< "%", "bytes"; empty for mere numbers and texts
-  int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all there are
+  std::string name;  ///< in words, unique within the table: "average load"
+  std::string unit;  ///< "%", "bytes"; empty for dimensionless numbers and texts
+  int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all digits
   /// For a first column of texts: in Markdown, rows with the same text form a table of their own below it.
   bool is_heading = false;
 };
 
-/// "average load (%)": how CSV and Markdown call it.
+/// Heading in CSV and Markdown: "average load (%)".
 std::string header_of(const Column& column);
 
 enum class TableFormat : std::uint8_t { markdown, csv, json, json_lines };
@@ -32,14 +32,14 @@ enum class TableFormat : std::uint8_t { markdown, csv, json, json_lines };
 /// Every row has a cell for each column. Not thread-safe.
 class Table {
  public:
-  /// Requires columns whose names differ.
+  /// Requires distinct column names.
   Table(std::string title, std::vector<Column> columns);
 
-  /// Expects as many cells as columns, and real numbers that are finite.
+  /// Requires as many cells as columns, and finite real numbers.
   void add_row(std::vector<Cell> row);
-  /// `told` hears of the table after each row that is added from now on.
+  /// `reported` is called with the table after each row that is added from now on.
   void set_listener(std::function<void(const Table&)> reported) { reported_ = std::move(reported); }
-  /// A sentence to stand under the table.
+  /// Adds a sentence below the table.
   void add_note(std::string note) { notes_.push_back(std::move(note)); }
 
   const std::string& title() const { return title_; }
@@ -55,23 +55,23 @@ class Table {
   std::function<void(const Table&)> reported_;
 };
 
-/// Letters in a line of a terminal, and of a page to be read.
+/// Line width in letters, for a terminal and for a page.
 inline constexpr std::size_t markdown_width_max = 120;
 
-/// A row's cells as Markdown has them.
+/// A row's cells in Markdown.
 std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
 
-/// Nothing where it has none.
+/// Nothing if it is not a number.
 std::optional<double> number_of(const Cell& cell);
-/// Where the column with this name stands. Expects one.
+/// Index of the column with this name. Requires that it exists.
 std::size_t number_of_column(const Table& table, std::string_view name);
-/// The number in the column with this name; nothing where there is none, or the row has no number there.
+/// The number in the column with this name; nothing if there is no such column, or the cell has no number.
 std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column);
 
-/// The names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
+/// Names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
 std::string row_text(const Table& table, const std::vector<Cell>& row);
 
-/// A text as a cell of CSV: in quotes where it has to be (RFC 4180).
+/// Quotes a text for CSV where needed (RFC 4180).
 std::string csv_text(const std::string& text);
 
 /// The whole table with a line end.

@@ -1,5 +1,5 @@
-// What a command leaves that prints a table: the table, a page with it, and pictures of it in a folder. Tried before the command
-// begins, and written one by one, the table first.
+// The outputs of a command that prints a table: the table, a page with it, and plots in a folder. They are checked before the
+// command begins, and written one by one, the table first.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +21,13 @@
 
 namespace dmpc::apps {
 
-/// Writes to one folder, and complains to `complaints`, which outlives it, of pictures that are not drawn, each complaint once: a
-/// picture is an extra.
+/// Writes plots to one folder. Plots that cannot be drawn are reported to `complaints`, which outlives this, each reason once:
+/// plots are optional.
 class PlotFolder {
  public:
   PlotFolder(std::filesystem::path folder, std::ostream& complaints) : folder_(std::move(folder)), complaints_(complaints) {}
 
-  /// Writes the table as CSV to `data_file`, and draws the plots of it if that is there: each file is one of the
-  /// attempts.
+  /// Writes the table as CSV to `data_file`, and then draws its plots: each file is one of the attempts.
   void add(const Table& table, const std::string& data_file, std::span<const Plot> plots, Attempts& attempts);
 
  private:
@@ -39,28 +38,28 @@ class PlotFolder {
   std::set<std::string> reported_;
 };
 
-/// What will lie in the folder of pictures: a table as CSV, and what is drawn from it.
+/// The files in the folder of plots: a table as CSV, and its plots.
 struct PlottedNames {
   std::string data_file;
   std::vector<std::string> plots;  ///< without an extension
 };
 PlottedNames names_of(const std::string& data_file, const std::vector<Plot>& plots);
 
-/// A table with its pictures.
+/// A table with its plots.
 struct PlottedTable {
   Table table;
   std::string data_file;
   std::vector<Plot> plots;
 };
 
-/// What there is to write in the end. The functions are called only if what they make is asked for.
+/// The results to write. The functions are called only if their output is asked for.
 struct TableResult {
-  std::string text;  ///< the table in the format asked for, perhaps several
+  std::string text;  ///< the table in the format asked for; may be several tables
   std::function<std::string()> page = {};
   std::function<std::vector<PlottedTable>()> plotted = {};
 };
 
-/// Files of a command that are none of its table's.
+/// A command's other files.
 struct OtherFiles {
   std::vector<NamedFile> inputs = {};
   std::vector<NamedFile> outputs = {};
@@ -69,15 +68,15 @@ struct OtherFiles {
 /// Not thread-safe.
 class TableFiles {
  public:
-  /// Makes the folder of pictures. Throws core::UsageError if an output falls on an input or on another output, core::InputError
-  /// if one cannot be made, as far as can be known beforehand, the standard output included.
+  /// Makes the folder of plots. Throws core::UsageError if an output is the same file as an input or another output,
+  /// core::InputError if one cannot be made, as far as can be known in advance, including the standard output.
   TableFiles(const TableOutput& asked, const std::vector<PlottedNames>& plotted, const OtherFiles& others = {});
 
-  /// All outputs, the others included: none of them may be a file that a scene is read from.
+  /// All outputs, including other files: none may be a file that a scene is read from.
   const std::vector<NamedFile>& names() const { return names_; }
 
-  /// Writes the table to its file (whole or not at all) or to `output`, then the page, then the pictures; what fails keeps none
-  /// that follows from being written. What could not be drawn is told to `complaints`: a picture is an extra.
+  /// Writes the table to its file (atomically) or to `output`, then the page, then the plots; a failure does not prevent later
+  /// ones. Plots that cannot be drawn are reported to `complaints`: plots are optional.
   void write(const TableResult& result, std::ostream& output, std::ostream& complaints, Attempts& attempts) const;
 
  private:

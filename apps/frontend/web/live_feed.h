@@ -1,4 +1,4 @@
-// What viewers are told while something goes on, each as fast as it listens.
+// Events for viewers during a run, each at the rate at which it reads.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,9 @@
 
 namespace dmpc::apps {
 
-/// Places, each with the newest event of its kind: a viewer gets what has changed since it last looked, so a slow one misses
-/// events and never the newest, one that comes late gets all there is, and nobody waits for a viewer. Takes one event a place,
-/// however many viewers there are, and of each viewer a number a place.
+/// Each slot has the newest event of its kind. A viewer gets the slots that have changed since its last look: a slow one misses
+/// events but never the newest, a late one gets the current state, and nobody waits for a viewer. Memory: one event per slot for
+/// all viewers, and a number per slot and viewer.
 ///
 /// Thread safety: any thread; follow() on each viewer's own.
 class LiveFeed {
@@ -31,18 +31,18 @@ class LiveFeed {
 
   /// An event as EventSource takes it (WHATWG, "Server-sent events"); `data` is one line.
   void put(std::size_t place, std::string_view name, std::string_view data);
-  /// What is new goes out, then this event, and nothing more. Only the first call counts.
+  /// Sends all changes, then this event, and nothing more. Only the first call counts.
   void close(std::string_view name, std::string_view data);
 
   /// A seat for a viewer, held as long as it views; nullptr if all `seats` are taken. It does not outlive the feed.
   std::shared_ptr<const void> take_seat(std::size_t seats);
   std::size_t seats_taken() const { return taken_.load(std::memory_order_relaxed); }
-  /// Sends until the feed is closed or the viewer gone.
+  /// Sends until the feed is closed or the viewer has gone.
   void follow(WebStream& viewer);
 
   /// 0.8 MB a second.
   static constexpr std::size_t bytes_usual = 200'000;
-  /// What viewers are told more often than that they learn later.
+  /// Minimum time between two events of a slot for a viewer.
   static constexpr std::chrono::milliseconds interval_usual{250};
 
  private:
@@ -52,8 +52,8 @@ class LiveFeed {
     std::uint64_t version = 0;
   };
   struct Viewer {
-    std::vector<std::uint64_t> seen;  ///< versions, by place
-    std::size_t next = 0;             ///< place at which to look first, so that each has its turn
+    std::vector<std::uint64_t> seen;  ///< versions, by slot
+    std::size_t next = 0;             ///< slot to check first, so that each has its turn
   };
 
   std::vector<Event> news(Viewer& viewer) const;
@@ -62,11 +62,11 @@ class LiveFeed {
   std::size_t important_, bytes_at_once_;
   std::chrono::milliseconds interval_;
   std::atomic<std::size_t> taken_ = 0;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::condition_variable closed_;
   std::vector<Place> places_;
   std::uint64_t version_ = 0;
-  Event last_;  ///< when it is closed
+  Event last_;  ///< sent when it is closed
 };
 
 }  // namespace dmpc::apps

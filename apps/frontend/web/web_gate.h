@@ -1,4 +1,4 @@
-// Who may look: only pages that come from this server, and who knows a secret that stands in the address.
+// Access control: only pages from this server, and clients that know the secret in the address.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,19 @@ namespace dmpc::apps {
 /// 128 random bits, as hexadecimal digits.
 std::string random_token();
 
-/// Other programs of this computer and other pages of a browser can send requests to any port, hence: the token in the path,
-/// since streams of events have no headers of ours; the header Host names this server, or another name leads here (DNS
-/// rebinding); the header Origin, if there is one, is this server's; a browser that says where a request comes from says from
-/// here, or from nobody.
+/// Other programs on this computer and other pages in a browser can send requests to any port. Therefore a request needs: the
+/// token in the path, since event streams cannot have custom headers; the header Host with this server's name, against DNS
+/// rebinding; the header Origin, if present, with this server's; and Sec-Fetch-Site, if present, with this server or none.
 class WebGate {
  public:
   WebGate(std::string token, std::uint16_t port) : token_(std::move(token)), port_(std::to_string(port)) {}
 
-  /// Where the page is.
+  /// The page's address.
   std::string address() const { return "http://127.0.0.1:" + port_ + "/" + token_ + "/"; }
-  /// 0 if the request, a GET or a POST that brings JSON, may be answered; else the status by which it is refused. No page of
-  /// another site can send JSON without asking first, which nobody answers.
+  /// 0 if the request, a GET or a POST with JSON, may be answered; else the status of the refusal. A page of another site cannot
+  /// send JSON without a preflight request, which is not answered.
   int refusal(const WebRequest& request) const;
-  /// What stands behind the token. Requires a request that is not refused.
+  /// The path behind the token. Requires a request that is not refused.
   std::string place_of(const WebRequest& request) const { return request.path.substr(token_.size() + 2); }
 
  private:

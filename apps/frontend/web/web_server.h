@@ -1,4 +1,4 @@
-// A server of web pages on this computer alone, without a word of the library that is one: the module dmpc_http.so.
+// A web server for this computer alone. This interface is independent of the library behind it: the module dmpc_http.so.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 
 namespace dmpc::apps {
 
-/// As far as somebody looks at it. Headers that are not there are empty.
+/// The parts of a request that are used. Missing headers are empty.
 struct WebRequest {
   std::string method, path;
   std::string host, origin, fetch_site;  ///< headers Host, Origin and Sec-Fetch-Site
-  bool brings_json = false;              ///< a POST whose type is application/json, of at most 4 KiB, as it says beforehand
-  std::string json = {};                 ///< what it brings; whatever else brings something is not listened to
+  bool brings_json = false;              ///< a POST of type application/json with a declared length of at most 4 KiB
+  std::string json = {};                 ///< its body; other bodies are ignored
 };
 
-/// Where an answer goes that has no end yet.
+/// An answer of unlimited length.
 class WebStream {
  public:
   virtual ~WebStream() = default;
-  /// False if nobody listens any more: gone, deaf for a second, or the server ends.
+  /// Returns false if the client has gone, has not read for a second, or the server ends.
   virtual bool send(std::string_view bytes) = 0;
 };
 
@@ -35,21 +35,21 @@ struct WebAnswer {
   std::string type = "text/plain; charset=utf-8";
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers = {};
-  /// In place of `body`: called on a thread of the server, until it returns or throws.
+  /// Instead of `body`: called on a thread of the server, until it returns or throws.
   std::function<void(WebStream&)> stream = {};
 };
 
 struct WebOptions {
-  std::uint16_t port = 0;   ///< 0: any that is free
-  std::size_t threads = 8;  ///< a stream holds one as long as it lasts
+  std::uint16_t port = 0;   ///< 0: any free one
+  std::size_t threads = 8;  ///< a stream occupies one as long as it lasts
   /// Called by several threads at a time.
   std::function<WebAnswer(const WebRequest&)> answer;
 };
 
-/// Answers on threads of its own, on 127.0.0.1, one request a connection. Each connection takes a thread's stack, a request of
-/// at most 32 KiB, and what the system buffers; as many again as there are threads wait at most for one, and who comes then is
-/// told to come later. Whoever does not say what he wants within two seconds, takes nothing for one or less than 16 KiB a second
-/// is left alone. Its end waits for answers that have begun, for two seconds at most; streams end at once.
+/// Answers requests on its own threads, on 127.0.0.1, one request per connection. Each connection uses a thread's stack, a
+/// request of at most 32 KiB, and the system's buffers; at most as many again as there are threads wait for one, and further
+/// clients are asked to come later. A client that does not send its request within two seconds, does not read for one, or reads
+/// less than 16 KiB a second is disconnected. Its end waits two seconds at most for answers in progress; streams end at once.
 class WebServer {
  public:
   virtual ~WebServer() = default;
@@ -58,7 +58,7 @@ class WebServer {
 
 /// The module's interface.
 struct WebLibrary {
-  /// nullptr, and errno, if the port cannot be had.
+  /// nullptr, with errno set, if the port is not available.
   std::unique_ptr<WebServer> (*listen)(const WebOptions& options);
 };
 

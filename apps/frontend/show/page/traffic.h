@@ -1,4 +1,4 @@
-// What was sent between nodes: by kind of packet, and over the links of a modelled machine.
+// Traffic between nodes: by kind of packet, and over the links of a modelled machine.
 #pragma once
 
 #include <span>
@@ -13,25 +13,25 @@
 
 namespace dmpc::apps::html {
 
-/// What was sent of a kind of packet.
+/// Traffic of a kind of packet.
 struct PacketKindTraffic {
   std::string kind;  ///< its name in words
   nodes::Traffic sent;
 };
 
-/// A row for each kind that was sent.
+/// A row for each kind with traffic.
 Table packet_table(std::span<const PacketKindTraffic> packets);
 
-/// A row for each rank: its nodes, what is set aside beside their memories, and what went between it and others.
+/// A row for each rank: its nodes, its memory beside theirs, and its traffic with other ranks.
 Table rank_table(std::span<const nodes::RankFigures> ranks);
 
 /// A row for each of the busiest links of a modelled machine.
 Table link_table(const nodes::VirtualReport& report);
 Plot link_plot();
 
-/// How much was sent, what most of it was and, on a modelled machine, how busy its busiest link. `report` may be null.
+/// The amount of traffic, its largest kind and, on a modelled machine, the load of the busiest link. `report` may be null.
 std::string traffic_conclusion(std::span<const PacketKindTraffic> packets, const nodes::VirtualReport* report);
-/// How far messages went.
+/// Distances of messages.
 std::string way_text(const nodes::LinkTraffic& links);
 
 }  // namespace dmpc::apps::html

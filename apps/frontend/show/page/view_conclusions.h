@@ -1,5 +1,4 @@
-// What was seen of a run beyond its counters, in a sentence or two for each section of its page, empty where there is nothing to
-// say.
+// Conclusions from a run's recorded data beyond its counters: a sentence or two for each section of its page, or nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace dmpc::apps::html {
 
-/// Names the largest of the waits, too, if they have names.
+/// Names the largest wait, too, if waits have names.
 std::string time_conclusion(const nodes::ActivitySteps& steps, std::span<const std::string> wait_names = {});
 std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& fetches);
 std::string fetch_conclusion(const svm::Fetches& fetches);

@@ -1,4 +1,4 @@
-// What was seen of a run beyond its counters, as tables, pictures and plots.
+// A run's recorded data beyond its counters, as tables, pictures and plots.
 #pragma once
 
 #include <cstdint>
@@ -13,34 +13,33 @@
 
 namespace dmpc::apps::html {
 
-/// A row for each step of time: what all nodes but the host were busy with, in percent of their time. Kinds of work have these
-/// names; there are no others. Likewise what they waited for, if waits have names: those of which there are any.
+/// A row for each time step: the activities of all nodes except the host, in percent of their time. `work_names` are the kinds of
+/// work. Likewise for waits, if they have names, without those that do not occur.
 Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
                  std::span<const std::string> wait_names = {});
 Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
                std::span<const std::string> wait_names = {});
-/// A row for each node but the host, a column for each step: its share of the time in which it was busy.
+/// A row for each node except the host, a column for each step: its share of busy time.
 NumberMap step_map(const nodes::ActivitySteps& steps);
 
-/// `counts`: from each node, a row, to each, a column.
+/// `counts`: rows are senders, columns receivers.
 NumberMap pair_map(std::span<const std::uint64_t> counts, const std::string& title, const std::string& row_label,
                    const std::string& column_label, const std::string& value_label);
 
-/// Fetches as long as half of all, as one of twenty and as one of a hundred, and all of them on average: each with its parts,
-/// which add up to the whole.
+/// The median, 95th and 99th percentile and the mean of fetch times, each with its parts, which add up to the whole.
 Table fetch_table(const svm::Fetches& fetches);
 Plot fetch_plot(const svm::Fetches& fetches);
-/// Each part by itself: its mean, median, and so on.
+/// Statistics of each part: its mean, median, and so on.
 Table fetch_part_table(const svm::Fetches& fetches);
 
-/// The pages that were fetched most.
+/// The hottest pages.
 Table page_table(const svm::Fetches& fetches);
-/// How large a share of the fetches the hottest pages have, for ever more of them.
+/// The share of fetches of the hottest pages, for increasing numbers of pages.
 Table page_share_table(const svm::Fetches& fetches);
 Plot page_share_plot();
 
-/// Estimated misses for caches of every size of which the sample tells something, up to all `page_count` pages, with those of the
-/// run itself, in percent of its `references`.
+/// Estimated misses for all cache sizes that the sample covers, up to `page_count` pages, and the misses of the run itself, in
+/// percent of its `references`.
 Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::uint64_t references, std::uint32_t cache_pages,
                  std::uint64_t faults);
 Plot miss_plot();

@@ -1,4 +1,4 @@
-// Styles and scripts that are built into a page: the sources beside this one, as they are.
+// Styles and scripts that are built into a page: the source files in this folder, unchanged.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace dmpc::apps::html {
 
-/// A style or a script. CMake makes it of files (web_part() in apps/CMakeLists.txt).
+/// A style or a script. CMake generates it from files (web_part() in apps/CMakeLists.txt).
 struct WebPart {
   const char* text;
   const char* sha256;  ///< the text's digest: 64 hexadecimal digits
@@ -15,8 +15,8 @@ struct WebPart {
 extern const WebPart page_style;   ///< page.css
 extern const WebPart save_script;  ///< save.js
 
-/// The content of the policy's meta element: these styles and scripts, as they are to the last byte, pictures within the page,
-/// and nothing else (W3C, "Content Security Policy Level 3").
+/// The content of the policy's meta element: it allows exactly these styles and scripts, by digest, pictures within the page, and
+/// nothing else (W3C, "Content Security Policy Level 3").
 std::string policy_of(std::span<const WebPart> styles, std::span<const WebPart> scripts);
 
 }  // namespace dmpc::apps::html

@@ -1,4 +1,4 @@
-// Page references as a CSV file: what render --references writes, and what other programs have recorded.
+// Page references as a CSV file, from render --references or from other programs.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,30 @@
 
 namespace dmpc::apps {
 
-/// Who referenced what, in order.
+/// References by node, in order.
 struct ReferenceTrace {
-  std::vector<std::vector<svm::PageId>> nodes;  ///< by node; of one page in a row the first
+  std::vector<std::vector<svm::PageId>> nodes;  ///< by node; consecutive references to one page count once
   std::uint64_t reference_count = 0;            ///< including those left out
   std::uint32_t page_count = 0;                 ///< different pages, numbered from 0 on
 };
 
-/// One line for what the columns are, one for each reference: the node, the number of the reference of this node's, the page, and
-/// how many bytes it has.
+/// A header line, and a line for each reference: the node, the reference's number on this node, the page, and its number of
+/// bytes.
 void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>& logs, std::size_t page_bytes);
 
-/// What columns are called.
+/// Names of columns.
 struct ReferenceColumns {
   std::string page = "page";
-  std::optional<std::string> node;  ///< must be there; nothing: "node", or all are node 0's
+  std::optional<std::string> node;  ///< must exist; nothing: "node", or all references are node 0's
 };
 
-/// Reads a file or a pipe, or, as "-", the standard input, if that is one of them, with a column of pages, and perhaps one of
-/// nodes; others are passed over. Pages are whole numbers below 2^64, whatever they mean. Throws core::InputError naming the
-/// line, core::CapacityError for more than 2^32 - 2 references.
-/// What is packed by gzip goes through `unpack`, if there is one, and is refused else.
+/// Reads a file or a pipe, or, as "-", the standard input if it is one of these, with a column of pages and an optional one of
+/// nodes; other columns are ignored. Pages are any integers below 2^64. Throws core::InputError naming the line,
+/// core::CapacityError for more than 2^32 - 2 references. Gzip files are read through `unpack`; without it they are refused.
 using UnpackText = std::function<std::unique_ptr<std::istream>(std::istream&)>;
 ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns = {},
                                const UnpackText& unpack = {});
-/// Reads text that is called `name` in messages.
+/// Reads text; messages call it `name`.
 ReferenceTrace read_references(std::istream& input, const std::string& name, const ReferenceColumns& columns = {});
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Counters as JSON, by their rows, and what is known of each rank.
+// Counters as JSON, by their rows, and figures of each rank.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace dmpc::apps {
 /// Null where nodes are in one process. `is_observed`: the ranks' clocks were compared.
 nlohmann::ordered_json ranks_json(std::span<const nodes::RankFigures> ranks, bool is_observed);
 
-/// A name as keys have it.
+/// Converts a name to a key.
 inline std::string key_of(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
   return name;
 }
 
-/// All of `rows` by key.
+/// Values of all `rows`, by key.
 template <class T, std::size_t count>
 nlohmann::ordered_json json_of(const T& counters, const std::array<Counter<T>, count>& rows) {
   nlohmann::ordered_json all;

@@ -1,4 +1,4 @@
-// The order of what happens at one time, for readers that take events as they come.
+// The order of simultaneous events, for readers that take events in file order.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace dmpc::apps {
 
-/// What is said at a time; in the order in which it goes at one time in one call of one node.
+/// Kinds of events, in the order in which they happen at one time in one call of one node.
 enum class TraceMoment : std::uint8_t { span_end, received, span_begin, sent, wait_begin, wait_end, level };
 
 struct TraceItem {
@@ -17,8 +17,8 @@ struct TraceItem {
   std::uint32_t index = 0;  ///< index of the node's span or level, the message or the wait
 };
 
-/// Moves the beginning of each message before its end. Requires items in order of time, those of one time in order of node, and
-/// no message that is received before it is sent; each node's stay in their order.
+/// Moves the beginning of each message before its end. Requires items ordered by time, then by node, and no message that is
+/// received before it is sent; the order within each node stays.
 void order_causally(std::span<TraceItem> items);
 
 }  // namespace dmpc::apps

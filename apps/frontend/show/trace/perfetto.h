@@ -9,7 +9,8 @@
 
 namespace dmpc::apps {
 
-/// Throws core::UsageError for a file whose ending is another than .pftrace; where it is another format's it says what converts.
+/// Throws core::UsageError for a file whose extension is not .pftrace; for another format's extension the message names a
+/// converter.
 void check_trace_path(const std::filesystem::path& path);
 
 /// Each node is a process with a thread. Its slices are the node's activities; instants joined by flows are the two ends of a

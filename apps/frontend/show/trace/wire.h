@@ -1,5 +1,4 @@
-// Messages in the wire format of Protocol Buffers (Google, "Encoding"): fields, each with its number and how its value is
-// written.
+// Messages in the wire format of Protocol Buffers (Google, "Encoding"): fields with number and type of encoding.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +7,10 @@
 
 namespace dmpc::apps {
 
-/// One message, field by field, in any order. Equal fields, equal bytes.
+/// One message, field by field, in any order. Equal fields give equal bytes.
 class WireMessage {
  public:
-  /// Whole numbers that are not negative, truths and choices: seven bits a byte.
+  /// Unsigned integers, booleans and enumerations, as varints.
   void put(std::uint32_t field, std::uint64_t value);
   /// A number of type fixed64.
   void put_fixed(std::uint32_t field, std::uint64_t value);
