@@ -40,7 +40,7 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
   with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
 }
 
-/// A program's own error of usage as one of ours, which rank 0 tells the others.
+/// Converts a program's own usage error to ours, which rank 0 sends to the others.
 int with_usage_reported(const std::function<int()>& act) {
   try {
     return act();

@@ -30,7 +30,7 @@ class ProgramPlan {
   std::optional<Index> answer_of(Index packet) const { return answers_[packet]; }
   std::optional<Index> request_of(Index packet) const { return requests_[packet]; }
   bool is_small(Index packet) const { return needs_.packets[packet].bytes_max <= small_bytes_max; }
-  /// How many of them `source` may have under way to `target`; fewer than there is room for under chaos.
+  /// How many of them `source` may have under way to `target`; fewer than there are slots for under chaos.
   std::uint32_t credits(std::uint32_t source, std::uint32_t target, Index packet) const;
 
   /// The longest payload of all packets.

@@ -18,7 +18,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// So many seconds a call may take before it is told.
+/// Seconds after which a running call is reported.
 constexpr std::uint32_t timeout_seconds = 10;
 /// A fault so far below a call comes of its stack.
 constexpr std::size_t stack_bytes_max = std::size_t{64} << 20U, stack_bytes_min = std::size_t{4} << 10U;

@@ -1,4 +1,4 @@
-// Calls of a program of somebody's own: whatever goes wrong in one of them is told with its node.
+// Calls of a user's program: any error in one of them is reported with its node.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* wh
   }
 }
 
-/// While it lives, an end that nothing throws is told with its node, too: a crash, which still is one, and a call of std::exit(),
+/// During its lifetime, an end without an exception is reported with its node, too: a crash, which still is one, and a call of std::exit(),
 /// which becomes an end with internal_status. One at a time. `name`: what stands before what is said.
 class ProgramEnds {
  public:

@@ -35,7 +35,7 @@ class ProgramObserver {
 
   /// For the run; nullptr if nobody looks on. Call it once.
   nodes::Observer* observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
-  /// What a run of tasks tells the watchers, on every rank; whoever wants to know nothing has no pointer there. What ranks saw is
+  /// Reports of a run of tasks to the observers, on every rank; absent observers have null pointers. What ranks saw is
   /// added up.
   svm::TaskWatching watching();
 

@@ -1,4 +1,4 @@
-// A reader's files, which it asks dmpc for.
+// Lets a reader process request files from dmpc.
 #pragma once
 
 #include "apps/foreign/mesh/scene_files.h"
@@ -6,7 +6,7 @@
 
 namespace dmpc::apps {
 
-/// dmpc has hung up: nobody wants to know any more.
+/// dmpc has closed the connection: the result is not wanted any more.
 struct HungUp {};
 
 class AskedFiles final : public SceneFiles {

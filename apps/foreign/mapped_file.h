@@ -1,4 +1,4 @@
-// A file's bytes, from where the system keeps them.
+// Maps a file's bytes into memory.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Throws std::bad_alloc if there is no room for them.
+/// Throws std::bad_alloc if there is no address space for them.
 std::unique_ptr<FileBytes> map_file(const Descriptor& file, std::uint64_t bytes);
 
 }  // namespace dmpc::apps

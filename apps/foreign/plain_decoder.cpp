@@ -124,7 +124,7 @@ std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, Pictu
     }
     auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
     return use != PictureUse::image || opened->is_without_alpha() ? std::move(opened) : nullptr;
-  } catch (const std::bad_alloc&) {  // OpenImageIO takes less, or says that there is no room
+  } catch (const std::bad_alloc&) {  // OpenImageIO takes less, or reports that memory is exhausted
     return nullptr;
   }
 }

@@ -1,4 +1,4 @@
-// What memory a mesh file takes, and how many triangles a database has room for.
+// The memory that a mesh file takes, and the maximum of triangles in a database.
 #pragma once
 
 #include <cstdint>

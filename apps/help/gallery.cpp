@@ -19,7 +19,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Puts `part` into `image`, its upper left pixel there. Requires room for all of it.
+/// Puts `part` into `image`, its upper left pixel there. Requires that it fits.
 void inset(Image& image, int left, int top, const Image& part) {
   core::expect(left >= 0 && top >= 0 && left + part.width <= image.width && top + part.height <= image.height,
                "a picture lies whole within another");

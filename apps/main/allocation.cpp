@@ -13,7 +13,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// nullptr if there is no room. Either is given back by free().
+/// nullptr if memory is exhausted. Both are released by free().
 void* block(std::size_t bytes) {
   if (bytes < core::large_page_bytes) {
     return std::malloc(bytes == 0 ? 1 : bytes);

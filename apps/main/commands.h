@@ -1,4 +1,4 @@
-// All that dmpc can be told to do: the renderer's commands and the laboratory's.
+// All commands of dmpc: the renderer's and the laboratory's.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// dmpc_lab: all that dmpc can be told to do. dmpc starts it.
+// dmpc_lab: all commands of dmpc, which starts it.
 
 #include "apps/main/allocation.h"
 #include "apps/main/commands.h"

@@ -1,4 +1,4 @@
-// dmpc: renders by itself, and hands on to the laboratory's program, which takes all commands, what it is told else.
+// dmpc: renders by itself, and passes other commands on to the laboratory's program, which knows all.
 
 #include <unistd.h>
 
@@ -34,7 +34,7 @@ Command parse_renderer_line(std::span<const std::string> arguments) {
   }
 }
 
-/// Help tells of all commands, and what is wrong may be meant for another.
+/// Help covers all commands, and a wrong line may be meant for another program.
 bool is_for_renderer(std::span<const std::string> arguments) {
   try {
     return !parse_command_line(declare_renderer, arguments).asks_for_help();
@@ -43,7 +43,7 @@ bool is_for_renderer(std::span<const std::string> arguments) {
   }
 }
 
-/// Returns if there is nothing to hand on, or nobody. What fails here fails again where it can be told.
+/// Returns if there is nothing to pass on, or no program. Errors here recur where they can be reported.
 void hand_on(int count, char** values) {
   try {
     if (!is_for_renderer(std::vector<std::string>(values + 1, values + count))) {

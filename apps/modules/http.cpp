@@ -43,7 +43,7 @@ constexpr std::size_t part_bytes = std::size_t{16} << 10U;
 /// Set for a connection that would have to wait behind too many others.
 thread_local bool is_one_too_many = false;
 
-/// Threads that answer, all started at once, so that who cannot have them is told before anything is served.
+/// Threads that answer, all started at once, so that a lack of threads is reported before anything is served.
 class Crew final : public httplib::TaskQueue {
  public:
   explicit Crew(std::size_t count) : waiting_max_(count) {

@@ -1,4 +1,4 @@
-// Spheres and cones against a ray in double precision: what the oracle tells Embree about shapes that Embree does not know.
+// Spheres and cones against a ray in double precision: the oracle's intersection functions for shapes that Embree does not have.
 #pragma once
 
 #include <array>

@@ -35,7 +35,7 @@ bool improves(Query& query, float t, std::uint32_t id) {
 const std::uint32_t* ids_of(void* user_data) { return static_cast<const std::uint32_t*>(user_data); }
 
 /// Called for each triangle that Embree found at or before the ray's present end, ties included. Also serves as the filter of
-/// occlusion queries, where the first acceptance ends the walk.
+/// occlusion queries, where the first acceptance ends the traversal.
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   const float t = RTCRayN_tfar(arguments->ray, arguments->N, 0);
   const std::uint32_t id = ids_of(arguments->geometryUserPtr)[RTCHitN_primID(arguments->hit, arguments->N, 0)];

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 struct ExrRows {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< names
-  /// Writes the numbers of pixels from the `first` on, as many as there is room for, those of each in the channels' order.
+  /// Writes the numbers of pixels from the `first` on, as many as fit, each pixel's in the channels' order.
   /// Several threads call it at once.
   std::function<void(std::size_t first, std::span<float> numbers)> take;
   std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts

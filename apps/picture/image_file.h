@@ -31,7 +31,7 @@ struct Image {
 /// A picture of which nobody holds all pixels.
 struct ImageRows {
   int width = 0, height = 0;
-  /// Writes three floats of linear radiance for each pixel from the `first` on, as many as there is room for. Several threads
+  /// Writes three floats of linear radiance for each pixel from the `first` on, as many as fit. Several threads
   /// call it at once.
   std::function<void(std::size_t first, std::span<float> rgb)> take;
   std::vector<std::pair<std::string, std::string>> remarks = {};  ///< as those of an image

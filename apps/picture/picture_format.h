@@ -1,4 +1,4 @@
-// Which pictures are read, told by what they begin with.
+// The picture formats that are read, recognized by their first bytes.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ struct PictureFile {
   Descriptor descriptor;
   std::uint64_t bytes = 0;
   std::string name;
-  std::string ending;  ///< "tga": tells what the content does not
+  std::string ending;  ///< "tga": for formats that the content does not identify
   bool is_new = true;  ///< its bytes have renewed no time yet
 };
 

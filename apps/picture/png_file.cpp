@@ -66,7 +66,7 @@ RawBytes filtered_rows(const PngRows& picture, std::uint32_t threads) {
 
 /// A file on its way into memory, and why it is not one.
 struct PngFile {
-  std::string bytes;  ///< with room for all that comes
+  std::string bytes;  ///< reserved for everything that follows
   std::array<char, 80> complaint{};
 };
 

@@ -12,7 +12,7 @@ namespace dmpc::apps {
 /// A picture of which nobody holds all bytes.
 struct PngRows {
   int width = 0, height = 0;
-  /// Writes three bytes for each pixel from the `first` on, as many as there is room for. Several threads call it at once.
+  /// Writes three bytes for each pixel from the `first` on, as many as fit. Several threads call it at once.
   std::function<void(std::size_t first, std::span<std::uint8_t> rgb)> take;
 };
 

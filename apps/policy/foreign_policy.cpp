@@ -96,7 +96,7 @@ std::uint64_t number_in(const std::string& line) {
   return std::stoull(line);
 }
 
-/// Whatever goes wrong with a policy is told with what names it.
+/// Every error of a policy is reported with its name.
 template <class Do>
 auto reported_of(const std::string& place, const Do& made) {
   try {
@@ -139,7 +139,7 @@ std::vector<std::uint64_t> ForeignPolicy::misses(std::span<const svm::PageId> re
   });
 }
 
-/// What is told comes by files in memory: neither side ever waits for the other to take it.
+/// Messages go through files in memory, so that neither side ever waits for the other to read them.
 std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> references,
                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
                                                 const std::function<void()>& check, const std::function<void()>& fed) const {

@@ -28,7 +28,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The call that is under way, where whoever tells of a crash finds it.
+/// The current call, for the report of a crash.
 struct UnderWay {
   const char* call = "";
   bool has_page = false;

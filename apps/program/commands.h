@@ -1,4 +1,4 @@
-// What dmpc can be told to do, declared row by row, and a command as a line asks for it.
+// The commands of dmpc, declared row by row, and a command as given on a line.
 #pragma once
 
 #include <any>

@@ -32,7 +32,7 @@ int complain(const std::string& message, int status) {
   return status;
 }
 
-/// As the standard library tells it, or oneTBB.
+/// As reported by the standard library, or oneTBB.
 bool is_lack_of_threads(const std::exception& error) {
   const auto* const system = dynamic_cast<const std::system_error*>(&error);
   return system != nullptr ? system->code() == std::errc::resource_unavailable_try_again

@@ -1,5 +1,5 @@
 // The one way from a command line to an exit status.
-//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    5 differs    130 interrupted
+//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 not enough memory    5 differs    130 interrupted
 #pragma once
 
 #include <span>

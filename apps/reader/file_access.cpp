@@ -15,7 +15,7 @@ namespace {
 /// "http://...": what some programs would fetch.
 bool is_address(const std::string& name) { return name.find("://") != std::string::npos; }
 
-/// Nothing is below a folder whose name cannot be told.
+/// A folder of unknown name contains nothing.
 bool is_below(const fs::path& path, const fs::path& folder) {
   return !folder.empty() && std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }

@@ -20,7 +20,7 @@ class FileAccess {
   /// no further file can be open.
   InputFile open(const std::filesystem::path& path);
 
-  /// Whether open() would find an ordinary file there; nothing is told of what may not be opened.
+  /// Whether open() would find an ordinary file there; false for files that may not be opened.
   bool has(const std::filesystem::path& path) const;
 
   const OpenedFiles& opened() const { return opened_; }

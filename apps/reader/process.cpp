@@ -45,7 +45,7 @@ void set_signals(posix_spawnattr_t& attributes) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
 }
 
-/// Its errors go where they are told from if it does not get ready.
+/// Its stderr goes to a file, from which errors are reported if it does not get ready.
 int spawn(pid_t& id, const std::string& program, int line, int errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

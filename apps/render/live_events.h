@@ -1,4 +1,4 @@
-// What viewers are told, as their page's script (apps/show/page/live/live.js) reads it: one JSON text an event.
+// The events for viewers, as their page's script (apps/show/page/live/live.js) reads them: one JSON text per event.
 #pragma once
 
 #include <cstddef>

@@ -40,7 +40,7 @@ class LiveView {
   /// Listens, on any port if that is 0; calls `stop` when a viewer asks for that, as often as one does and from any thread.
   /// Throws core::InputError, naming --serve, if the port cannot be had, and as open_module().
   LiveView(std::uint16_t port, const std::string& title, std::function<void()> stop);
-  /// Whoever looks on is told that this is the end, unless that was said, and is left alone within three seconds.
+  /// Viewers are notified of the end, unless they have been, and are disconnected within three seconds.
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
@@ -49,7 +49,7 @@ class LiveView {
   std::string address() const { return server_.address(); }
   /// Whether anybody has come.
   bool has_had_visitors() const { return server_.has_had_visitors(); }
-  /// Why nobody was told anything any more; empty if nothing went wrong.
+  /// The error that stopped the events; empty if there was none.
   std::string complaint();
 
   /// What is going on, as a sentence.

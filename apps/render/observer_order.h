@@ -1,4 +1,4 @@
-// What is to be seen of a render: what rank 0 asks of those who look on at its nodes, and tells the other ranks.
+// The observations of a render: rank 0 sets its observers by them, and sends them to the other ranks.
 #pragma once
 
 #include <cstddef>

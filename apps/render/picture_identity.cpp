@@ -55,7 +55,7 @@ std::string text_of_pools(const core::Scene& scene) {
   return text_of(digest);
 }
 
-/// Without copies of base meshes, which meshes_text() tells: so it is the same whether the scene has them or not.
+/// Without copies of base meshes, which are in meshes_text(): so it is the same whether the scene has them or not.
 std::string objects_text(const core::Scene& scene) {
   return scene.kept == nullptr ? text_of_pools(scene) : text_of_pools(without_copies(scene));
 }
@@ -203,7 +203,7 @@ std::string sky_text(const SkyChoice& sky, const core::Scene& scene) {
   return text_of(sky.is_picture() ? SkyChoice{.horizon = scene.background, .zenith = {}} : sky);
 }
 
-/// Pictures by Whitted's transport are told by having none of it, as they were before there was another.
+/// Pictures by Whitted's transport have no such text, as before other transports existed.
 void add_transport(std::vector<PictureFact>& facts, const TransportOptions& transport, const core::Scene& scene) {
   if (!transport.is_by_paths()) {
     return;

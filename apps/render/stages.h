@@ -23,7 +23,7 @@ namespace dmpc::apps {
 struct SceneFacts {
   core::Box bounds;
   UpAxis up;                                     ///< where a camera is advised
-  std::optional<std::uint64_t> digest = {};      ///< if a page tells it, or frames may differ in more than the view
+  std::optional<std::uint64_t> digest = {};      ///< if a page shows it, or frames may differ in more than the view
   std::optional<PictureIdentity> identity = {};  ///< that of its own view's picture, where there is a checkpoint
   Seconds seconds = {};                          ///< so far
 };

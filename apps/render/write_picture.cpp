@@ -56,7 +56,7 @@ void print_frame(std::ostream& output, std::uint64_t frame, const RenderRecord& 
          << virtual_text(account, record.film_hash) << std::endl;  // seen at once, also in a file that somebody follows
 }
 
-/// By paths it tells so, too.
+/// With path tracing it says so, too.
 ImageRows rows_for(const RenderOptions& options, const core::Film& film) {
   ImageRows rows = rows_of(film);
   if (options.picture.transport.is_by_paths()) {

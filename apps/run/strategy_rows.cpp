@@ -181,7 +181,7 @@ std::vector<BalanceRow> make_balance_rows() {
   };
 }
 
-/// Packets of rays, and room for them.
+/// Packets of rays, and space for them.
 std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
@@ -237,7 +237,7 @@ std::vector<RayRow> rows_of_rays() {
   };
 }
 
-/// What a plan tells of a row; a flag that its strategy has not is off.
+/// A row's value in a plan; a flag that its strategy does not have is off.
 template <class Options, class Plan, class OtherPlan>
 OptionValue reported_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
   if constexpr (std::is_same_v<Plan, OtherPlan>) {

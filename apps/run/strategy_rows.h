@@ -51,7 +51,7 @@ struct ReportedKey {
 /// All keys, in the order of --stats.
 std::vector<ReportedKey> reported_keys();
 
-/// A key of --stats, and what it tells.
+/// A key of --stats, and its value.
 struct ReportedOption {
   std::string_view key;
   OptionValue value;

@@ -30,7 +30,7 @@ bool is_own_sky(const PictureOptions& picture);
 /// Adds the file that load_scene(scene) reads, if it reads one.
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
 
-/// Whether stderr is told what loading has to say.
+/// Whether notes of loading go to stderr.
 enum class LoadNotes : std::uint8_t { said, silent };
 
 /// The scene of a picture, seen and lit as its options say; its view may be of any size if the options give another one. Throws

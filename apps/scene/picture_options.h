@@ -29,7 +29,7 @@ struct QualityChoice {
   double error = 0;   ///< core::RefinementOptions::error
   double cutoff = 0;  ///< core::ShadeOptions::cutoff
 };
-/// What a quality stands for, where no option says otherwise. The errors leave room for an estimate that is too low by a fifth.
+/// The settings of a quality, unless options override them. The errors allow for an estimate that is too low by a fifth.
 /// The cutoffs are the largest whose own error is below a quarter of an 8-bit step (standard) and one such step (draft) on the
 /// SPD's scenes; `bench error` shows what all that costs and does.
 QualityChoice choice_of(Quality quality);

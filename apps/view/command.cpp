@@ -73,7 +73,7 @@ void check_camera_moves(const ViewOptions& view) {
 /// Pictures are kept and sent whole.
 constexpr std::uint32_t pixels_max = std::uint32_t{1} << 22U;
 constexpr int moving_samples_by_paths = 4;
-/// How often it is told how far a picture is.
+/// Interval of progress reports.
 constexpr std::chrono::milliseconds report_interval{100};
 /// Pictures of a moving camera come as fast as they are made.
 constexpr std::chrono::milliseconds look_interval{15};

@@ -12,7 +12,7 @@
 
 namespace dmpc::tests {
 
-/// What readers of files promise of any scene.
+/// The invariants of every scene from a file's reader.
 inline void check_scene(const core::Scene& scene) {
   using core::expect;
   for (const core::Object& object : scene.objects) {

@@ -221,7 +221,7 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
 
 /// Reads the command line, whose options --help lists (nodes, runner, machine, chaos, counters, trace, report and those of the
 /// program), runs the programs, prints what came of it, and returns the exit status of the process: 0 done, 1 bad input or an
-/// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 no room, 130 interrupted. Call
+/// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 not enough memory, 130 interrupted. Call
 /// it once, from main().
 template <class P>
 int run(int count, const char* const* words, const Application<P>& application);

@@ -20,8 +20,9 @@ struct Values {
   std::span<const float> operator[](std::size_t i) const { return std::span(numbers).subspan(i * width, width); }
 };
 
-/// Reads accessors, plain, interleaved, sparse or without a view (zeros). Throws core::InputError, by its place in the document,
-/// for what reaches beyond its view or is not of the expected kind; core::CapacityError for zeros that there is no room for.
+/// Reads accessors: dense, interleaved, sparse or without a view (zeros). Throws core::InputError, with the place in the
+/// document, for data that exceed their view or are not of the expected kind; core::CapacityError for zeros that exceed the
+/// memory.
 class Accessors {
  public:
   Accessors(const Document& document, Buffers& buffers, SceneTotals& totals)
@@ -29,12 +30,12 @@ class Accessors {
 
   std::size_t count() const { return accessors_.size(); }
 
-  /// The accessor that `where` names, whose vectors have `width` numbers, or either; integers as the file says: normalised to -1
-  /// or 0 to 1, or as they are (KHR_mesh_quantization).
+  /// The accessor at `where`, whose vectors have `width` or `other_width` numbers; integers as the file says: normalised to -1 or
+  /// 0 to 1, or unchanged (KHR_mesh_quantization).
   Values values(const Part& where, std::size_t width, std::size_t other_width = 0);
-  /// Whole numbers from 0 on.
+  /// Non-negative integers.
   std::vector<std::uint32_t> indices(const Part& where);
-  /// How many vectors it has.
+  /// The number of its vectors.
   std::uint64_t count_of(const Part& where);
 
  private:

@@ -12,12 +12,12 @@
 
 namespace dmpc::apps::gltf {
 
-/// What takes the place of a node's own translation (3 numbers), rotation (a quaternion of length 1) and scale (3).
+/// Replaces a node's own translation (3 numbers), rotation (a quaternion of length 1) and scale (3).
 struct NodePose {
   std::optional<std::vector<double>> translation, rotation, scale;
 };
 
-/// By places in the document's list of nodes; those that no channel moves are not in it.
+/// By index in the document's list of nodes; without nodes that no channel moves.
 using Pose = std::map<std::size_t, NodePose>;
 
 /// The pose at a moment of the named animation: between keyframes as the sampler says (glTF 2.0, appendix C: STEP, LINEAR,

@@ -17,8 +17,8 @@ struct Document {
   Part root() const { return Part(json); }
 };
 
-/// Takes apart a file, whose bytes outlive the document. Throws core::InputError for what is no glTF as a whole: other versions,
-/// chunks that end early, JSON that breaks off.
+/// Parses a file, whose bytes outlive the document. Throws core::InputError for a file that is no glTF as a whole: other
+/// versions, truncated chunks, truncated JSON.
 Document parse_document(std::span<const std::byte> file);
 
 }  // namespace dmpc::apps::gltf

@@ -1,4 +1,4 @@
-// What extensions a glTF document uses, and what that means for its picture.
+// The extensions that a glTF document uses, and their effect on its picture.
 #pragma once
 
 #include <string>
@@ -8,12 +8,11 @@
 
 namespace dmpc::apps::gltf {
 
-/// Throws core::InputError that names all extensions that the document requires and that are not shown here.
+/// Throws core::InputError that names all unsupported extensions that the document requires.
 void check_required(const Document& document);
 
-/// Appends a sentence, with a count, for each kind of thing that is there by an extension, or by glTF itself, and not shown as it
-/// is (apps/foreign/gltf/places.h says what else is not), and one that names all extensions that are
-/// not known.
+/// Appends a sentence, with a count, for each feature of an extension, or of glTF itself, that is not shown exactly (for others
+/// see apps/foreign/gltf/places.h), and one that names all unknown extensions.
 void note_extensions(const Document& document, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps::gltf

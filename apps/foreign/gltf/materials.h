@@ -1,4 +1,4 @@
-// The materials of a glTF document as a file's.
+// Converts the materials of a glTF document.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace dmpc::apps::gltf {
 
-/// What is known of a material beside what is shown of it.
+/// Properties of a material that are not in its FileMaterial.
 struct MaterialTraits {
   std::optional<std::uint64_t>
-      coordinates;                         ///< which of a mesh's texture coordinates its colour's texture lies by, if it has one
-  std::set<std::uint64_t> other_textures;  ///< pictures that are not of its colour
+      coordinates;                         ///< set of texture coordinates of the colour texture, if there is one
+  std::set<std::uint64_t> other_textures;  ///< pictures for other properties than its colour
   bool shines = false, has_light_texture = false, colors_what_shines_through = false, has_clear_coat = false,
        has_factor_beyond = false;
 };
 
-/// Gives the file its materials, and, last, that of primitives without one, with the pictures within the document for which these
-/// ask. Notes textures that name no picture. Throws core::InputError, by its place in the document.
+/// Adds the materials to the file, the last one for primitives without a material, and the embedded pictures that they need.
+/// Notes textures without a picture. Throws core::InputError, with the place in the document.
 std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, SceneTotals& totals, PlacedFile& file);
 
-/// Appends a sentence, with a count, for each kind of thing that `used` materials of the file have and that is not shown.
+/// Appends a sentence, with a count, for each feature of the file's `used` materials that is not shown.
 void note_losses(const std::vector<MaterialTraits>& materials, const std::vector<bool>& used, PlacedFile& file);
 
 }  // namespace dmpc::apps::gltf

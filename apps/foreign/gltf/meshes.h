@@ -1,4 +1,4 @@
-// The meshes of a glTF document, one for each primitive.
+// The meshes of a glTF document, one per primitive.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace dmpc::apps::gltf {
 
-/// Which joints of a skin hold the vertices of a mesh, by how much: sets of four for each vertex.
+/// The joints of a skin that move a mesh's vertices, and their weights: sets of four per vertex.
 struct Influences {
-  std::vector<Values> joints, weights;  ///< as many sets
+  std::vector<Values> joints, weights;  ///< equal numbers of sets
 };
 
 struct PrimitiveMesh {
-  PolygonMesh mesh;              ///< triangles, by vertex; nothing of points and lines
-  Influences influences;         ///< without sets if no skin holds it
+  PolygonMesh mesh;              ///< triangles with vertex data; empty for points and lines
+  Influences influences;         ///< empty without a skin
   std::uint64_t thin_faces = 0;  ///< points and lines
   bool has_several_places = false, has_targets = false;
 };
@@ -32,8 +32,8 @@ struct Meshes {
   std::uint64_t corners_left_over = 0;  ///< in lists whose length is no multiple of three
 };
 
-/// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by
-/// its place in the document; core::CapacityError if they take more than there is room for.
+/// Reads the meshes with the texture coordinates that `materials` need; the last of these is for primitives without one. Throws
+/// core::InputError, with the place in the document; core::CapacityError if they exceed the memory.
 Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
                    SceneTotals& totals);
 

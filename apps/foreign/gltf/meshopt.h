@@ -1,4 +1,4 @@
-// Views packed by meshoptimizer (EXT_meshopt_compression).
+// Decompresses views of meshoptimizer (EXT_meshopt_compression).
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace dmpc::apps::gltf {
 
-/// What a view says of its packing, if it is packed.
+/// The compression member of a view, if there is one.
 std::optional<Part> packing_of(const Part& view);
 
-/// The view that `packed` bytes stand for. Throws core::InputError for a packing that does not exist or bytes that do not fit it.
+/// Decompresses `packed`. Throws core::InputError for an unknown method or invalid bytes.
 std::vector<std::byte> unpacked(const Part& packing, std::span<const std::byte> packed);
 
 }  // namespace dmpc::apps::gltf

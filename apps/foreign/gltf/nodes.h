@@ -1,4 +1,4 @@
-// The nodes of a glTF document's scene, where they stand, with cameras and lights.
+// The nodes of a glTF document's scene with their transforms, cameras and lights.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@ struct MeshUse {
   std::string node;  ///< its name
   std::size_t mesh = 0;
   std::vector<Transform> places;            ///< to world space: one, or more for GPU instances
-  std::optional<Part> skin = std::nullopt;  ///< the member that names what holds it
+  std::optional<Part> skin = std::nullopt;  ///< the member that names the skin
 };
 
 struct Nodes {
   std::map<std::size_t, Transform> worlds;  ///< the scene's nodes, by their indices in the document
   std::vector<MeshUse> uses;                ///< in the tree's order
-  std::vector<FileView> views;              ///< in the document's order of cameras, and so are lights
+  std::vector<FileView> views;              ///< in the document's order of cameras; lights likewise
   std::vector<FileLight> lights;
 };
 

@@ -1,4 +1,4 @@
-// A part of a glTF document's JSON that knows where it stands.
+// A part of a glTF document's JSON with its path.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace dmpc::apps::gltf {
 
-/// Looks at a document, which outlives it. What is not as it must be is a core::InputError "meshes[0].primitives[1].mode: ...".
+/// Reads from a document, which outlives it. Errors are core::InputError "meshes[0].primitives[1].mode: ...".
 class Part {
  public:
   explicit Part(const nlohmann::json& value, std::string where = "") : value_(&value), where_(std::move(where)) {}
 
-  /// "meshes[0].primitives[1]"; nothing for the whole.
+  /// "meshes[0].primitives[1]"; empty for the whole document.
   const std::string& where() const { return where_; }
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -26,21 +26,21 @@ class Part {
   /// extensions.NAME, if there is one.
   std::optional<Part> extension(const std::string& name) const;
 
-  /// The entries of the list of this name; none if it is not there.
+  /// The entries of the list of this name; empty if it does not exist.
   std::vector<Part> list(const std::string& key) const;
   /// Names and values of an object's members.
   std::vector<std::pair<std::string, Part>> members() const;
 
-  /// Values of members; `fallback` where there is no such member.
+  /// Values of members; `fallback` if there is no such member.
   std::uint64_t whole(const std::string& key, std::uint64_t fallback) const;
   double number(const std::string& key, double fallback) const;
   std::string text(const std::string& key, const std::string& fallback) const;
-  /// One of `names`; without a fallback it has to be there.
+  /// One of `names`; without a fallback the member is mandatory.
   std::string choice(const std::string& key, const std::vector<std::string>& names, const std::string& fallback = "") const;
   bool flag(const std::string& key) const;
-  /// As many numbers as the fallback has.
+  /// A list of as many numbers as the fallback has.
   std::vector<double> numbers(const std::string& key, std::vector<double> fallback) const;
-  /// A place in a list with `count` entries that is called `list`; the second form has to be there.
+  /// An index into a list with `count` entries that is called `list`; in the second form the member is mandatory.
   std::optional<std::size_t> index(const std::string& key, std::size_t count, const std::string& list) const;
   std::size_t required_index(const std::string& key, std::size_t count, const std::string& list) const;
 

@@ -1,4 +1,4 @@
-// Puts the meshes of a glTF document where its nodes have them.
+// Instances the meshes of a glTF document at its nodes.
 #pragma once
 
 #include <vector>

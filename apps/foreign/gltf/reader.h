@@ -9,9 +9,9 @@
 
 namespace dmpc::apps::gltf {
 
-/// It is strict: what refers to something that does not exist, reaches beyond its bytes, or is required and not shown, is a
-/// core::InputError that names the place in the document, "meshes[0].primitives[1]: ...". At an animation's moment, if one is
-/// asked for, nodes stand as pose_at() says (apps/foreign/gltf/animation.h), else as they say themselves.
+/// Strict: a reference to something that does not exist, data that exceed their bytes, or a required feature that is not
+/// supported is a core::InputError with the place in the document, "meshes[0].primitives[1]: ...". If an animation is asked for,
+/// nodes are posed by pose_at() (apps/foreign/gltf/animation.h) at its moment, otherwise by their own transforms.
 PlacedFile read_gltf(const std::string& path, const MeshOptions& options, SceneFiles& files);
 
 }  // namespace dmpc::apps::gltf

@@ -1,4 +1,4 @@
-// Sentences about what of a file is not shown, by how much there is of it, or by name.
+// Notes about features of a file that are not shown, with counts or names.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The faces of meshes as the objects of a scene.
+// Converts the faces of meshes to objects of a scene.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace dmpc::apps {
 
-/// As many colours of faces become materials; what has others has them at its corners.
+/// Up to this number of face colours become materials; further colours are stored at corners.
 inline constexpr std::size_t face_colors_max = 256;
 
 /// Adds meshes to a scene. Faces become polygons, or patches where vertex normals differ from the face's own; textured ones if
@@ -27,53 +27,53 @@ inline constexpr std::size_t face_colors_max = 256;
 /// add_shared() and then instanced by place(); whoever takes the scene has to expand the instances.
 class GeometryWriter {
  public:
-  /// The scene has no vertices, which go to `vertices`, and nobody else adds to it. `smooth_degrees`: vertex normals are reckoned
-  /// anew (apps/foreign/mesh/smooth.h), whatever the mesh has.
+  /// The scene has no vertices of its own, these go to `vertices`, and nobody else adds to it. `smooth_degrees`: vertex normals
+  /// are recomputed (apps/foreign/mesh/smooth.h), even if the mesh has some.
   GeometryWriter(core::Scene& scene, IndexedVertices& vertices, std::optional<double> smooth_degrees)
       : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
-  /// `materials`: of which its faces name some; one without places loses its texture. Throws core::InputError with the mesh's
-  /// name for a corner's coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon
-  /// with too many corners.
+  /// `materials`: all materials that faces can refer to; a mesh without texture coordinates loses the texture. Throws
+  /// core::InputError with the mesh's name for a corner's coordinate that is not finite or beyond 1e30, an invalid vertex index,
+  /// or a polygon with too many corners.
   void add(PolygonMesh mesh, std::span<const FileMaterial> materials);
 
-  /// Adds a mesh in coordinates of its own, which stands nowhere yet. Returns what place() calls it; nothing if it has no faces.
-  /// Throws as add() does. Not with smooth_degrees: how sharp an edge is depends on the place.
+  /// Adds a base mesh in its own coordinates, without an instance. Returns its number for place(); nothing if it has no faces.
+  /// Throws as add() does. Not with smooth_degrees: the sharpness of an edge depends on the transform.
   std::optional<std::uint32_t> add_shared(PolygonMesh mesh, std::span<const FileMaterial> materials);
-  /// Puts a shared mesh in a place, behind all that came before in the file's order. Throws core::InputError with the mesh's name
-  /// if that takes it beyond 1e30.
+  /// Adds an instance of a base mesh, behind everything before in the file's order. Throws core::InputError with the mesh's name
+  /// if its coordinates exceed 1e30.
   void place(std::uint32_t mesh, const core::Transform& world);
   /// The instances of all shared meshes.
   const core::Instances& instances() const { return instances_; }
 
-  /// A sphere, about which a texture says nothing.
+  /// Adds a sphere, without a texture.
   void add(const core::Sphere& sphere, core::Material material);
 
-  /// A mesh whose surface is not there: it counts for has_area() alone.
+  /// Skips an invisible mesh, which only counts for has_area().
   void leave_out() { has_area_ = true; }
 
   /// Whether any face had an area.
   bool has_area() const { return has_area_; }
-  /// How many meshes had a material with a texture, and no corner of theirs a place on it.
+  /// Number of meshes whose material has a texture, but which have no texture coordinates.
   std::uint64_t unplaced() const { return unplaced_; }
-  /// Meshes whose material lets all light through as it comes, and so shows nothing.
+  /// Number of meshes whose material is fully transparent.
   std::uint64_t unseen() const { return unseen_; }
-  /// Vertices that no face has, of coordinates that are not finite or beyond 1e30, and the first of them.
+  /// Number of unused vertices with coordinates that are not finite or beyond 1e30, and the first of them.
   std::uint64_t strays() const { return strays_; }
   const std::string& first_stray() const { return first_stray_; }
-  /// Meshes some of whose faces show a texture, and not the colours that their corners have, too.
+  /// Number of meshes with textured faces whose vertex colours are not shown.
   std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
  private:
-  /// What is known of a shared mesh beside its objects.
+  /// Properties of a base mesh beside its objects.
   struct Shared {
     std::string name;
     core::Box box;
-    std::uint64_t unplaced = 0, unseen = 0, without_colors = 0;  ///< what each of its places counts for
+    std::uint64_t unplaced = 0, unseen = 0, without_colors = 0;  ///< counts that each of its instances adds
   };
 
   void add_objects(PolygonMesh mesh, std::span<const FileMaterial> materials);
-  /// Its faces from this one on.
+  /// Adds the mesh's faces from this one on.
   void add_run(const PolygonMesh& mesh, const FaceRun& run, std::size_t first_face, core::Material material);
   void settle_vertices(PolygonMesh& mesh);
   bool has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const;
@@ -89,15 +89,15 @@ class GeometryWriter {
   IndexedVertices& vertices_;
   std::optional<double> smooth_degrees_;
   core::Instances instances_;
-  std::vector<Shared> shared_;  ///< by Instances::meshes
-  bool is_shared_ = false;      ///< what is being added
+  std::vector<Shared> shared_;  ///< by index in Instances::meshes
+  bool is_shared_ = false;      ///< a base mesh is being added
   bool has_area_ = false;
   bool has_places_ = false, hides_colors_ = false;  ///< the current run's
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0, strays_ = 0;
   std::string first_stray_;
   std::set<std::array<double, 3>> face_colors_;  ///< colours of single-coloured faces
   std::vector<core::Vec3d> face_vertices_, face_normals_;
-  std::vector<core::Vec3d> smooth_;  ///< normals that were reckoned anew, a corner of the mesh each
+  std::vector<core::Vec3d> smooth_;  ///< recomputed normals, one per corner of the mesh
   std::vector<core::TexturedCorner> face_corners_;
 };
 

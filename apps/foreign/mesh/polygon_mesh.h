@@ -1,4 +1,4 @@
-// A mesh of polygons, by whatever reader.
+// A mesh of polygons, common to all readers.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace dmpc::apps {
 
-/// Polygons over a list of vertices, one after the other.
+/// Polygons over a list of vertices.
 struct FaceList {
   std::vector<std::uint32_t> corners;  ///< indices of vertices
   std::vector<std::uint32_t> ends;     ///< per face: one past its last corner
@@ -22,7 +22,7 @@ struct FaceList {
   std::size_t begin_of(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
 };
 
-/// Three corners a face.
+/// Makes a list of triangles.
 inline FaceList triangle_list(std::vector<std::uint32_t> corners) {
   FaceList faces{.corners = std::move(corners), .ends = {}};
   faces.ends.resize(faces.corners.size() / 3);
@@ -32,28 +32,28 @@ inline FaceList triangle_list(std::vector<std::uint32_t> corners) {
   return faces;
 }
 
-/// Faces that follow one another and look alike.
+/// Consecutive faces with the same appearance.
 struct FaceRun {
   std::size_t end = 0;       ///< one past the last
   std::size_t material = 0;  ///< index into PlacedFile::materials
-  bool has_places = true;    ///< on the material's texture, if the mesh has any
+  bool has_places = true;    ///< texture coordinates for the material's texture, if the mesh has any
 };
 
 struct PolygonMesh {
   std::string name;                          ///< "mesh 3 'wheel'", for messages
-  std::size_t material = 0;                  ///< likewise of all faces, or of the first run
-  std::vector<core::Vec3d> vertices;         ///< in coordinates of its own
-  FaceList faces;                            ///< each of at least 3 corners, of vertices that exist
-  bool is_by_vertex = false;                 ///< what follows is each vertex's, not each corner's
+  std::size_t material = 0;                  ///< likewise for all faces, or for the first run
+  std::vector<core::Vec3d> vertices;         ///< in its own coordinates
+  FaceList faces;                            ///< each with at least 3 corners; valid indices
+  bool is_by_vertex = false;                 ///< the data below are per vertex, not per corner
   std::vector<core::Vec3d> normals;          ///< not normalized, or none; a face whose normals are all 0 is flat
-  std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards, or none
-  std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied, or none
+  std::vector<std::array<float, 2>> places;  ///< texture coordinates, t downwards, or none
+  std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, multiplied by the material's; or none
   std::vector<double> alphas;                ///< alpha of `colors`, 0 to 1; none where all are 1
   std::vector<FaceRun> runs;                 ///< all faces, in order; or none
 
-  /// The index of what a corner has among normals, places, colors and alphas.
+  /// The index of a corner's data among normals, places, colors and alphas.
   std::size_t of_corner(std::size_t corner) const { return is_by_vertex ? faces.corners[corner] : corner; }
-  /// Each corner gets what its vertex has.
+  /// Converts data per vertex to data per corner.
   void spread_to_corners() {
     const auto spread = [this](auto& list) {
       if (!list.empty()) {
@@ -72,7 +72,7 @@ struct PolygonMesh {
       spread(alphas);
     }
   }
-  /// Makes a face look to the other side.
+  /// Flips a face.
   void turn(std::size_t first_corner, std::size_t end) {
     const auto reverse = [&](auto& list) {
       if (!list.empty()) {

@@ -1,4 +1,4 @@
-// Round shapes as meshes, with normals, and places that go round as u and up as v.
+// Tessellates round shapes, with normals, and texture coordinates u around and v upwards.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace dmpc::apps {
 
-/// So many faces go round.
+/// Number of faces around the axis.
 inline constexpr int faces_around = 64;
 
 enum class RoundKind : std::uint8_t { sphere, cylinder, ring };
 
-/// The part of a sphere about the origin, or of an open cylinder about z, between two heights along z, or a ring across z at the
-/// lower of them; and up to an angle about z.
+/// A part of a sphere around the origin, or of an open cylinder around z, between two heights along z, or a ring across z at the
+/// lower height; limited to an angle around z.
 struct RoundShape {
   RoundKind kind{};
   double radius = 1;
@@ -25,7 +25,7 @@ struct RoundShape {
   bool is_ball() const { return kind == RoundKind::sphere && least_z <= -radius && most_z >= radius && degrees >= 360; }
 };
 PolygonMesh mesh_of(const RoundShape& shape);
-/// As size_of_copy() of that.
+/// As size_of_copy() of the tessellated mesh.
 GeometrySize size_of_copy(const RoundShape& shape);
 
 }  // namespace dmpc::apps

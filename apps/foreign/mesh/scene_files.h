@@ -1,4 +1,4 @@
-// What a reader of mesh files has of the world: files, a place for textures, and somebody who wants to know how far it is.
+// The environment of a reader of mesh files: access to files, textures, and progress.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace dmpc::apps {
 
-/// A file's bytes, as long as it lives.
+/// A file's bytes, valid during its lifetime.
 class FileBytes {
  public:
   virtual ~FileBytes() = default;
   virtual std::span<const std::byte> bytes() const = 0;
 };
 
-/// As characters, as long as it lives.
+/// As characters, valid during the file's lifetime.
 inline std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
@@ -32,18 +32,18 @@ class SceneFiles {
   explicit SceneFiles(const SceneTotals& totals = SceneTotals()) : totals_(totals) {}
   virtual ~SceneFiles() = default;
 
-  /// Throws core::InputError, a whole sentence, if the file cannot be had.
+  /// Throws core::InputError, a whole sentence, if the file is not available.
   virtual std::unique_ptr<FileBytes> open(const std::string& path) = 0;
   virtual bool exists(const std::string& path) = 0;
   /// As files_meant() of apps/formats/named_file.h.
   virtual std::vector<std::filesystem::path> meant(const std::filesystem::path& folder, const std::string& name) = 0;
 
-  /// The scene's next texture: a picture's file, or one that lies in memory (`format_hint` is an ending, or nothing). Throw
-  /// core::InputError "NAME: ..." if it cannot be had.
+  /// Adds the scene's next texture: a picture's file, or one in memory (`format_hint` is an extension, or nothing). Throws
+  /// core::InputError "NAME: ..." if it is not available.
   virtual void add_texture(const std::string& path, const TextureEdges& edges) = 0;
   virtual void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                            const TextureEdges& edges) = 0;
-  /// Whether add_texture() adds none, but has those weighed that come later: where they have no room, that ends all.
+  /// Whether add_texture() only checks the memory for later textures; if it is too small, reading ends.
   virtual void only_weigh_textures(bool /*does*/) {}
 
   SceneTotals& totals() { return totals_; }

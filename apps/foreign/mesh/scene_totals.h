@@ -1,4 +1,4 @@
-// What a file's scene takes so far, asked before room is made for more of it.
+// The size of a file's scene so far, checked before more memory is allocated.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,30 @@
 
 namespace dmpc::apps {
 
-/// Faces of three or more corners, places of meshes beside each's first, and bytes of memory that all of it takes at least.
+/// Numbers of faces with three or more corners and of instances beside each mesh's first, and the minimum memory for all of it.
 struct GeometrySize {
   std::uint64_t triangles = 0, faces = 0, corners = 0, places = 0, bytes = 0;
 
   GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
 };
-/// In a scene; `corner_bytes`: what a corner has beside its position.
+/// In a scene; `corner_bytes`: a corner's data beside its position.
 GeometrySize size_of_faces(std::uint64_t faces, std::uint64_t corners, std::uint64_t corner_bytes = 0);
-/// What each place of a mesh adds to a scene that copies it.
+/// The size of each instance of a mesh in a scene that copies it.
 GeometrySize size_of_copy(const PolygonMesh& mesh);
-/// That, and the mesh itself, which is read before.
+/// size_of_copy() and the mesh itself, which is read before.
 GeometrySize size_of(const PolygonMesh& mesh);
 GeometrySize size_of_places(std::uint64_t count);
 
-/// One of a scene, through which all of its readers ask. What was added stays.
+/// One per scene, shared by all of its readers. The totals only grow.
 class SceneTotals {
  public:
-  /// `copies`: what becomes of meshes that stand in several places.
+  /// `copies`: how meshes with several instances are stored.
   explicit SceneTotals(std::uint64_t memory_bytes_max = std::numeric_limits<std::uint64_t>::max(),
                        core::Copies copies = core::Copies::put)
       : memory_bytes_max_(memory_bytes_max), copies_(copies) {}
 
-  /// Throws core::CapacityError if a database, the indices of a scene, or memory does not reach so far, with what where() says
-  /// before it: "a.pbrt:3:1: ". Cheap.
+  /// Throws core::CapacityError if a database, a scene's indices, or memory is too small, with where() in front: "a.pbrt:3:1: ".
+  /// Cheap.
   template <class Where>
   void add(const GeometrySize& more, const Where& where) {
     ask(more, where);

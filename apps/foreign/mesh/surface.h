@@ -1,4 +1,4 @@
-// Surfaces as files describe them, and as ours.
+// Converts surfaces from files to ours.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace dmpc::apps {
 
-/// What each channel of a surface has of which a file says no colour.
+/// Each channel of a surface without a colour.
 inline constexpr double plain_grey = 0.6;
 
-/// The brightest light that a surface shines with by itself, in any channel; placed_scene() brings more down to it.
+/// The brightest emission of a surface, in any channel; placed_scene() scales brighter ones down to it.
 inline constexpr double light_max = 1e12;
 
-/// The largest exponent of a highlight; more is as much.
+/// The largest exponent of a highlight; larger ones are clamped.
 inline constexpr std::uint32_t shine_max = 10'000;
 
 /// Phong surface as in MTL. Colours are linear, in 0 to 1 except for emission.
 struct PhongSurface {
   core::Vec3d diffuse, specular, emission;  ///< Kd, Ks, Ke
-  double shine = 0;                         ///< Ns; 0 or less: there is no highlight
+  double shine = 0;                         ///< Ns; 0 or less: no highlight
   double refraction_index = 1;              ///< Ni
   double opacity = 1;                       ///< d
-  std::optional<int> illumination;          ///< illum, if the file says it: 0 and 1 have no highlight, 3 to 9 mirror
+  std::optional<int> illumination;          ///< illum, if given: 0 and 1 have no highlight, 3 to 9 mirror
 };
 
 /// glTF's surface. Colours are linear, in 0 to 1 except for emission.
@@ -36,7 +36,7 @@ struct MetallicSurface {
   double opacity = 1;             ///< of a blended surface; otherwise 1
 };
 
-/// By the table in apps/foreign/README.md. They mirror and transmit no more light than arrives, in any channel.
+/// By the table in apps/foreign/README.md. Energy is conserved in each channel.
 core::Material material_of(const PhongSurface& surface);
 core::Material material_of(const MetallicSurface& surface);
 /// Material of a surface that has at most a colour.

@@ -56,7 +56,7 @@ void TextureReader::weigh(const std::optional<TextureUse>& color, const std::opt
       if (use && weighed_.insert(key_of(*use) + end).second) {
         read(*use);
       }
-    } catch (const core::InputError&) {  // as find() tells
+    } catch (const core::InputError&) {  // reported by find()
     }
   }
   files_.only_weigh_textures(false);

@@ -25,10 +25,10 @@ class TextureReader {
                 std::vector<core::Texture>& textures)
       : pictures_(pictures), path_(path), files_(files), textures_(textures) {}
 
-  /// Asks whether there is room for two more, before the first is read: an error ends all where there is none.
+  /// Checks the memory for two more textures before the first is read; an error ends the reading.
   void weigh(const std::optional<TextureUse>& color, const std::optional<TextureUse>& facets);
 
-  /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
+  /// Its index among the scene's textures; nothing if it is not available, which missing() reports.
   std::optional<std::uint32_t> find(const TextureUse& use);
   /// As above for a texture of numbers instead of colours: a separate texture, even if another one shows the same picture.
   std::optional<std::uint32_t> find_numbers(const TextureUse& use);

@@ -1,4 +1,4 @@
-// A file that is read as a whole, and how far it is, told now and then.
+// Reads a file as a whole, and reports the progress now and then.
 #pragma once
 
 #include <algorithm>

@@ -25,7 +25,7 @@ constexpr std::array<Sign, 3> signs = {{{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI
                                         {"mpiexec", "PMI_SIZE", "PMI_RANK"},
                                         {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}}};
 
-/// By which srun tells MPI of its ranks: PMIx; PMI, or what speaks it.
+/// Interfaces by which srun gives MPI its ranks: PMIx, PMI, or a compatible one.
 constexpr std::array<const char*, 3> signs_of_pmi = {"PMIX_RANK", "PMI_RANK", "PMI_FD"};
 
 constexpr useconds_t time_to_say_it_us = 500'000;

@@ -46,7 +46,7 @@ int lead(nodes::RankLinks& links, const std::function<int()>& work) {
   }
 }
 
-/// Rank 0 knows of what fails in a run, and is told of what fails before.
+/// Rank 0 knows of errors in a run; earlier errors are reported to it.
 int follow(nodes::RankLinks& links, const std::function<void()>& work) {
   try {
     work();

@@ -104,7 +104,7 @@ void end_without_abort() {
   [[maybe_unused]] struct sigaction action {};
   action.sa_sigaction = end_crash;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
-#if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
+#if !defined(__SANITIZE_ADDRESS__)  // which reports more about a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);
   }

@@ -28,7 +28,7 @@ constexpr const char* next_line = ", \\\n  ";
 
 /// Names of places along x that are so short stand upright.
 constexpr std::size_t upright_letters_max = 3;
-/// Names of places along x that can be told apart, where there is little room.
+/// Names of positions along x that can be distinguished in little space.
 constexpr std::size_t small_names_max = 24;
 
 /// Between the bars of one place and those of the next, in places.

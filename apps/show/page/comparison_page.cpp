@@ -67,7 +67,7 @@ double value_of(const std::map<std::string, double>& values, const std::string& 
   return at == values.end() ? 0 : at->second;
 }
 
-/// A row a run, a column a name: the most that can be told apart, and all else.
+/// A row per run, a column per name: the most that can be distinguished, and the rest.
 Table bars_table(const TimeByName& times) {
   std::vector<std::string> names = times.names;
   const auto larger = [&times](const std::string& name) {

@@ -28,7 +28,7 @@ struct Comparison {
   std::optional<Table> counters = {};  ///< counters that differ
 };
 
-/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if the runs' clocks differ, of
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs' clocks differ, of
 /// which one time would be said then, or if no temporary file can be written.
 std::string comparison_page(const Comparison& comparison, const Origin& origin, std::ostream& complaints);
 

@@ -8,7 +8,7 @@
 
 namespace dmpc::apps::html {
 
-/// `data`: what play_data() tells of a run, or {"runs": [...]} of two, each with a "name", which play on one clock. Only the
+/// `data`: play_data() of a run, or {"runs": [...]} of two, each with a "name", which play on one clock. Only the
 /// scripts go into the page that draw something of theirs.
 void add_player(Page& page, const nlohmann::json& data);
 

@@ -9,7 +9,7 @@
 
 namespace dmpc::apps::html {
 
-/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
 std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
 

@@ -22,7 +22,7 @@ struct SweepPart {
   std::string conclusion = {};  ///< a sentence; empty: none
 };
 
-/// What a page tells.
+/// The contents of a page.
 struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs
@@ -31,7 +31,7 @@ struct Sweep {
   std::optional<ForecastView> forecast = {};  ///< from one of its runs, beside all of them
 };
 
-/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
 std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
 

@@ -185,7 +185,7 @@ TEST_CASE("a file that is no policy is refused with what was expected") {
   const Python python("class Other: pass\nclass Mine:\n  pass\n");
   CHECK(refusal_of(python.place("None_such")) ==
         "--policy=" + python.place("None_such") + ": it has no class None_such; it has Other, Mine");
-  CHECK(refusal_of(python.place()) == "");  // what it lacks is told where it is made
+  CHECK(refusal_of(python.place()) == "");  // missing functions are reported on construction
   CHECK(contains(complaint_of(python.loaded(), 2, all_different(3)),
                  "making it for 2 frames of node 3: TypeError: Mine() takes no arguments"));
   const Python broken("class Mine:\n  def victim(self, incoming) return 0\n");

@@ -185,7 +185,7 @@ TEST_CASE("as many look on as there are places, ten of them deaf, and who comes 
   CHECK(contains(small.got("events"), "503 Service Unavailable"));
   CHECK(contains(small.got("events"), "48 viewers are connected already"));
   CHECK(contains(small.got(""), "200 OK"));
-  viewers.resize(20);  // 28 go away, which is found out when they are told something
+  viewers.resize(20);  // 28 go away, which is detected when an event is sent to them
   bool is_let_in = false;
   for (int attempt = 0; attempt < 3000 && !is_let_in; ++attempt) {
     ::usleep(10'000);

@@ -28,7 +28,7 @@ struct Viewed {
     viewer.get(page.path("events"), page.host);
   }
 
-  /// What is told of the next picture that was not heard of.
+  /// The report of the next picture not yet reported.
   std::string picture() {
     const std::string begin = "event: picture\ndata: ";
     std::size_t at = std::string::npos;

@@ -62,7 +62,7 @@ std::string virtual_conclusion(const Losses& losses, std::span<const double> par
   return text + "." + (even.empty() ? "" : " " + even + ".");
 }
 
-/// The conclusion from what wall_losses() tells.
+/// The conclusion from wall_losses().
 std::string wall_conclusion(std::span<const double> parts) {
   const double whole = sum_of(parts);
   if (whole == 0) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double width = 480, left = 58, top = 34, field_width = 330;
 constexpr double scale_left = left + field_width + 16, scale_width = 14;
 constexpr double row_height_max = field_width / 8, field_height_min = 140, bottom = 46;
-/// Squares of this size have room for a number.
+/// Squares of this size have space for a number.
 constexpr double number_width_min = 34, number_height_min = 16;
 
 constexpr std::size_t ticks_max = 8, scale_steps = 64, color_count = 256;

@@ -61,7 +61,7 @@ std::string capitalized(std::string text) {
   return text;
 }
 
-/// One sentence with all that tells this run from others.
+/// One sentence with everything that distinguishes this run from others.
 std::string citation(const std::string& title, const Origin& origin, const Facts& results) {
   std::string text =
       title + ". " + origin.program.substr(0, origin.program.rfind(" (")) + ", " + origin.date.substr(0, origin.date.find(' '));

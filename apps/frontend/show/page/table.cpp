@@ -17,7 +17,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// A table with more columns has less room for each.
+/// A table with more columns has less space for each.
 constexpr std::size_t dense_columns = 11;
 
 bool is_of_text(const Table& table, std::size_t column) {

@@ -25,7 +25,7 @@ using PageName = std::uint64_t;
 
 constexpr int first_of_gzip = 0x1f;
 
-/// What stands where, told by the first line.
+/// Positions of the columns, from the header line.
 struct Columns {
   std::size_t page = 0;
   std::optional<std::size_t> node;

@@ -63,7 +63,7 @@ inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
 /// Not thread-safe.
 class Matches {
  public:
-  /// The figures of one contender in one round; no_figure is one that could not be told.
+  /// The figures of one contender in one round; no_figure is one that could not be measured.
   using Measure = std::function<std::vector<double>()>;
 
   /// `results` outlives it, and has what was measured so far at any time.

@@ -26,7 +26,7 @@ std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const cor
   return hits;
 }
 
-/// Traces rays that walk together.
+/// Traces bundles of rays.
 template <core::Records R>
 std::uint64_t trace_bundles(const BundleSpan& bundles, R&& records, const core::DatabaseHeader& header) {
   core::GridTracer tracer(records, header, {});
@@ -80,7 +80,7 @@ RaysTraced KernelArena::trace(Contender contender, RayClass ray_class, Query que
   });
 }
 
-/// What tells a query from another one to our grid is the rays' kind.
+/// Our grid distinguishes queries by the rays' kind.
 void KernelArena::ask(RayClass ray_class, Query query) {
   for (core::Ray& ray : recording_.rays[static_cast<std::size_t>(ray_class)].rays) {
     ray.kind = query == Query::any ? core::RayKind::shadow : core::RayKind::primary;

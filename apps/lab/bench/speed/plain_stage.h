@@ -35,7 +35,7 @@ struct PlainFacets {
   float there = 1;  ///< the share of the surface that is
 };
 
-/// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.
+/// A surface with its material extension. Where alpha matters, the picture is textured, and is not compared.
 struct PlainMaterial : core::MaterialRecord {
   core::Color highlight;  ///< colour that `mirror` reflects
   float mirror = 1;

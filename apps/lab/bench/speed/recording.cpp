@@ -81,7 +81,7 @@ class RecordingTracer {
   std::uint64_t bounces_ = 0;
 };
 
-/// The next pixels whose rays walk together: those of a tile.
+/// The next pixels whose rays form bundles: a tile's.
 std::vector<std::uint32_t> next_tile(svm::PixelScan& scan, std::uint32_t image_width) {
   std::vector<std::uint32_t> pixels;
   do {

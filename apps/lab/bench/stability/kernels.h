@@ -50,7 +50,7 @@ enum class StabilityKernel : std::uint8_t {
   embree_robust,  ///< Embree with it
   regions,        ///< the traversal from owner to owner of a space cut into regions
   planes,         ///< the traversal's planes alone, finest cell by finest cell
-  listing,        ///< no walk: which primitives the boxes around a point list
+  listing,        ///< no traversal: the primitives that the boxes around a point list
   certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };
 inline constexpr std::size_t stability_kernel_count = 14;

@@ -22,7 +22,7 @@ inline core::Ray of_kind(core::Ray ray, core::RayKind kind) {
   return ray;
 }
 
-/// The third of four rays that walk together. The others go nearly the same way or, beside every second ray, some other ways.
+/// The third of four rays in a bundle. The others go nearly the same way or, beside every second ray, some other ways.
 core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray);
 
 /// One ray through each of them. Closest hits for all but `any_hit`, whatever the ray's kind, as of a mirrored ray: the eye's

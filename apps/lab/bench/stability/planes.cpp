@@ -45,7 +45,7 @@ bool is_step_forward(const Ray& ray, const Corner& from, const Corner& to) {
   return changed == 1 && forward;
 }
 
-/// The line as a whole: whether it passes through the grid's middle, so that no walk may miss it.
+/// The line as a whole: whether it passes through the grid's middle, so that no traversal may miss it.
 class Sequence {
  public:
   Sequence(const core::GridFrame& frame, double pad) : frame_(frame), pad_(pad) {}

@@ -45,7 +45,7 @@ inline core::Ray ray_through(const core::Vec3d& origin, const core::Vec3d& targe
   return ray_from(start, core::Vec3f(core::normalize(target - core::Vec3d(start))));
 }
 
-/// The records of a database whose directory tells no distances: rays leave empty cells one by one.
+/// The records of a database whose directory has no distances: rays leave empty cells one by one.
 class CellByCell {
  public:
   explicit CellByCell(const core::Database& database)

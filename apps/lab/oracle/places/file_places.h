@@ -15,7 +15,7 @@
 
 namespace dmpc::apps {
 
-/// In doubles and world coordinates, as far as a file asks for no more than a judge has time and room for.
+/// In doubles and world coordinates, unless a file needs more time or memory than a judge has.
 struct FilePlaces {
   core::Scene scene;
   std::optional<core::View> view;  ///< the file's own

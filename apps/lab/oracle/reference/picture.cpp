@@ -11,7 +11,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// How often progress is told, at most.
+/// Maximum rate of progress reports.
 constexpr int band_count = 200;
 /// Rows that keep the cores of a large machine busy until the last is done.
 constexpr int band_rows_min = 8;

@@ -21,7 +21,7 @@ struct ReferencePicture {
   std::uint64_t rays = 0;  ///< rays of all kinds
 };
 
-/// Who is told, and who may end it.
+/// Receives progress, and may end the render.
 struct Attendance {
   /// Called on the calling thread between bands of rows: (done, in all), in rows.
   std::function<void(std::uint64_t, std::uint64_t)> progress = [](std::uint64_t, std::uint64_t) {};

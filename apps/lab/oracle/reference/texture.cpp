@@ -13,7 +13,7 @@ using core::Vec3d;
 
 /// Probes of a look-up at most; a longer line has wider ones.
 constexpr double strides_max = 15;
-/// The least cosine between a cone and a surface that is told from 0.
+/// The least cosine between a cone and a surface that is distinguished from 0.
 constexpr double cosine_min = 1e-6;
 
 /// IEC 61966-2-1.

@@ -1,4 +1,4 @@
-// Each parameter of each statement of pbrt-v4 is used, said, or changes no picture: a walk over the table of them all.
+// Each parameter of each statement of pbrt-v4 is used, reported, or changes no picture: all rows of the table are checked.
 #include "apps/foreign/pbrt/parameter_table.h"
 
 #include <doctest/doctest.h>

@@ -80,7 +80,7 @@ TEST_CASE("where the curve misses the run's own faults the band has both proport
 
 TEST_CASE("a sample widens the band by twice the error that half of it shows, the more the further from the run's own cache") {
   MissEstimate sampled = cycle(8, 2);
-  sampled.every = 2;  // so of caches from 16 pages on half of it tells something
+  sampled.every = 2;  // so half of the sample is meaningful for caches from 16 pages on
   sampled.half = cycle(4, 3).curve;
   const CacheForecast forecast = forecast_caches(run_of_100_ns(16, 16), sampled, 64);
   CHECK(forecast.sizes.front().cache_pages == 16);

@@ -12,7 +12,7 @@
 
 namespace dmpc::tests::last_words_test {
 
-#if !defined(__SANITIZE_ADDRESS__)  // which tells of crashes itself
+#if !defined(__SANITIZE_ADDRESS__)  // which reports crashes itself
 TEST_CASE("a crash where memory has run out is a want of memory") {
   CHECK(ForkedProcess([] {
           apps::end_without_abort();

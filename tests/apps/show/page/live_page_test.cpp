@@ -1,4 +1,4 @@
-// The live page in a browser, whose script a window around it tells what the server would.
+// The live page in a browser; a window around it sends its script the server's events.
 #include "apps/show/page/live_page.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ namespace {
 namespace html = apps::html;
 
 /// Two nodes, a picture of 4x2 pixels: a red pixel comes; in the fourth step node 0 traces all the time and node 1 does nothing.
-/// What is of another frame, or from before steps became longer, is told, too, and is to be passed over.
+/// Events of another frame, or from before steps became longer, are sent, too, and must be ignored.
 constexpr const char* telling = R"(<script>addEventListener('load',()=>{
 const page=document.querySelector('iframe').contentWindow,tell=(name,event)=>page.eval(`${name}(${JSON.stringify(event)})`);
 const text=(id)=>page.document.getElementById(id).textContent;

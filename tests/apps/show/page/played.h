@@ -10,7 +10,7 @@
 
 namespace dmpc::tests {
 
-/// What stands in the title before what is told if the player was not there by then.
+/// Prefix of the title if the player was not ready in time.
 inline constexpr std::string_view not_there = "no player yet: ";
 
 /// Writes the value of `expression`, in which `p` is the page, into the window's title, once the page's player is ready or after

@@ -155,7 +155,7 @@ TEST_CASE("an ablation renders without each skip, without all, and with cutoffs,
   for (const Comparison& one : results) {
     CAPTURE(one.subject);
     CHECK(one.figures.rounds() == (one.what == "error" ? 1 : 2));
-    // With whom a ray of dataflow walks depends on the schedule, and so does its work, by some thousandths.
+    // The bundle of a ray of dataflow depends on the schedule, and so does its work, by some thousandths.
     const bool is_control = one.what == "counted work" && one.subject == "the same again";
     CHECK((!is_control || std::abs(ratio_of(one.figures).median - 1) < 0.02));
   }
