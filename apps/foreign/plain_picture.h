@@ -18,7 +18,7 @@ struct RawPicture {
   std::vector<std::uint8_t> values;
 };
 
-/// Those below are read from the front on; without values what stands before these is all that counts.
+/// The functions below are read from the front on; without values what stands before these is all that counts.
 /// Pixels of the largest that is read: beside what those take the start of OpenImageIO is little, and it takes half of the
 /// memory.
 inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 24U;

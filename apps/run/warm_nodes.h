@@ -16,7 +16,7 @@
 
 namespace dmpc::apps {
 
-/// The same picture with another camera and what depends on it.
+/// A picture with another camera and what depends on it.
 core::RenderSettings seen_from(const core::View& view, const core::RenderSettings& settings, const core::Database& database);
 
 /// They keep memories, caches and regions from picture to picture, unless one was stopped: then the next begins on new ones.

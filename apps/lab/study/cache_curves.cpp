@@ -18,7 +18,7 @@ using svm::Replacement;
 /// By size: of each of the other policies, then of those that are not dmpc's own, then of the optimum.
 using Faults = std::vector<std::vector<std::uint64_t>>;
 
-/// Those beside lru, whose misses are known for all sizes at once, in the order of their columns.
+/// The policies beside lru, whose misses are known for all sizes at once, in the order of their columns.
 std::vector<Replacement> other_policies() {
   std::vector<Replacement> policies;
   for (std::size_t i = 0; i < svm::policy_kinds().size(); ++i) {
@@ -69,7 +69,7 @@ void add(const Faults& more, Faults& sums) {
 
 std::string fault_column(std::string_view policy) { return "faults " + std::string(policy); }
 
-/// Those with columns between lru's and the optimum's, in their order.
+/// The policies with columns between lru's and the optimum's, in their order.
 std::vector<std::string> names_beside_lru(CacheCurves::Policies more) {
   std::vector<std::string> names;
   for (const Replacement policy : other_policies()) {

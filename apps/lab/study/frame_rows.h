@@ -22,7 +22,7 @@ struct FrameFigures {
   std::uint64_t total_ns = 0;         ///< virtual time
 };
 
-/// Of a run on a modelled machine that has finished.
+/// The rows of a finished run on a modelled machine.
 FrameFigures figures_of(const Report& report);
 
 /// What travels, and with which caches.

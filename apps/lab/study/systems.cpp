@@ -266,7 +266,7 @@ std::vector<Column> SystemsStudy::columns() const {
 
 namespace {
 
-/// Of one figure, bars for each system, by the rule of memory.
+/// A plot of one figure, bars for each system, by the rule of memory.
 Plot bars_of(const SystemsStudy& study, SystemStructures structures, Plot bars, const char* figure) {
   bars.name += structures == SystemStructures::of_papers ? "_papers" : "";
   bars.title += std::string(" of the systems, structures ") + text_of(structures);

@@ -8,7 +8,7 @@
 
 namespace dmpc::apps::html {
 
-/// Of the text: counted up when a key goes or comes to mean something else.
+/// The version of the text: counted up when a key goes or comes to mean something else.
 inline constexpr int play_format = 3;
 
 /// Pictures of more pixels are played in cells of 2x2, 4x4, ... pixels.

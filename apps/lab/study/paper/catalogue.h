@@ -43,7 +43,7 @@ inline constexpr std::array<std::uint32_t, 4> page_sizes_bytes = {512, 1024, 204
 inline constexpr std::size_t article_page = 1;
 /// The column of Table 3 that the iPSC/860 is held against: 32 nodes.
 inline constexpr std::size_t faster_column = 5;
-/// Those of Table 3 with efficiencies that the size of the memories tells in, since their nodes miss pages again that they had
+/// Scenes of Table 3 with efficiencies that the size of the memories tells in, since their nodes miss pages again that they had
 /// before. Teapot and Mountain fit into every memory; Tetra10 does not, but its one printed cell has no efficiency.
 inline constexpr std::array<std::size_t, 2> missing_rows = {rings_row, tetra_row};
 
@@ -90,7 +90,7 @@ struct Catalogue {
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
-  /// Those that ask the host for items; nothing of size 0.
+  /// Runs that ask the host for items; nothing of size 0.
   std::array<std::size_t, item_sides.size()> items_assigned{};
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
   /// Rings4 on 64 nodes, by size: its shared memory in software, and in hardware.

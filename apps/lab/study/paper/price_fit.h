@@ -18,7 +18,7 @@ struct RayTime {
 
   double milliseconds(const VoxelPrices& prices) const;
 };
-/// Of a run on voxel_machine(), on so many nodes.
+/// A run on voxel_machine() with this number of nodes.
 RayTime ray_time_of(const PaperResult& result);
 
 /// A cell to be met.

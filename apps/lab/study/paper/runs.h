@@ -31,7 +31,7 @@ struct PaperRun {
   nodes::Machine machine;
   std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
   std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm, in place of a share: what a node's cache holds
-  /// Of svm, in place of either: what a node's own pages leave of so many for its cache, at most all others, at least a page.
+  /// For svm, in place of either: what a node's own pages leave of so many for its cache, at most all others, at least a page.
   std::optional<std::uint32_t> shared_pages = std::nullopt;
   /// Grid: dmpc's own. Voxels: the article's, by core::article_voxels, without the skips that its program did not have.
   core::Structure structure = core::Structure::grid;
@@ -64,7 +64,7 @@ struct PaperResult {
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
-  /// Of the nodes' time.
+  /// Percent of the nodes' time.
   double percent(TimePart part) const { return parts.percent()[static_cast<std::size_t>(part)]; }
   /// The share of the look-ups of pages for which a page had to travel.
   double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
@@ -92,7 +92,7 @@ struct PaperSubject {
            lacks_later_skips == run.lacks_later_skips;
   }
 };
-/// Those that the runs need. Takes a second or so for the largest.
+/// Loads the scenes that the runs need. Takes a second or so for the largest.
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
 /// The one that the run needs, which must be there.
 const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects);
@@ -118,7 +118,7 @@ inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes
 /// Numbers of runs, one for each of paper_scenes.
 using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
 
-/// Those that the prices of voxel_machine() are fitted to: the smallest and the largest machine of Mountain and of Rings4.
+/// The runs that the prices of voxel_machine() are fitted to: the smallest and the largest machine of Mountain and of Rings4.
 inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
 
 /// A scene of the article's Figures 8 to 10, on 32 nodes.
@@ -126,7 +126,7 @@ struct VoxelCaches {
   std::size_t scene = 0;                 ///< of paper_scenes
   std::array<std::uint32_t, 6> pages{};  ///< of 1 KB
 };
-/// Of the sizes of cache_scenes those that a picture takes no minutes with: with smaller ones most look-ups of another page miss.
+/// The sizes of cache_scenes with which a picture does not take minutes: with smaller ones most look-ups of another page miss.
 inline constexpr std::array<VoxelCaches, 2> voxel_caches_tried = {
     {{2, {102, 204, 408, 811, 1621, 3242}}, {3, {51, 102, 204, 408, 1448, 2895}}}};
 

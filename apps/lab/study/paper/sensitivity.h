@@ -24,7 +24,7 @@ struct Variation {
 /// Prices of operations that no run of Table 3 does are left out: spheres, cones, and rays that travel.
 std::vector<Variation> variations_of(const nodes::Machine& machine);
 
-/// Those whose efficiencies are watched: Mountain on 2 and 64 nodes, Rings4 on 64, Tetra9 on 32 and 64.
+/// The runs whose efficiencies are watched: Mountain on 2 and 64 nodes, Rings4 on 64, Tetra9 on 32 and 64.
 inline constexpr std::array<PaperPlace, 5> watched_cells = {{{1, 1}, {1, 6}, {2, 6}, {3, 5}, {3, 6}}};
 
 /// The runs of one variation, by scene and column: those of the watched cells and of what they are held against.

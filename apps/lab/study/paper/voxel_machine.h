@@ -10,8 +10,8 @@ namespace dmpc::apps {
 /// have two slopes over nodes, which say what a look-up of a cached page costs, and two levels, which say no more than two
 /// numbers of what a ray does. So its operations are tied together by the proportions of core::measured_prices.
 struct VoxelPrices {
-  /// Of the traversal: a step to the next voxel with its entry read; a reference read and its polygon tested, which are one
-  /// operation here, as a record read and a test, since each reference that is read has its polygon tested.
+  /// Prices of the traversal: a step to the next voxel with its entry read; a reference read and its polygon tested, which are
+  /// one operation here, as a record read and a test, since each reference that is read has its polygon tested.
   double walk = 0;
   double rays = 0;           ///< of a ray set up, and of a hit shaded
   double cached_lookup = 0;  ///< of a look-up of a page that is not at home, beyond that of one that is

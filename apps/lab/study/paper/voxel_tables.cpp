@@ -72,7 +72,7 @@ Fitness fitness_of(const VoxelPrices& prices, const std::vector<VoxelCell>& cell
   return fitness;
 }
 
-/// Of cells on the smallest and the largest machine of these scenes.
+/// The cells on the smallest and the largest machine of these scenes.
 std::optional<VoxelPrices> prices_of(const std::vector<VoxelCell>& cells, std::size_t one, std::size_t other) {
   std::vector<PricedCell> chosen;
   for (const VoxelCell& cell : cells) {

@@ -43,7 +43,7 @@ TableResult result_of(const StudySweepOptions& options, const std::vector<SweepR
                       options.table.format);
 }
 
-/// Those of `render`, as words to be handed on.
+/// The options of `render`, as words to be passed on.
 void add_render_options(OptionSet& set, StudySweepOptions& options) {
   std::string group = sweepable_options().front().group;
   for (const OptionDescription& option : sweepable_options()) {

@@ -20,7 +20,7 @@ bool varies_caches_alone(const SweepSettings& settings) {
   });
 }
 
-/// Of a run that found room.
+/// The forecast of a run for which there was enough memory.
 html::MadeRun made_run(const SweepResult& result) {
   constexpr double ns_a_second = 1e9;
   return {static_cast<std::uint32_t>(needed_number(*result.figures, "options.cache_pages")),

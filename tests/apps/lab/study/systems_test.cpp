@@ -34,7 +34,7 @@ SystemsStudy study_of(const std::string& scene, const std::vector<const char*>& 
   return study;
 }
 
-/// The same on structures of today alone.
+/// A table on structures of today alone.
 SystemsStudy today(SystemsStudy study) {
   study.structures = {apps::SystemStructures::of_today};
   return study;

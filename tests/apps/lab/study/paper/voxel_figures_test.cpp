@@ -66,7 +66,7 @@ TEST_CASE("regions on voxels are those of Rings3 on 16, 32 and 64 nodes, with th
 
 namespace {
 
-/// Of the article's resolution: everything as it claims, but for a peak that no size tried has behind it.
+/// Results at the article's resolution: everything as it claims, but for a peak that no size tried has behind it.
 PaperResults results_as_claimed(const Catalogue& catalogue) {
   PaperResults results(catalogue.runs.size());
   for (std::size_t i = 0; i < voxel_caches_tried.size(); ++i) {
