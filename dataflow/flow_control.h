@@ -3,22 +3,23 @@
 //
 // Why there is no deadlock:
 // (1) A credit of (sender, target) is a slot for one packet of rays in the target's backlog. So everything in flight can be
-// received even by a node that is stuck, and nobody ever waits for a reception.
+//     received even by a node that is stuck, and nobody ever waits for a reception.
 // (2) A full packet that finds no credit for its owner is queued, and the node goes on. When the queue is full the packet goes to
-// the host. The host has memory for every ray, depends on nobody, and so returns a credit for itself as soon as the packet
-// arrives: a node waits for the host's credit for a bounded time.
+//     the host. The host has memory for every ray, depends on nobody, and so returns a credit for itself as soon as the packet
+//     arrives: a node waits for the host's credit for a bounded time.
 // (3) Hence a node with anything to do will do it, its backlog empties, and its credits are returned, batched while it is busy,
-// all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that it buffers goes on. A
-// node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
+//     all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that it buffers goes
+//     on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
 // (4) New primary rays start only when nothing received is left and, unless backpressure (backpressure.h) is off, few packets are
-// queued here and no other node asks to throttle. No work is taken up while a packet waits: one work() adds at most one ray to a
-// gather, which had a free slot. The packets that the host forwards take the credits of (host, target), with slots of their own.
+//     queued here and no other node asks to throttle. No work is taken up while a packet waits: one work() adds at most one ray
+//     to a gather, which had a free slot. The packets that the host forwards take the credits of (host, target), with slots of
+//     their own.
 // (5) With few nodes, every sender has its own credits, which return to it. With many, an owner's slots are shared: a sender asks
-// for one as soon as it has a ray for that owner, and has no second request or unused credit there. A granted credit is for rays
-// that are there, so it is used when their packet is full or its node has nothing else to do, by (3); if they have gone through
-// the host meanwhile, it is returned unused, in the slot that it stands for. So every slot becomes free again, and goes to the
-// longest waiting node: no requester waits for ever. A node asks no more owners at once than it has packets: more could only be
-// those whose rays have gone through the host. Every answer lets it ask another.
+//     for one as soon as it has a ray for that owner, and has no second request or unused credit there. A granted credit is for
+//     rays that are there, so it is used when their packet is full or its node has nothing else to do, by (3); if they have gone
+//     through the host meanwhile, it is returned unused, in the slot that it stands for. So every slot becomes free again, and
+//     goes to the longest waiting node: no requester waits for ever. A node asks no more owners at once than it has packets: more
+//     could only be those whose rays have gone through the host. Every answer lets it ask another.
 // (6) A node that fills as many packets as it has slots for closes one before the next ray, so (2) applies here, too.
 #pragma once
 

@@ -34,7 +34,7 @@ struct HostCounters {
   std::uint64_t rays_in = 0;             ///< overflowed
   std::uint64_t rays_out = 0;            ///< forwarded: at the end as many
   std::uint64_t rays_buffered_max = 0;   ///< at once
-  std::size_t buffered_bytes_max = 0;  ///< maximum heap, beyond the plan, for buffered rays
+  std::size_t buffered_bytes_max = 0;    ///< maximum heap, beyond the plan, for buffered rays
   std::uint64_t token_rounds = 0;        ///< rounds of termination detection (termination.h)
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes

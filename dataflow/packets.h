@@ -1,6 +1,6 @@
 // Messages between the nodes of dataflow and the host: values, without pointers.
 //
-// kind                   from -> to            channel   size   its slot in the target's mailbox is reserved by
+//   kind                   from -> to            channel   size   its slot in the target's mailbox is reserved by
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
@@ -156,7 +156,7 @@ inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage,
 /// Precedes `count` rays.
 struct RayPacketHeader {
   std::uint16_t count = 0;
-  std::uint16_t owner = 0;  ///< target of the rays, by either way
+  std::uint16_t owner = 0;      ///< target of the rays, by either way
   std::uint32_t rays_left = 0;  ///< if regions move: primary rays of the sender's units that have not started
 };
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);

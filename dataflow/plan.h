@@ -61,9 +61,9 @@ inline constexpr std::uint32_t queue_packets_max = 16384;
 /// A plan. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
-  std::uint32_t ray_batch = 1;    ///< rays in a full packet
-  std::uint32_t ray_credits = 1;  ///< from each node for each other, without asking
-  std::uint32_t ray_slots = 0;  ///< at each node, shared by the others and granted on request; 0: credits for each
+  std::uint32_t ray_batch = 1;      ///< rays in a full packet
+  std::uint32_t ray_credits = 1;    ///< from each node for each other, without asking
+  std::uint32_t ray_slots = 0;      ///< at each node, shared by the others and granted on request; 0: credits for each
   std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
   std::uint32_t rays_a_task = 1;    ///< maximum number of rays that a node traces at a time: more than one in bundles

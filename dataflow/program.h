@@ -84,7 +84,7 @@ struct NodeAssignment {
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& proxy;  ///< the whole database's
+  const core::DatabasePart& proxy;                   ///< the whole database's
   std::span<const std::uint32_t> pages = {};         ///< if regions move: the numbers of the part's pages
   std::span<const std::uint32_t> runs_of_unit = {};  ///< if regions move: the number of runs of each unit, in turn
 };

@@ -37,7 +37,7 @@ struct NodeCounters {
   std::uint64_t sleeps = 0;     ///< times the node went to sleep
   std::uint64_t busy_ns = 0;    ///< processor time of its thread (threads) or its turns (pool); excludes waits for a core
   std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for lack of packets
-  std::uint64_t wall_ns = 0;  ///< duration of this node's loop; wall - busy - asleep = time waiting for a core or a turn
+  std::uint64_t wall_ns = 0;    ///< duration of this node's loop; wall - busy - asleep = time waiting for a core or a turn
 };
 
 /// The sum over all kinds.

@@ -6,6 +6,7 @@
 //
 // Thread safety: push() and rouse() from any thread, the receiver's own included; everything else from the one
 // receiver.
+//
 // Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in between) repeat
 // only because another thread has succeeded. Nobody can stall another thread for ever. A sender stopped before its packet is on
 // the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped after that is done, but may owe a
@@ -15,21 +16,21 @@
 // credits. drain() is wait-free except for give(), which is lock-free.
 //
 // Invariants
-// (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and
-//     only over EMPTY; whoever else replaces ASLEEP wakes the receiver. It is one word with one order of changes, so
-//     no wake-up is lost and no fence is needed.
-// (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the
-//     receiver's next acquire, whatever came between.
-// (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
-//     as soon as its packet has been received, before it receives the next: at most one slot is held beyond those
-// A batch's slots are with its sender, chained as the inbox will have them, newest to oldest; handing them over is one
-// publication of all, so everything that holds for one packet holds for a batch.
-//     publication of all, so whatever holds for one packet holds for a batch.
+// (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and only over
+//     EMPTY; whoever else replaces ASLEEP wakes the receiver. It is one word with one order of changes, so no wake-up is lost and
+//     no fence is needed.
+// (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the receiver's next
+//     acquire, whatever came between.
+// (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back as soon as
+//     its packet has been received, before it receives the next: at most one slot is held beyond those that credits account for.
+//     That is the one spare slot a class has above its capacity.
+//     A batch's slots are with its sender, chained as the inbox will have them, newest to oldest; handing them over is one
+//     publication of all, so everything that holds for one packet holds for a batch.
 // (4) The data changed by senders of small, senders of bulk and sleepers lies on different cache lines: the inbox, the two heads,
-// the links of the two classes, the slots. The links of 16 slots of one class share a line.
+//     the links of the two classes, the slots. The links of 16 slots of one class share a line.
 // (5) A receiver with a WakeUp has no thread of its own: the thread that replaces ASLEEP rings it, once, where otherwise the
-// system would wake the receiver and the count be raised. The one who is rung does that (threads/awake_nodes.h). wait() is not
-// called.
+//     system would wake the receiver and the count be raised. The one who is rung does that (threads/awake_nodes.h). wait() is
+//     not called.
 #pragma once
 
 #include <algorithm>

@@ -34,7 +34,7 @@ struct PathTimes {
   std::uint64_t links_ns = 0;         ///< waiting for links held by other messages
   std::uint64_t receiving_ns = 0;     ///< receiving messages
   std::uint64_t serving_ns = 0;       ///< requests that were waited for, served by an interrupt
-  std::uint64_t messages = 0;  ///< number of messages that led from one node to another
+  std::uint64_t messages = 0;         ///< number of messages that led from one node to another
   /// All parts except computing and service by kinds of messages.
   std::array<std::uint64_t, packet_kind_count> by_kind_ns{};
 
@@ -57,7 +57,7 @@ class Program;
 enum class Activity : std::uint8_t {
   work,      ///< a quantum
   receive,   ///< the program takes a packet
-  serve,  ///< a packet taken by an interrupt, during another activity or while idle (modelled machines)
+  serve,     ///< a packet taken by an interrupt, during another activity or while idle (modelled machines)
   send,      ///< the cost of sending a quantum's packets (modelled machines)
   take_over  ///< the cost of taking a packet that arrived while idle (modelled machines)
 };

@@ -1,18 +1,16 @@
-// Equal slots of plain bytes that any thread may take and only the receiver gives back: a stack of free slots with a
-// tagged head.
+// Equal slots of plain bytes that any thread may take and only the receiver gives back: a stack of free slots with a tagged head.
 //
 // Thread safety: take() from any thread; give() from the one receiver, for a slot that nobody else holds.
 //
 // Invariants
 // (1) A slot is free (on the stack) or held by exactly one thread or mailbox.
-// (2) The link of a slot is meaningful to the one who holds it, or while it is free. It is atomic because a slow
-//     take() may still read it when the slot has gone to another; such a take() then fails, because the head has
-//     changed.
-// A link of 0 has never been written: after that slot comes the one with the next number. So making a pool touches neither links
-// nor slots, and the real computer commits nothing for slots that are never taken.
-// (3) The head's tag grows by 1 with every take, so a head that looks the same is the same (no ABA). The tag has 32
-//     bits: wrong only if exactly a multiple of 2^32 takes happen while one take() is suspended between its load and
-//     its compare-exchange and the same slot is on top again.
+// (2) The link of a slot is meaningful to the one who holds it, or while it is free. It is atomic because a slow take() may still
+//     read it when the slot has gone to another; such a take() then fails, because the head has changed. A link of 0 has never
+//     been written: after that slot comes the one with the next number. So making a pool touches neither links nor slots, and the
+//     real computer commits nothing for slots that are never taken.
+// (3) The head's tag grows by 1 with every take, so a head that looks the same is the same (no ABA). The tag has 32 bits: wrong
+//     only if exactly a multiple of 2^32 takes happen while one take() is suspended between its load and its compare-exchange and
+//     the same slot is on top again.
 // Progress: lock-free. A take() or give() repeats only because another one has succeeded meanwhile; a thread stopped
 // half-way has either not changed the head yet or is done, so nobody waits for it. At worst it keeps one slot.
 #pragma once

@@ -78,7 +78,7 @@ class Topology {
   TopologyKind kind_;
   std::uint32_t node_count_;
   std::uint32_t place_count_;
-  std::uint32_t width_ = 1, height_ = 1;  ///< for mesh and torus
+  std::uint32_t width_ = 1, height_ = 1;       ///< for mesh and torus
   std::vector<std::uint32_t> level_first_{};   ///< fat tree: the first place of each level; level 0 are the nodes
   std::vector<std::uint32_t> level_copies_{};  ///< fat tree: switches with the same nodes below, by level
 };

@@ -8,8 +8,7 @@
 
 namespace dmpc::svm {
 
-/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the
-/// header.
+/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the header.
 nodes::Room<std::byte> FilmGather::layout(const FilmCapacity& capacity) {
   return {core::MemoryUse::film_tiles,
           film_entry_bytes(capacity.planes) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries)};

@@ -1,8 +1,8 @@
 // Messages between nodes and the host about pixels, for all strategies here: values, without pointers.
 //
-// kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
-// work_request           node -> next node   ring      small  its requester: one in flight for each node
-// work_reply             donor -> requester  control   small  the work request
+//   kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
+//   work_request           node -> next node   ring      small  its requester: one in flight for each node
+//   work_reply             donor -> requester  control   small  the work request
 //   film_sums              node -> host        bulk      bulk   the sender's film credits
 //   film_acknowledgement   host -> node        control   small  the film packet
 //   done                   node -> host        control   small  once a pass
@@ -83,7 +83,7 @@ static_assert(is_small_packet<MaskedWorkReply>);
 struct FilmEntry {
   std::uint32_t pixel = 0;  ///< the first
   std::uint32_t more = 0;   ///< number of pixels that follow it, by index
-  core::PixelSums sums;  ///< each pixel's; on as many planes as are sent
+  core::PixelSums sums;     ///< each pixel's; on as many planes as are sent
 };
 static_assert(sizeof(FilmEntry) == 56 && std::is_trivially_copyable_v<FilmEntry>);
 

@@ -74,8 +74,7 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
   return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / film_entry_bytes(film_planes_of(request)));
 }
 
-/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
-/// received.
+/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const PlanRequest& request = plan.request;
   const bool ring = item_side_of(request) > 0;

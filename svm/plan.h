@@ -32,7 +32,7 @@ struct PlanRequest {
   const Strategy* strategy = svm_strategy();
   std::uint32_t page_count = 0;
   std::uint32_t forest_page_count = 0;  ///< number before the first subtree (core::Database::forest_page_count())
-  std::uint32_t open_page_count = 0;  ///< number after them (core::Database::open_page_count())
+  std::uint32_t open_page_count = 0;    ///< number after them (core::Database::open_page_count())
   std::size_t page_size_bytes = 1024;
   nodes::ComputerRequest computer = {};  ///< without a memory limit, svm's caches have a quarter of the database each, at least
                                          ///< 64 pages and at most all pages that are not at home

@@ -34,7 +34,7 @@ struct WorkShape {
 /// shares only shrink this stays true (except for a node that has not yet received the begin of a later pass: a requester that
 /// gets this answer rests for that pass). The first request enters the ring at the next node, a later one at the last donor,
 /// because all nodes before it had nothing. If the host assigns all items, every request goes to it.
-/// that gave last, because all before it had nothing. Where the host assigns all items, every request goes to it.
+///
 /// For the same reason a node without items need not pass a request on to the next node (the skip idle-nodes): no node from
 /// itself up to its last donor has any, so requests go from donor to donor; and a node that knows of no more work answers for
 /// all. This is the find operation of disjoint sets (R. Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", 1975),

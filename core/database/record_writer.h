@@ -141,7 +141,7 @@ class RecordWriter {
   std::vector<Address> instances_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;
-  std::size_t end_ = 0;  ///< end of the allocated memory
+  std::size_t end_ = 0;         ///< end of the allocated memory
   std::size_t shared_end_ = 0;  ///< end of the shares of records, since there were some
   std::vector<std::byte> bytes_;
 };

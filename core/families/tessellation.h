@@ -33,7 +33,7 @@ class TessellatingSink final : public SceneSink {
 
   SceneSink& target_;
   std::vector<Vec3d> directions_;  ///< on a unit sphere, three for each triangle, in the order they are sent
-  std::vector<Turn> turns_;  ///< around a cone's side, 4 N + 1 from 0 to a whole turn
+  std::vector<Turn> turns_;        ///< around a cone's side, 4 N + 1 from 0 to a whole turn
 };
 
 }  // namespace dmpc::core::scenes

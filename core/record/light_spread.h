@@ -13,7 +13,7 @@ enum class ConeEdge : std::uint8_t { linear, smooth, square };
 
 /// The cone of a spot light.
 struct LightCone {
-  Vec3d ahead;  ///< unit length
+  Vec3d ahead;                       ///< unit length
   double full_degrees = 0;           ///< full strength within this angle from `ahead`
   double none_degrees = 0;           ///< dark beyond this angle, up to 180; 0: in all directions
   ConeEdge edge = ConeEdge::linear;  ///< in between

@@ -29,7 +29,7 @@ inline constexpr std::uint32_t no_primitive = 0xffffffffU;
 struct Ray {
   Vec3f origin;
   float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
-  Vec3f direction;  ///< unit length, up to rounding
+  Vec3f direction;                                       ///< unit length, up to rounding
   std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
   Color weight{1, 1, 1};     ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
   std::uint32_t pixel = 0;   ///< y * width + x

@@ -298,7 +298,7 @@ static_assert(sizeof(MaterialRecord) == 32);
 struct MaterialExtensionRecord {
   static constexpr std::uint16_t share_max = 65535;
 
-  Color specular;  ///< colour of highlight and mirror, without the part in the surface's own colour
+  Color specular;              ///< colour of highlight and mirror, without the part in the surface's own colour
   Color emission;              ///< radiance
   float refraction_index = 1;  ///< as a MaterialRecord has it
   /// In 65535ths: where what alpha leaves of the surface is less, nothing is there, elsewhere all; 0: as much as alpha leaves.
@@ -378,8 +378,8 @@ struct DatabaseHeader {
   GridFrame frame;
   Region region;  ///< whose records are here: the whole grid, or a node's part of it
   Address directory = no_address;
-  Address references = no_address;  ///< the voxels'; no_address: macro cells have trees of BVH nodes
-  std::int32_t directory_doublings = 0;  ///< in a proxy of voxels, an entry covers 2^this of them along each axis
+  Address references = no_address;               ///< the voxels'; no_address: macro cells have trees of BVH nodes
+  std::int32_t directory_doublings = 0;          ///< in a proxy of voxels, an entry covers 2^this of them along each axis
   Corner directory_low{};                        ///< finest cells, a multiple of macro cells: where the directory begins
   std::array<std::int32_t, 3> directory_size{};  ///< macro cells along x, y, z
   Address materials = no_address;
@@ -395,7 +395,7 @@ struct DatabaseHeader {
   std::uint32_t emitter_count = 0;              ///< that hits draw: 0 unless paths were to aim at some, and there are such
   std::uint32_t drawn_materials = 0xffffffffU;  ///< from this one on materials are those of emitters that are drawn
   float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
-  SkyReference sky;  ///< for paths with a sky's picture
+  SkyReference sky;           ///< for paths with a sky's picture
 
   /// Whether macro cells are voxels with lists.
   constexpr bool has_voxels() const { return references != no_address; }

@@ -158,7 +158,7 @@ struct Scene {
   std::vector<Cone> cones;
   std::vector<Texture> textures;
   SkyTexels sky;               ///< with paths, the background, if there is one
-  Vec3d zenith;  ///< the sky's, unit length, for any view; 0: the view's up
+  Vec3d zenith;                ///< the sky's, unit length, for any view; 0: the view's up
   std::optional<int> bounces;  ///< with paths, the number of bounces in the file, if given
   /// The relative error of the file's coordinates: 0x1p-25 if it stores them in single precision. Smaller differences do not
   /// distinguish two planes.

@@ -18,7 +18,7 @@ struct SkyTexels {
   std::uint32_t width = 0, height = 0;  ///< 0: there is no picture
   std::vector<std::uint32_t> texels;    ///< with TexelFormat::shared_exponent, of `scale`
   double scale = 1;                     ///< factor of the texels, a power of two
-  double brightest = 0;  ///< maximum over all channels of all texels
+  double brightest = 0;                 ///< maximum over all channels of all texels
   std::uint64_t coarse = 0;             ///< texels that are off by more than 1/128 of their largest channel
 
   bool is_there() const { return width > 0; }

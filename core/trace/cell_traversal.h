@@ -19,6 +19,7 @@ namespace dmpc::core {
 /// Values that follow from a ray and a grid: they are recomputed from the ray's bits, not carried from step to step.
 ///
 /// RayPlanes keep order, so "which planes has the ray crossed at t" has one answer: macro cells, empty boxes of them and
+/// regions are all boxes of one lattice, and leaving a box of empty cells in one step leads to the same cell as leaving it cell
 /// by cell. Planes crossed at equal t are crossed in the order x, y, z.
 ///
 /// Within a macro cell a tree of BVH nodes leads to the leaves whose boxes the ray meets, nearest first. The cell is left when

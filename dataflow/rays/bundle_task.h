@@ -109,7 +109,7 @@ class BundleTask {
   std::uint32_t depth_ = 0;       ///< bundles of hits on the stack, all of whose rays have ended
   std::uint32_t fresh_hits_ = 0;  ///< in the next one
   std::uint32_t count_ = 0;       ///< number of rays to be traced: the first ones
-  core::RayMask entered_ = 0;  ///< rays to be traced that did not start here
+  core::RayMask entered_ = 0;     ///< rays to be traced that did not start here
   std::uint32_t waiting_ = 0;     ///< number of rays after the traced ones, to be traced in another region
   std::uint32_t ended_ = 0;       ///< number of rays that were traced and handled
   std::uint32_t traced_ = 0;      ///< number of rays that were traced

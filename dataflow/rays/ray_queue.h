@@ -22,7 +22,6 @@ namespace dmpc::dataflow {
 /// Senders that share slots count as one. A sender's credit is a slot for one full packet. So of the packets that have come from
 /// a sender, as many credits are withheld as the rays of it that are still here would fill; the others are owed to it. Thread
 /// safety: belongs to one node.
-/// safety: belongs to one node.
 class RayQueue {
   struct List;
   struct Sender;

@@ -1,6 +1,5 @@
 // The activity of every node over time, in a bounded number of steps; an instrument outside of the computer, whose memory is no
 // node's.
-// node's.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Records on a heat map when each item of a program's work was last processed; an instrument outside of the computer, whose
 // memory is no node's.
-// node's.
+//
 // A Meter cannot do this: programs have no clock. What a call has worked on is reported before its span, which alone has the end
 // of the call; so the items of a call wait for it.
 #pragma once

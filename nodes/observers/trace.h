@@ -32,7 +32,7 @@ struct TraceSpan {
   std::uint64_t own_ns = 0;  ///< as a Span's, of the whole span
   std::uint64_t call = 0;
   std::uint32_t item = no_item;  ///< the item worked on, the first of several
-  std::uint32_t depth = 0;  ///< as in Worked
+  std::uint32_t depth = 0;       ///< as in Worked
   Activity activity = Activity::work;
   PacketKind packet = 0;
   ChargeBits charged = 0;
@@ -43,7 +43,7 @@ struct TraceSpan {
 struct TraceMessage {
   NodeId source{}, target{};
   PacketKind kind = 0;
-  std::uint32_t bytes = 0;  ///< payload
+  std::uint32_t bytes = 0;       ///< payload
   std::uint32_t first_word = 0;  ///< first word of the payload: a number in many protocols
   std::uint64_t sent_call = 0, received_call = 0;
   std::uint64_t sent_ns = 0, received_ns = 0;
@@ -116,7 +116,7 @@ class TraceRecorder final : public Observer {
   TraceChoice choice_;
   std::vector<Log> logs_;
   std::uint64_t shared_room_ = 0;         ///< events, for the first that need it
-  std::atomic<std::uint64_t> taken_{0};  ///< events taken from it, including requests in vain
+  std::atomic<std::uint64_t> taken_{0};   ///< events taken from it, including requests in vain
   std::atomic<std::uint32_t> period_{0};  ///< bits of the first one to be thinned, plus 1
 };
 

@@ -13,7 +13,7 @@ namespace dmpc::nodes {
 struct WaitRecord {
   /// By node, then in order of time.
   std::vector<Waited> waits;
-  std::uint64_t count = 0;  ///< number of all waits
+  std::uint64_t count = 0;            ///< number of all waits
   std::uint64_t left_out_ns_max = 0;  ///< the longest that is not included; all longer ones are
 };
 

@@ -95,7 +95,7 @@ class ClosingTalk {
   struct TerminationMessage {
     Ending ending = Ending::none;
     FailureKind kind = FailureKind::internal;  ///< if the rank has failed
-    std::string text;  ///< if the rank has failed; in a deadlock a line for each program
+    std::string text;                          ///< if the rank has failed; in a deadlock a line for each program
   };
 
   TerminationMessage own_message() const {

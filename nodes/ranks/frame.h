@@ -41,7 +41,7 @@ enum class Item : std::uint8_t {
 /// Precedes an item's bytes.
 struct ItemHeader {
   std::uint32_t target = 0;  ///< the index of a packet's target, or of the node that a report is of
-  PacketHeader packet;  ///< in other items only `bytes` is used
+  PacketHeader packet;       ///< in other items only `bytes` is used
   Item item = Item::packet;
 
   /// Including the bytes that follow.

@@ -85,7 +85,7 @@ class GatheringTalk {
   }
 
   RankLinks* links_;
-  std::vector<std::string> reports_;  ///< by other ranks' nodes, by node
+  std::vector<std::string> reports_;      ///< by other ranks' nodes, by node
   std::vector<RankReport> rank_reports_;  ///< by other ranks
   std::uint32_t ranks_reported_ = 0, reports_ended_ = 0;
 };

@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to
 
 struct RankReport {
   RankTraffic traffic;
-  ClockDrift clock;  ///< if the run is observed
+  ClockDrift clock;      ///< if the run is observed
   std::string reported;  ///< the caller's report there
 };
 

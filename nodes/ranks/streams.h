@@ -2,8 +2,7 @@
 //
 // A rank has memory for stream_window_bytes that it has not read yet, and reports what it has read; no more bytes are in flight
 // to it, even if the network would take them. Nobody starts before rank 0 does (RanksRunner), which waits here until all are
-// ready:
-// so until then nothing else is under way.
+// ready: so until then nothing else is in flight.
 #pragma once
 
 #include <cstddef>

@@ -10,8 +10,8 @@
 // (1) A node is in line, or its turn is on, or its mailbox's word is ASLEEP, or it is woken: then its number is with the one
 //     thread that has replaced ASLEEP, or in woken(), once. So woken() never has more numbers than there are nodes.
 // (2) The awake count (nodes/awake_count.h) counts worker threads. A worker thread leaves it when no node is in line and after
-// the word of woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a running worker thread,
-// or brings packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is in flight.
+//     the word of woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a running worker
+//     thread, or brings packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is in flight.
 // Progress: as push()'s. A worker thread that is stopped between a packet and the wake-up delays the packet's node until it goes
 // on, like its own nodes.
 #pragma once

@@ -154,7 +154,7 @@ class NodeThreads final : public Network {
   std::atomic<bool> failing_{false};
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
   std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< nodes that are here
-  std::vector<ThreadProcessor*> by_index_;  ///< all nodes; nullptr if elsewhere
+  std::vector<ThreadProcessor*> by_index_;                    ///< all nodes; nullptr if elsewhere
   std::vector<std::unique_ptr<WorkerThread>> worker_threads_;  ///< none where each node has a thread
   std::vector<Start> starts_;
 };

@@ -15,7 +15,7 @@ namespace dmpc::nodes {
 struct LinkUse {
   std::string from, to;        ///< "node 3", "host", "switch 0", "place 9" (a router without a node), "memory 3"
   std::uint64_t messages = 0;  ///< number that passed it
-  std::uint64_t bytes = 0;  ///< including headers
+  std::uint64_t bytes = 0;     ///< including headers
   std::uint64_t busy_ns = 0;   ///< time held by them
   std::uint64_t wait_ns = 0;   ///< time that messages waited for it
 };
@@ -25,7 +25,7 @@ struct LinkTraffic {
   std::uint64_t messages = 0;  ///< from a node to another
   std::uint64_t hops = 0;      ///< links passed, memory ports aside, summed over messages
   std::uint64_t passages = 0;  ///< links and memory ports passed, summed over messages
-  std::uint64_t bytes = 0;  ///< messages' bytes, summed over passages
+  std::uint64_t bytes = 0;     ///< messages' bytes, summed over passages
   std::uint64_t busy_ns = 0;   ///< summed over links and memory ports
   std::uint64_t wait_ns = 0;   ///< time that messages waited for links held by others, summed
 };
@@ -78,8 +78,8 @@ class Links {
   Machine machine_;
   std::vector<Wire> wires_;               ///< for links that a message has passed, in the order of the first
   std::vector<std::uint32_t> table_;      ///< size a power of two: by a hash of its ends, the index of each wire, or no_wire
-  std::vector<Link> links_;  ///< the current message's, including memory ports
-  std::vector<std::uint32_t> route_;  ///< the wires of `links_`
+  std::vector<Link> links_;               ///< the current message's, including memory ports
+  std::vector<std::uint32_t> route_;      ///< the wires of `links_`
   std::vector<std::uint64_t> begins_ns_;  ///< from when it has each of them
   LinkTraffic traffic_;
 };

@@ -185,7 +185,7 @@ struct alignas(64) VirtualProcessor final : Network {
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;
   core::ZeroedArray<Way> ways;  ///< by target
-  std::uint64_t calls = 0;  ///< number of the program's calls, if there is an observer
+  std::uint64_t calls = 0;      ///< number of the program's calls, if there is an observer
   Charges charged;              ///< likewise
   Span span, service;           ///< current activity, and the service that interrupted it, likewise
   LocalMemory memory;

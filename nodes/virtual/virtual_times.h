@@ -44,7 +44,7 @@ struct VirtualReport {
   std::uint64_t hash = 0;
   std::uint64_t machine_digest = 0;  ///< Machine::digest()
   LinkTraffic links;
-  std::size_t links_used = 0;  ///< number that carried anything, including memory ports
+  std::size_t links_used = 0;                      ///< number that carried anything, including memory ports
   std::vector<LinkUse> busiest_links;              ///< as Links::busiest(), at most busiest_links_max
   std::vector<VirtualTimes> nodes;                 ///< in order, the host last
   std::optional<CriticalPath> critical_path = {};  ///< if an observer followed paths; adds up to total_ns

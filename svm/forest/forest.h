@@ -10,7 +10,7 @@
 //
 // Questions and answers between nodes of strategy forest are values, without pointers. A packet has as many as fill it.
 //
-// kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
+//   kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
 //   questions              node -> owner       request   any    the sender's request credits for that owner
 //   answers                owner -> node       bulk      any    the questions
 //

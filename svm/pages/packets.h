@@ -1,8 +1,8 @@
 // Messages between nodes about pages: values, without pointers.
 //
-// kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
+//   kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
 //   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
-// passed_request         node -> parent      request   small  the requester's request, which has slots all the way up
+//   passed_request         node -> parent      request   small  the requester's request, which has slots all the way up
 //   page_reply             home -> node        bulk      bulk   the request
 //
 // If nodes ask the host through a tree (svm/pages/request_tree.h) page requests go to the parent, and the reply comes from the

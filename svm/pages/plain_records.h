@@ -10,10 +10,10 @@
 namespace dmpc::svm {
 
 /// A base of a node's part of the database (Pager, and without pages a whole copy, or a forest). Each kind also has:
-/// receive(packet, waiting) takes a packet about records, continues the tasks for which it brings something, and returns false
-/// for any other packet;
-/// lacks(slot, waiting)     lets the task there wait for what find() has just reported absent;
-/// counters()               counts look-ups.
+///   receive(packet, waiting) takes a packet about records, continues the tasks for which it brings something, and returns false
+///     for any other packet;
+///   lacks(slot, waiting)     lets the task there wait for what find() has just reported absent;
+///   counters()               counts look-ups.
 /// Nothing is virtual: kinds are known when programs are compiled. Thread safety: belongs to one node.
 struct PlainRecords {
   /// What tasks wait for, for reports.

@@ -17,7 +17,7 @@ using Stamps = std::span<std::uint64_t>;
 /// The environment of a policy.
 struct PolicySite {
   nodes::LocalMemory& memory;     ///< the node's: everything that grows with the number of frames lies there
-  Stamps stamps;  ///< the cache's frames', written by the cache at each reference
+  Stamps stamps;                  ///< the cache's frames', written by the cache at each reference
   std::span<const PageId> pages;  ///< pages of the filled frames
   std::uint32_t seed = 0;         ///< the node's number
 

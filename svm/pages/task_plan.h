@@ -28,7 +28,7 @@ class TaskPlan {
  public:
   /// Sizes of a task.
   struct Sizes {
-    std::size_t task_bytes = 0;  ///< per task in flight
+    std::size_t task_bytes = 0;    ///< per task in flight
     std::size_t result_bytes = 0;  ///< per result, in flight or done
   };
 

@@ -78,8 +78,8 @@ void append_messages(std::string& bytes, const ModelChannels<Channel>& channels)
   }
 }
 
-/// What a peer that holds the token comes to: calls send(state, target, token) for whom it goes to, then
-/// visit(state, whether the end is not proved).
+/// What a peer that holds the token comes to: calls send(state, target, token) for whom it goes to, then visit(state, whether the
+/// end is not proved).
 template <class State, class Send, class Visit>
 void hand_on_token(const State& state, std::size_t peer, Send send, Visit visit) {
   if (!state.member[peer].termination.holds_token()) {

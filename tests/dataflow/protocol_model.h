@@ -47,7 +47,7 @@ struct ProtocolSettings {
   std::uint8_t rays_a_packet = 1;           ///< more than 1 only with one credit
   std::uint8_t return_batch = 1;            ///< credits that a busy node collects
   std::uint8_t queue_packets = 0;           ///< at most 2
-  std::uint8_t shared_slots = 0;  ///< at each owner, on request; 0: nodes have credits_each of their own
+  std::uint8_t shared_slots = 0;            ///< at each owner, on request; 0: nodes have credits_each of their own
   std::uint8_t open_packets = model_nodes;  ///< being filled at one node at a time
   std::uint8_t asks_max = model_nodes;      ///< owners that a node may be asking for a place
   bool has_backpressure = true;
@@ -57,7 +57,7 @@ struct ProtocolSettings {
   bool host_returns_credit = true;
   bool token_waits_for_rest = true;  ///< a busy member keeps the token
   bool acknowledges_last = true;     ///< what is relayed, when those below have been told
-  bool asks_again = true;  ///< asks owners that were not asked before, when another has answered
+  bool asks_again = true;            ///< asks owners that were not asked before, when another has answered
 };
 
 template <class Rules>
@@ -67,8 +67,8 @@ class ProtocolModel {
 
   struct Message {
     Kind kind{};
-    std::uint8_t count = 0;  ///< rays or credits; for a token: whether it is black; for a hold: whether it holds
-    std::uint8_t owner = 0;  ///< for overflowed rays
+    std::uint8_t count = 0;   ///< rays or credits; for a token: whether it is black; for a hold: whether it holds
+    std::uint8_t owner = 0;   ///< for overflowed rays
     std::int8_t balance = 0;  ///< for a token
   };
   using Channel = ModelChannel<Message, 8>;
@@ -78,7 +78,7 @@ class ProtocolModel {
     typename Rules::Termination termination;
     typename Rules::Backpressure backpressure{0, 0};
     std::uint8_t primaries = 0;
-    std::uint8_t children = 0;  ///< children of the current hits, still to be made
+    std::uint8_t children = 0;                         ///< children of the current hits, still to be made
     std::array<std::uint8_t, model_peers> backlog{};   ///< rays by sender; of the host: rays kept, by owner
     std::array<std::uint8_t, model_peers> owed{};      ///< credits to be given back, by sender
     std::array<std::uint8_t, model_peers> credits{};   ///< by target
@@ -88,8 +88,8 @@ class ProtocolModel {
     std::uint8_t waiting_owner = 0;
     std::array<std::uint8_t, model_nodes> asked{};       ///< whether a place is asked for, by owner
     std::array<std::uint8_t, model_nodes - 1> asking{};  ///< who waits for a place here, the longest first: index + 1
-    std::uint8_t free_slots = 0;  ///< shared ones
-    std::uint8_t withheld = 0;  ///< shared ones in which packets have arrived
+    std::uint8_t free_slots = 0;                         ///< shared ones
+    std::uint8_t withheld = 0;                           ///< shared ones in which packets have arrived
     std::uint8_t holds_below = 0;                        ///< members that have been told what to throttle, and not answered
     bool is_finished = false;
   };

@@ -52,9 +52,9 @@ inline std::string base64(const std::string& bytes) {
 /// A glTF scene around the triangle.
 struct Gltf {
   std::string nodes = R"([{"mesh":0}])", roots = "[0]";
-  std::string materials;  ///< the triangle's is first; none if empty
+  std::string materials;                                       ///< the triangle's is first; none if empty
   std::array<float, 9> corners = triangle_corners, normals{};  ///< no normals if all are 0
-  std::string more;  ///< members of the outermost object, after a comma
+  std::string more;                                            ///< members of the outermost object, after a comma
 
   std::string bytes() const { return bytes_of(corners) + bytes_of(normals) + bytes_of(std::array<std::uint32_t, 3>{0, 1, 2}); }
   bool has_normals() const { return normals != std::array<float, 9>{}; }

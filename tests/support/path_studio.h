@@ -43,8 +43,8 @@ class Studio {
     }
     return sum / static_cast<double>(film.pixel_count());
   }
-  /// The red channel of a square of pixels in the middle of a picture `times` as high: what they show does not
-  /// depend on that, but their numbers do, and so all chances.
+  /// The red channel of a square of pixels in the middle of a picture `times` as high: what they show does not depend on that,
+  /// but their numbers do, and so all chances.
   std::vector<double> square(int side, int samples, int bounces, int times, const core::Transport& transport = paths) const {
     core::LocalRecords records(database_.bytes());
     core::GridTracer<core::LocalRecords> tracer(records, database_.header(), {});

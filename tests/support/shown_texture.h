@@ -88,7 +88,7 @@ class ShownTexture {
   }
   std::set<core::Address> tiles_read;  ///< by the last look-up
   float alpha = 0;                     ///< what it found of that, in a format that has it
-  int tile_steps = 0;  ///< number of its steps that read a tile
+  int tile_steps = 0;                  ///< number of its steps that read a tile
 
  private:
   static std::uint32_t wrapped(double texel, std::uint32_t size, core::TextureWrap wrap) {

@@ -14,7 +14,7 @@
 namespace dmpc::core {
 
 struct MeshTriangle {
-  std::uint32_t object = 0;  ///< index in the mesh
+  std::uint32_t object = 0;               ///< index in the mesh
   std::array<std::uint32_t, 3> corner{};  ///< corners of that object
   std::uint32_t plane = 0;                ///< which of MeshFaces::planes it shares, from 1 on; 0: none
 };

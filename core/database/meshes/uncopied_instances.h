@@ -63,7 +63,7 @@ class UncopiedInstances {
   std::vector<BaseMeshInstance> instances_;  ///< without copies
   MeshesRecords meshes_;
   std::vector<std::vector<Chunk>> chunks_;  ///< by MeshesRecords::index
-  std::uint64_t triangles_ = 0;  ///< in all these instances
+  std::uint64_t triangles_ = 0;             ///< in all these instances
 };
 
 }  // namespace dmpc::core

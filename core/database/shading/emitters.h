@@ -16,7 +16,7 @@ struct Emitters {
   std::vector<Material> materials;     ///< for these primitives, after the scene's
   float density = 0;                   ///< DatabaseHeader::emitter_density
   std::uint64_t others = 0;            ///< emitting primitives that are found by BSDF sampling alone
-  std::uint64_t covered = 0;  ///< number of these that others in their plane may cover
+  std::uint64_t covered = 0;           ///< number of these that others in their plane may cover
 };
 
 /// Selects up to `count_max` triangles and spheres of the greatest power for light sampling in proportion to power, and gives

@@ -35,7 +35,7 @@ struct BvhNodeDraft {
 struct BvhTree {
   BvhNodeDraft top;
   std::vector<std::uint32_t> ids;  ///< by leaf, ascending in each
-  Address address = no_address;  ///< the first BVH node's, once it is allocated
+  Address address = no_address;    ///< the first BVH node's, once it is allocated
   bool lies_in_subtrees = false;   ///< take_forest_room() has been called
 
   /// Adds its BVH nodes and leaves.

@@ -22,7 +22,7 @@ struct PixelPast {
   /// has that precision, too.
   std::array<float, 3> mean{};
   float expected = -1;  ///< its square error then, if it looked even; less than 0: it did not
-  float evidence = 0;  ///< unseen error, shown by this pixel for others that look even, times spread(samples)
+  float evidence = 0;   ///< unseen error, shown by this pixel for others that look even, times spread(samples)
   float weight = 0;     ///< the evidence's: 1 at first, halved after each pass
   /// The squared difference between the mean of all of its samples and that of the first half, times spread(samples); for noise,
   /// combined with what earlier changes predict.

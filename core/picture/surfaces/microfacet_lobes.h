@@ -53,7 +53,7 @@ class MicrofacetLobes {
   const HitState& state_;
   HitState::Microfacets facets_;
   Vec3d out_;           ///< towards the ray's origin, or mirrored to above the normal
-  double cosine_;  ///< between out_ and the normal
+  double cosine_;       ///< between out_ and the normal
   double index_;        ///< relative_index()
   Vec3d straight_;      ///< reflectance at normal incidence
   Vec3d scattered_;     ///< colour of light that is not reflected

@@ -13,7 +13,7 @@
 namespace dmpc::core {
 
 struct PathStep {
-  Vec3d towards;  ///< unit length
+  Vec3d towards;                      ///< unit length
   Color weight;                       ///< factor of the path's weight
   RayKind kind = RayKind::scattered;  ///< the ray's
   /// The density with which the direction was chosen, per steradian: that of response_towards(). Infinite for mirrors and glass,

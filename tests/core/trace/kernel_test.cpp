@@ -226,7 +226,7 @@ struct Met {
   BvhChild first = BvhChild::none();
   float t_first = 0;
   std::vector<BvhChild> waiting;  ///< the nearest last
-  std::vector<float> t_enter;  ///< the waiting children's
+  std::vector<float> t_enter;     ///< the waiting children's
 
   bool operator==(const Met& other) const {
     const auto same = [](BvhChild a, BvhChild b) { return a.bits == b.bits; };

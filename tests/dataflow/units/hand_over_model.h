@@ -20,7 +20,7 @@ namespace dmpc::tests {
 struct HandOverRules {
   bool sends_on = true;              ///< a ray that comes to a former owner goes on to the one it knows
   bool counts_transfers = true;      ///< for the proof of the end, as packets of rays
-  bool counts_primaries = true;  ///< including those that go along with a unit
+  bool counts_primaries = true;      ///< including those that go along with a unit
   bool gives_primaries_away = true;  ///< who hands them over starts none of them
   bool active_until_content = true;  ///< a node that is about to ask keeps the token
   bool news_wakes = false;           ///< a node that hears who has the unit may ask
@@ -47,8 +47,8 @@ class HandOverModel {
   struct Message {
     Kind kind{};
     std::uint8_t version = 0;  ///< for news and pages; for a token: whether it is black
-    std::uint8_t owner = 0;  ///< for news; for a page: whether it is the last
-    std::int8_t balance = 0;  ///< for a token; for primary rays: how many
+    std::uint8_t owner = 0;    ///< for news; for a page: whether it is the last
+    std::int8_t balance = 0;   ///< for a token; for primary rays: how many
   };
   using Channel = ModelChannel<Message, 6>;
   struct Member {
@@ -58,8 +58,8 @@ class HandOverModel {
     std::uint8_t rays = 0;                ///< not looked at yet
     std::uint8_t held = 0;                ///< not started
     std::uint8_t walking = 0;             ///< rays taken up while the node answered for the unit
-    std::uint8_t recipient = 0;  ///< for the unit that is being given
-    std::uint8_t parts_left = 0;  ///< parts of that unit: its last page, its primary rays
+    std::uint8_t recipient = 0;           ///< for the unit that is being given
+    std::uint8_t parts_left = 0;          ///< parts of that unit: its last page, its primary rays
     std::uint8_t unstored = 0;            ///< a last page that a broken node has acknowledged: its version
     bool has_pages = false;
     bool wants = false;  ///< finds another worth asking
