@@ -42,7 +42,7 @@ struct NodeState {
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be revoked or acknowledged
   bool is_unanswered = false;      ///< some owner has been asked for a slot and has not granted it yet
-  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/migration.h)
+  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is in progress (units/migration.h)
 };
 
 /// In order of priority.

@@ -85,7 +85,7 @@ void HostProgram::receive(const nodes::Packet& packet) {
   }
 }
 
-/// Forwards all that it can; without a ray it hands on the token, and tells all when the end is proved.
+/// Forwards all that it can; without a ray it passes on the token, and informs all when the end is detected.
 bool HostProgram::work() {
   if (is_cut_short_) {
     return true;  // so that nobody takes the stillness for the end before the runner has seen the stop
@@ -123,7 +123,7 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
   send_control(*node_, packet.source, Kind::credits, Credits{1});
 }
 
-/// Tells all nodes when the first of them asks the others to hold primary rays back, and when none does any more.
+/// Informs all nodes when the first of them asks the others to throttle primary rays, and when none does any more.
 void HostProgram::relay_throttle() {
   if (relay_.is_due(relay_.holders())) {
     notify_children(*node_, termination_.place(), Kind::throttle, Throttle{relay_.announce(relay_.holders()) ? 1U : 0U});
@@ -215,7 +215,7 @@ void HostProgram::assign_all() {
   }
 }
 
-/// Sends a node as many of its primary rays as it has room for.
+/// Sends a node as many of its primary rays as it has memory for.
 void HostProgram::assign(std::uint32_t index) {
   while (pending_primaries_.has(index) && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
     node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), pending_primaries_.take(index));

@@ -98,7 +98,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
           .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(plan.film_entries()))};
 }
 
-/// Fewer credits than the mailboxes have room for, and a place for packets throttled.
+/// Fewer credits than the mailboxes have slots for, and a slot for delayed packets.
 void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.ray_credits = nodes::shrunk_credits(chaos, plan.ray_credits, ray_channel);
   plan.ray_slots = nodes::shrunk_credits(chaos, plan.ray_slots, ray_channel);

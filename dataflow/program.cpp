@@ -54,7 +54,7 @@ struct Constants {
   core::DatabaseHeader proxy;
 };
 
-/// Only rays that walk alone have lists of what they have tested.
+/// Only single rays have lists of tested leaves.
 template <class RaysTask>
 RaysTask make_task(nodes::Node& node, const Plan& plan) {
   if constexpr (RaysTask::rays_max == 1) {
@@ -384,7 +384,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// Traces the rays under way, or the next children of the hits under way.
+  /// Traces the current rays, or the next children of the current hits.
   void go_on() {
     if (!task_.has_rays() && !task_.has_ended()) {
       task_.next_children(

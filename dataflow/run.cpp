@@ -13,7 +13,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// What is told pixel by pixel needs rays that walk alone; and the nodes of a modelled machine compute as those of the article
+/// Reports by pixel need single rays; and the nodes of a modelled machine compute as those of the article
 /// did.
 bool walks_in_bundles(const RunOptions& options) { return !options.computer.machine && !options.watching.is_metered(); }
 

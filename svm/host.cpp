@@ -187,13 +187,13 @@ void HostProgram::send_mask(std::uint32_t index) {
     part.steps[i] = refinement().pass().steps()[share.pixel_at(part.first_pixel + i, plan_.request.width)];
   }
   pixels_sent_[index] += static_cast<std::uint32_t>(part.steps.size());
-  node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is under way to each node
+  node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is in flight to each node
   node_->send_reserved(nodes::NodeId{index}, bulk_channel, number_of(Kind::mask_part), part);
 }
 
 void HostProgram::begin_pass() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
-    node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so that nothing else of the host's is under way
+    node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so that nothing else of the host's is in flight
     node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::begin_pass), BeginPass{});
   }
 }

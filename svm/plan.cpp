@@ -34,7 +34,7 @@ constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
 
-/// Bundles are whole ones: with fewer pixels in flight rays walk alone.
+/// Bundles are whole ones: with fewer pixels in flight rays are traced one by one.
 std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight) {
   return request.bundles && in_flight >= bundle_pixels ? bundle_pixels : 1;
 }
@@ -106,7 +106,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
           .bulk_payload_bytes = film_packet_bytes(plan.film_entries, plan.film_planes)};
 }
 
-/// Fewer credits than the mailboxes have room for, and a place for packets held back.
+/// Fewer credits than the mailboxes have slots for, and a slot for delayed packets.
 void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.request_credits = nodes::shrunk_credits(chaos, plan.request_credits, request_channel);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, bulk_channel);

@@ -17,7 +17,7 @@ PageOptions pages_of(const RunOptions& options) {
   return pages;
 }
 
-/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone.
+/// What is counted for single pixels, and references in the order of single rays, need single rays.
 bool may_walk_in_bundles(const RunOptions& options) {
   return !options.tracer_is_own && !options.watching.is_metered() && !pages_of(options).count_pages &&
          !options.pages.record_references && options.pages.reference_logs == nullptr;

@@ -63,7 +63,7 @@ class SvmStrategy final : public Strategy {
     // Page requests: each other node's credits for this home, or, in a tree, those of all nodes below.
     capacity.small_slots += askers_of(plan.request) * plan.request_credits;
     if (do_pages_travel(plan.request)) {
-      capacity.bulk_slots += plan.faults_max();  // page replies: one for each fault under way
+      capacity.bulk_slots += plan.faults_max();  // page replies: one for each fault
       capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, page_reply_bytes(plan.request.page_size_bytes));
     }
   }

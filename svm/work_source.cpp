@@ -117,7 +117,7 @@ void WorkSource::open(const PixelRectangle& item, const ItemSteps& steps) {
   scan_ = is_masked() ? PixelScan(item, tile_, bits_of(steps)) : PixelScan(item, tile_);
 }
 
-/// The next item, if the one under way has no pixel left.
+/// The next item, if the current one has no pixel left.
 void WorkSource::open_next() {
   if (scan_.empty()) {
     const auto item = items_.take();

@@ -1,5 +1,5 @@
 // The elementary functions that may decide a picture: built from + - * / sqrt and fma alone, so that every x86-64 gives the same
-// bits, which no libm promises.
+// bits, which no libm guarantees.
 #pragma once
 
 namespace dmpc::core {

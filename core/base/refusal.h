@@ -60,7 +60,7 @@ class Sentence {
   std::vector<std::variant<Field, std::string>> parts_;
 };
 
-/// A UsageError or CapacityError that tells fields from words.
+/// A UsageError or CapacityError whose text distinguishes fields from words.
 template <class Error>
 struct Refusal : Error {
   explicit Refusal(const Sentence& why) : Error(why.text()), sentence(why) {}

@@ -55,7 +55,7 @@ class Outliner {
   struct Waiting {
     BvhChild from;     ///< a BVH node, or a leaf of boxes of places
     Address instance;  ///< in which the BVH node of a mesh stands; no_address: it is none
-    Address to;        ///< room for the proxy's BVH node
+    Address to;        ///< address for the proxy's BVH node
     int level;         ///< BVH nodes down to this one
   };
 

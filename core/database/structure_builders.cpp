@@ -216,7 +216,7 @@ class InstancedBuilder : public TreeBuilder {
     return ids;
   }
 
-  /// Leaves of boxes tell where each record lies.
+  /// Leaves of boxes hold the address of each record.
   Address take_instance_room() {
     const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {

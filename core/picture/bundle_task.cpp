@@ -63,7 +63,7 @@ void BundleTaskWith<Bundle>::add_ray(std::uint32_t place, Operations& operations
   place_[bundle_.count++] = static_cast<std::uint8_t>(place);
 }
 
-/// Returns whether there are rays to be traced, which then are under way.
+/// Returns whether there are rays to be traced, which become the current bundle.
 template <class Bundle>
 bool BundleTaskWith<Bundle>::begin_tracing() {
   tracing_ = bundle_.count > 0;

@@ -146,7 +146,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   for (const Material& material : scene.materials) {
     emitter = std::max(emitter, transport.is_by_paths() ? brightest(material.emission) : 0.0);
   }
-  emitter += sky;  // hits aim at both
+  emitter += sky;  // hits sample both
   for (const Material& material : scene.materials) {
     if (transport.is_by_paths() && material.microfacets.are_there()) {
       const MicrofacetBound bound = bound_of(material, texture_max(scene, material), facet_texture(scene, material));

@@ -53,7 +53,7 @@ T read(const std::byte* from) {
 }
 
 /// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
-/// the cells of the directory, which a ray walks, are coarser.
+/// the cells of the directory, which rays traverse, are coarser.
 inline constexpr int finest_per_cell = 64;
 inline constexpr int cells_per_macro = 8;
 /// Cells of the finest lattice along the edge of a macro cell.
@@ -369,7 +369,7 @@ struct SkyReference {
   Address choices = no_address;           ///< an EmitterChoice for each tile
   std::uint16_t width = 0, height = 0;    ///< texels
   float scale = 1;                        ///< what texels are multiplied by, a power of two
-  float density = 0, least_strength = 0;  ///< SkyCells says how likely a place is aimed at by them
+  float density = 0, least_strength = 0;  ///< for SkyCells: the density of light sampling
   Vec3d middle, up;                       ///< where its middle and its upper edge lie, grid-local, unit, at right angles
 };
 
@@ -392,7 +392,7 @@ struct DatabaseHeader {
   Color background;
   Color ambient;  ///< Scene::ambient
   Address emitters = no_address;
-  std::uint32_t emitter_count = 0;              ///< that hits draw: 0 unless paths were to aim at some, and there are such
+  std::uint32_t emitter_count = 0;              ///< those for light sampling: 0 unless requested and available
   std::uint32_t drawn_materials = 0xffffffffU;  ///< from this one on materials are those of emitters that are drawn
   float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
   SkyReference sky;           ///< for paths with a sky's picture

@@ -27,7 +27,7 @@ namespace dmpc::core {
 struct Certificate {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
-  /// These hold the exact answer; unbounded where it cannot be told from no answer. Only triangles have u and v.
+  /// These hold the exact answer; unbounded where it may not exist. Only triangles have u and v.
   Interval t = Interval::everything(), u = Interval::everything(), v = Interval::everything();
   /// The t of a hit, as every kernel returns it, is no farther than this from the exact one.
   double t_error = unknown;

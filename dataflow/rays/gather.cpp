@@ -187,7 +187,7 @@ void Gather::flush() {
   ++counters_.packets_flushed;
 }
 
-/// The next ray may need room for a packet of its own.
+/// The next ray may need a packet of its own.
 void Gather::close_one() {
   closed_ = fullest([this](NodeId owner) { return may_leave(owner); });
   closed_ = closed_ ? closed_ : fullest([](NodeId) { return true; });

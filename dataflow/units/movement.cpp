@@ -90,7 +90,7 @@ void Movement::mark(std::uint32_t unit) {
   }
 }
 
-/// It has as many primary rays as pages, and the requester room for both.
+/// Whether it has at least as many primary rays as pages, and the requester has memory for both.
 bool Movement::is_worth_giving(std::uint32_t unit, const UnitAsk& ask) {
   if (pages_of_[unit] == 0) {
     mark(unit);

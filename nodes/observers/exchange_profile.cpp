@@ -94,7 +94,7 @@ std::span<const std::uint64_t> ExchangeProfile::link_bytes(std::string_view from
   return {};
 }
 
-/// A level stays what it was until it is told again.
+/// A level keeps its value until it is reported again.
 void ExchangeProfile::ended(const Span& span, const Program& program) {
   const std::uint32_t node = index_of(span.node);
   if (node >= choice_.node_count || !span.is_own_call()) {

@@ -51,7 +51,7 @@ struct TraceRecorder::Ends {
   Ordinals count;
 };
 
-/// What one node has told, on cache lines of its own.
+/// The reports of one node, on separate cache lines.
 struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
   Ends sent, received;
@@ -88,7 +88,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     leave_levels(left);
     lost += before - count();
   }
-  /// A level that is had when what is left begins again is told then.
+  /// Reports the current levels again after a gap in the recorded times.
   void leave_levels(const RecordedTimes& left) {
     std::array<std::optional<TraceLevel>, Levels::count_max> passed;
     std::vector<TraceLevel> kept;
@@ -171,7 +171,7 @@ TraceRecorder::~TraceRecorder() = default;
 
 bool TraceRecorder::gets_more_room() { return taken_.fetch_add(1, std::memory_order_relaxed) < shared_room_; }
 
-/// Whether there is room for an event more, which may be made.
+/// Whether there is memory for one more event, if need be by dropping others.
 bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
   if (log.count() < log.room) {
     return true;

@@ -277,7 +277,7 @@ Node& RanksRunner::node(std::size_t index) { return implementation_->nodes.proce
 Program& RanksRunner::program(std::size_t index) { return *implementation_->nodes.processor(index).program; }
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
 
-/// Every rank does so after the run, in which it is seen to that nothing else is under way.
+/// To be called on every rank after the run, when nothing else is in flight.
 std::vector<std::string> RanksRunner::gather(const Report& report) {
   Implementation& runner = *implementation_;
   return runner.gathering.gather(reported_by(runner.nodes.processors(), runner.is_here.size(), report), runner.communicating());

@@ -29,7 +29,7 @@ class DelayedPackets final : public Network {
   /// To be called after each quantum of the node: passes on what has waited long enough.
   void pass_quantum();
 
-  /// Whether no packet is held back.
+  /// Whether no packet is delayed.
   bool empty() const { return used_bytes_ == 0; }
   /// Number of packets that have been delayed so far.
   std::uint64_t count() const { return count_; }
@@ -47,7 +47,7 @@ class DelayedPackets final : public Network {
   static std::size_t bytes_for(std::size_t payload_bytes);
 
   Held held_at(std::size_t offset) const;
-  /// When the last packet held back for `target` is due; 0 without one.
+  /// The due time of the last delayed packet for `target`; 0 without one.
   std::uint64_t last_due_quantum(NodeId target) const;
   void append(const Held& held, std::span<const std::byte> payload);
   void hand_on(std::size_t offset);

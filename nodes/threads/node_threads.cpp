@@ -41,7 +41,7 @@ std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
   return static_cast<std::size_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
 }
 
-/// How many drivers so many nodes have, the host included, if it is a pool of so many threads (ComputerRequest).
+/// The number of worker threads for the nodes and the host, if there is a pool of this many threads (ComputerRequest).
 std::size_t worker_thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
   return pool_threads ? std::min<std::size_t>(*pool_threads, node_count) : 0;
 }
@@ -79,7 +79,7 @@ NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, cons
   make_worker_threads(worker_thread_count(pool_threads, processors_.size()));
 }
 
-/// Neighbours, which have most to say to each other, share a driver; the last one has the host.
+/// Neighbours, which communicate most, share a worker thread; the last one has the host.
 void NodeThreads::make_worker_threads(std::size_t count) {
   const std::span<const std::unique_ptr<ThreadProcessor>> all = processors_;
   for (std::size_t i = 0; i < count; ++i) {
@@ -383,7 +383,7 @@ void NodeThreads::sleep(WorkerThread& worker_thread) {
   }
 }
 
-/// Whether there is something to sleep for, before a node's mailbox, or a driver's.
+/// Whether there is something to sleep for, before a node's mailbox, or a worker thread's.
 bool NodeThreads::go_to_sleep(Mailbox& inbox) {
   // The order matters: ASLEEP first, so that end() either finds it or is seen; then the count, so that zero means all ASLEEP.
   if (!inbox.fall_asleep() || ending() != Ending::none) {

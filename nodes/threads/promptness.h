@@ -20,7 +20,7 @@ class Promptness {
 
  private:
   int timer_slack_ns_;
-  std::optional<std::uint64_t> slice_ns_;  ///< as before; nothing if the kernel does not tell
+  std::optional<std::uint64_t> slice_ns_;  ///< the value before; nothing if the kernel does not report it
 };
 
 }  // namespace dmpc::nodes

@@ -145,7 +145,7 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
-  std::uint64_t held_before = 0;  ///< packets held back in earlier runs
+  std::uint64_t held_before = 0;  ///< packets delayed in earlier runs
   std::uint32_t quanta_idle = 0;
   std::uint64_t call = 0;                                 ///< number of the program's call, if there is an observer
   Charges charged;                                        ///< until the last one's end, likewise

@@ -135,7 +135,7 @@ std::uint32_t Links::wire_of(const Link& link) {
   return static_cast<std::uint32_t>(wires_.size() - 1);
 }
 
-/// Where the link's wire is told, or is to be: the table is at most half full.
+/// The slot of the link's wire, or where it would be: the table is at most half full.
 std::size_t Links::place_in_table(const Link& link) const {
   const std::size_t mask = table_.size() - 1;
   std::size_t at = (link.from * 0x9e3779b97f4a7c15U + link.to * 0xc2b2ae3d27d4eb4fU) >> 32U & mask;

@@ -172,7 +172,7 @@ struct alignas(64) VirtualProcessor final : Network {
   std::uint64_t remainder_ps = 0;  ///< the part of it that is not yet a whole nanosecond
   NodeId id;
   bool has_more = true;                 ///< work() may have something to do
-  bool is_occupied = false;             ///< an is_free event is under way
+  bool is_occupied = false;             ///< an is_free event is pending
   MessageQueue inbox;                   ///< arrived and not received
   std::vector<std::uint32_t> sent;      ///< in the current call, in order
   std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not finished yet

@@ -21,7 +21,7 @@ namespace {
 /// Events between two looks at a request to stop.
 constexpr std::uint64_t events_per_look = 1024;
 
-/// About the time from one event to the next, where each node has a message or a quantum under way: for an EventQueue.
+/// About the time from one event to the next, if each node has a message in flight or a quantum in progress: for an EventQueue.
 std::uint64_t event_distance_ns(const Machine& machine, std::size_t peer_count) {
   return std::max<std::uint64_t>((machine.short_message.send_ns + machine.short_message.latency_ns) / peer_count, 1);
 }
@@ -215,7 +215,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  /// What was under way is done: its packets leave, then the program goes on.
+  /// The current activity is finished: its packets leave, then the program goes on.
   void become_free(VirtualProcessor& self) {
     self.is_occupied = false;
     const bool sends = !self.outgoing.empty();
@@ -372,7 +372,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
 
   // ---- The end -----------------------------------------------------------------------------------------------------------
 
-  /// Nothing is under way any more.
+  /// Ends the run: nothing is in flight any more.
   void finish() {
     const auto& all = computer.processors;
     if (!all_finished(all)) {

@@ -57,7 +57,7 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
       .faults_max = faults_max,
       .request_credits = credits};
   mailbox_ = {.small_slots = (node_count() - 1) * credits,  // page requests: each other node's credits
-              .bulk_slots = faults_max,                     // page replies: one for each fault under way
+              .bulk_slots = faults_max,                     // page replies: one for each fault
               .bulk_payload_bytes = page_reply_bytes(options.page_size_bytes)};
   if (options.computer.chaos) {
     pages_.request_credits = nodes::shrunk_credits(*options.computer.chaos, credits, request_channel);

@@ -213,7 +213,7 @@ std::int64_t MacroCells::excess_of(std::uint64_t touches, std::uint64_t count) {
   return static_cast<std::int64_t>(touches) - std::int64_t{macro_cells_max} * static_cast<std::int64_t>(count);
 }
 
-/// Else list() has no room for `listed` ones that are in a cell each.
+/// Otherwise list() has no space for `listed` primitives that are in one cell each.
 std::uint64_t MacroCells::touches_max(std::uint64_t count, std::uint64_t listed) {
   return macro_cells_max * (count + listed + 8) - listed;
 }

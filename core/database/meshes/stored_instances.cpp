@@ -17,7 +17,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Where the pad is so many times as large as a mesh, its place is copied: no box of it would tell rays apart.
+/// If the pad is larger than the mesh by this factor, its instance is copied: its boxes would tell no rays apart.
 constexpr double pad_max = 0x1p20;
 
 /// How far along one of the mesh's axes the pad reaches that is so long along each of the grid's, in units of records.

@@ -18,7 +18,7 @@ struct Candidate {
   std::uint32_t primitive;
 };
 
-/// 0 of what is never aimed at.
+/// 0 for primitives that are never sampled.
 double area_of(const PrimitiveValues& primitive) {
   if (primitive.kind == PrimitiveKind::sphere) {
     const double radius = primitive.curved().value(3);

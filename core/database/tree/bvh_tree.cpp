@@ -29,7 +29,7 @@ std::size_t subtree_bytes(const BvhNodeDraft& draft, bool of_open_alone = false)
   return bytes;
 }
 
-/// Takes room for the children of a BVH node that are leaves and have none: for all, or for those of instances.
+/// Allocates the children of a BVH node that are leaves and have no address: all, or those of instances.
 void take_leaf_room(BvhNodeDraft& draft, RecordWriter& writer, bool of_instances_alone = false) {
   for (std::size_t i = 0; i < draft.bvh_node.child_count; ++i) {
     const BvhNodeDraft::Leaf& leaf = draft.leaves[i];
@@ -43,7 +43,7 @@ void take_leaf_room(BvhNodeDraft& draft, RecordWriter& writer, bool of_instances
 /// all.
 bool has_leaves_in_forest(const BvhNodeDraft& draft) { return !draft.bvh_nodes.empty(); }
 
-/// Takes room for the BVH node if no page holds what is below it, too, and so on down; returns whether.
+/// Allocates the BVH node if no page also holds what is below it, and recursively its children; returns whether.
 bool take_forest_room_for(BvhNodeDraft& draft, RecordWriter& writer, std::size_t page_size) {
   if (subtree_bytes(draft) <= page_size) {
     return false;
@@ -70,7 +70,7 @@ Address take_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   return address;
 }
 
-/// Takes room for an open BVH node, its leaves of instances, and then its open BVH nodes.
+/// Allocates an open BVH node, its leaves of instances, and then its open BVH nodes.
 void take_open_records(BvhNodeDraft& draft, RecordWriter& writer) {
   constexpr bool of_instances_alone = true;
   draft.address = writer.allocate(sizeof(BvhNode));
@@ -82,7 +82,7 @@ void take_open_records(BvhNodeDraft& draft, RecordWriter& writer) {
   }
 }
 
-/// Takes room for what is open below BVH nodes of the forest.
+/// Allocates the open nodes below BVH nodes of the forest.
 void take_open_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   constexpr bool of_instances_alone = true;
   if (!is_open(draft)) {
@@ -98,7 +98,7 @@ void take_open_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   }
 }
 
-/// Takes room for what is below BVH nodes that have room.
+/// Allocates what is below allocated BVH nodes.
 Address take_subtree_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   if (draft.address == no_address) {
     writer.keep_together(subtree_bytes(draft));

@@ -106,7 +106,7 @@ ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, do
 void ErrorEstimate::resume(std::span<const PixelPast> past) {
   expect(past.size() == past_.size(), "a pass under way has the past of all pixels");
   std::copy(past.begin(), past.end(), past_.begin());
-  find_falls();  // which the pass under way goes by when it ends
+  find_falls();  // which the current pass uses when it ends
 }
 
 void ErrorEstimate::take_means(const Film& film) {

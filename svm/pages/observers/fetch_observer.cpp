@@ -42,7 +42,7 @@ struct End {
   std::uint64_t links_ns = 0;
 };
 
-/// Ends of fetches that are chosen, and those under way.
+/// Ends of the sampled fetches, and those in flight.
 class Ends {
  public:
   void open(const End& end) {
@@ -93,7 +93,7 @@ class Ends {
   }
 
   Share share_;
-  std::map<Name, End> open_;  ///< as many as requests are under way
+  std::map<Name, End> open_;  ///< as many as requests in flight
   std::vector<End> closed_;
 };
 
