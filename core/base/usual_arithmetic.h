@@ -5,9 +5,9 @@
 
 namespace dmpc::core {
 
-/// Gives it to this thread, whatever it has: a library that was built for speed makes tiny numbers zero for the thread that loads
-/// it, and so for those that are started from there. To be called at the start of a thread whose numbers count, and behind what
-/// loads libraries.
+/// Restores the default floating-point environment of this thread: a library that was built for speed may flush denormals to zero
+/// in the thread that loads it, and so in those started from there. To be called at the start of a thread whose results matter,
+/// and after loading libraries.
 inline void use_usual_arithmetic() { std::fesetenv(FE_DFL_ENV); }
 
 }  // namespace dmpc::core

@@ -392,7 +392,7 @@ struct DatabaseHeader {
   Color background;
   Color ambient;  ///< Scene::ambient
   Address emitters = no_address;
-  std::uint32_t emitter_count = 0;              ///< those for light sampling: 0 unless requested and available
+  std::uint32_t emitter_count = 0;              ///< for light sampling: 0 unless requested and available
   std::uint32_t drawn_materials = 0xffffffffU;  ///< from this one on materials are those of emitters that are drawn
   float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
   SkyReference sky;           ///< for paths with a sky's picture

@@ -40,7 +40,7 @@ struct Skip {
 
 /// Every skip, in the order of reports.
 inline constexpr std::array all_skips{
-    // Counts primitives' boxes that the ray enters before that hit.
+    // Counts the children whose boxes the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
          "children of BVH nodes that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
     Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention traces it)", "shadow rays", &Skips::unlit,

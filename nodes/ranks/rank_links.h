@@ -23,7 +23,7 @@ namespace dmpc::nodes {
 /// waiting jobs, none was silent.
 struct RankSilence {
   std::chrono::milliseconds heartbeat{2'000};  ///< a rank with nothing to send sends a heartbeat after this time
-  std::chrono::milliseconds longest{600'000};  ///< a rank that is silent for this time is lost: long enough for debuggers
+  std::chrono::milliseconds longest{600'000};  ///< a rank that is silent this long is lost; debuggers and swapping take long
   std::chrono::milliseconds reported{30'000};  ///< each time a rank has been silent for this time that is reported
   /// A longer time between two checks means that this rank did not run, and counts only as this much.
   std::chrono::milliseconds look_max() const { return std::min(longest, reported) / 8; }

@@ -53,7 +53,7 @@ bool are_doubled(const Refinement& refinement, const std::vector<std::uint32_t>&
   return std::includes(doubled.begin(), doubled.end(), pixels.begin(), pixels.end());
 }
 
-/// Pixels that do not touch a given one: if no other shows an error, they are explored.
+/// The doubled pixels that do not touch a given one: if no other shows an error, they are explored.
 std::vector<std::uint32_t> pixels_explored(const Refinement& refinement, std::uint32_t bad, std::uint32_t width) {
   std::vector<std::uint32_t> pixels = pixels_doubled(refinement);
   const auto touches = [&](std::uint32_t pixel) {
