@@ -1,4 +1,4 @@
-// The vertices of a scene's objects, with what several of them share there but once.
+// The vertices of a scene's objects, with shared ones stored once.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,6 @@ struct IndexedVertices {
   std::vector<std::uint32_t> indices;  ///< point of each vertex, in the scene's order
 };
 
-/// As a scene has them.
 inline std::vector<core::Vec3d> expanded(const IndexedVertices& vertices) {
   std::vector<core::Vec3d> all;
   all.reserve(vertices.indices.size());

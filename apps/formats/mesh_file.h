@@ -1,4 +1,4 @@
-// Mesh files, read as scenes by a process of their own.
+// Reads mesh files as scenes in a separate process.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,15 @@ struct ReaderLimits;
 
 struct MeshFile {
   core::Scene scene;
-  std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
-  std::vector<MeshSky> skies;      ///< whose lights add up; none unless the options say that they are shown
+  std::vector<std::string> notes;  ///< features of the file that are not shown exactly, a sentence each
+  std::vector<MeshSky> skies;      ///< their lights add up; empty unless the options show them
   StillScene still;                ///< where an animation is asked for: the still scene at its moment, without its view
-  OpenedFiles opened;              ///< with those of the textures
+  OpenedFiles opened;              ///< including the textures' files
 };
 
-/// What ends so is read: "obj", "ply", ..., in lower case.
+/// Extensions of supported files: "obj", "ply", ..., in lower case.
 const std::vector<std::string>& mesh_extensions();
-/// Whether the path ends as mesh files do, whatever the case of its letters, also those of formats that are refused by name.
+/// Whether the path has a mesh file's extension, in any case, including formats that are refused by name.
 bool is_mesh_path(const std::string& path);
 /// Whether the mesh file is a whole scene with its own lights and sky (pbrt's), by which path tracing shows it.
 bool has_own_sky(const std::string& path);

@@ -1,4 +1,4 @@
-// What a mesh file's reader asks for while it reads, and what it makes of the file.
+// Answers a mesh file's reader, and receives the scene.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 
 namespace dmpc::apps {
 
-/// Opens what the scene may have opened, has its textures read, and believes nothing.
+/// Opens the files that the scene may open, has its textures read, and trusts no message.
 class MeshSession {
  public:
   /// Throws core::InputError if there is no file at `path`.
   MeshSession(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits);
 
-  /// Throws core::InputError, a sentence that goes on "PATH: ..." or says it whole.
+  /// Throws core::InputError, with "PATH: ..." or the end of such a sentence.
   MeshFile read();
 
  private:
   void ask();
-  /// Whether it was the last message.
+  /// Returns whether it was the last message.
   bool answer(const Message& message);
-  /// About files, on the budget.
+  /// Answers requests for files, within the budget.
   void answer_question(const Message& message);
   void refuse_if_missing(const std::function<void()>& act);
   void answer_open(const std::string& path);
@@ -60,7 +60,7 @@ class MeshSession {
   ReaderProcess process_;
   SceneReceiver receiver_;
   std::string bytes_;     ///< the texture that is being sent
-  bool can_copy_ = true;  ///< lists from where they lie in its reader
+  bool can_copy_ = true;  ///< whether lists can be copied from the reader's memory
   std::uint64_t note_bytes_ = 0;
   MeshFile result_;
   std::string current_;  ///< the file opened last

@@ -1,4 +1,4 @@
-// Skies that a scene's file says itself.
+// Skies from a scene's file.
 #pragma once
 
 #include <array>
@@ -11,21 +11,20 @@
 
 namespace dmpc::apps {
 
-/// A square picture of all directions, in equal areas (P. Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD",
-/// JGT 2008), as pbrt-v4 has them.
+/// A square equal-area picture of all directions (P. Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", JGT
+/// 2008), as in pbrt-v4.
 struct MeshSky {
   std::string name;
   Image image;
-  std::array<core::Vec3d, 3> rows;  ///< from a direction of the world to one of the picture
-  core::Vec3d scale;                ///< what its light is multiplied by
+  std::array<core::Vec3d, 3> rows;  ///< rotates a direction of the world to one of the picture
+  core::Vec3d scale;                ///< factor of its light
 };
 
-/// Where in such a square, 0 to 1 to the right and downwards, a unit direction lies.
+/// Position of a unit direction in such a square, 0 to 1 to the right and downwards.
 std::array<double, 2> equal_area_place(const core::Vec3d& direction);
 
-/// Gives the scene one sky, below its zenith, that is as bright as all of them and its background together; a
-/// picture's light that is below 0 or no number counts as none. The scene's background is black then. Throws core::InputError for
-/// a picture that is not square.
+/// Gives the scene one sky, as bright as all of them and its background together; texels that are negative or NaN count as 0. The
+/// scene's background becomes black. Throws core::InputError for a picture that is not square.
 void set_sky(const std::vector<MeshSky>& skies, core::Scene& scene);
 
 }  // namespace dmpc::apps

@@ -12,9 +12,9 @@
 
 namespace dmpc::apps {
 
-/// More vertices than this in one polygon are taken for a mistake in the file.
+/// Polygons with more vertices than this count as an error in the file.
 inline constexpr int polygon_vertices_max = 65'535;
-/// The colour of what has no material, matt: as in mesh files without one.
+/// The matt colour of objects without a material, as in mesh files.
 inline constexpr core::Vec3d plain_color{0.6, 0.6, 0.6};
 /// Pixels along a side.
 inline constexpr int resolution_max = 65'535;
@@ -29,7 +29,7 @@ inline constexpr int resolution_max = 65'535;
 /// pixels, points beyond view_coordinate_max, or an angle outside (0, 180); an empty stream; no view at all.
 core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max = picture_pixels_max);
 
-/// Reads a file; also throws for what is no file and no pipe (apps/frontend/system/text_input.h). `progress`, if any, is called
+/// Reads a file; also throws for anything but a file or a pipe (apps/frontend/system/text_input.h). `progress`, if any, is called
 /// now and then with the bytes read and the bytes of the file, unless that is a pipe or the like.
 core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max = picture_pixels_max,
                           const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});

@@ -1,4 +1,4 @@
-// The words and numbers of an NFF stream, with the line each stands on, and the errors that name it.
+// Splits an NFF stream into words and numbers with their line numbers, and reports errors with them.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dmpc::apps {
 
-/// Cuts a text stream at blanks and line ends; `#` starts a comment to the line's end. Holds one line at a time.
+/// Splits a text stream at blanks and line ends; `#` starts a comment to the line's end. Stores one line at a time.
 class NffTokens {
  public:
   /// `name` is what messages call the stream. Both must outlive the object.
@@ -38,12 +38,12 @@ class NffTokens {
   std::string found();
   /// The line of the token taken last.
   std::size_t line() const { return taken_line_; }
-  /// Bytes of the stream up to the end of the line that is cut up now; one more if the stream's last line has no end.
+  /// Bytes of the stream up to the end of the current line; one more if the stream's last line has no end.
   std::uint64_t bytes_read() const { return bytes_read_; }
 
  private:
   bool read_line();
-  /// The bytes of the next line with its end; one part of it, behind `size` bytes of the room.
+  /// The bytes of the next line with its end; one part of it, behind `size` bytes of the buffer.
   std::size_t get_line();
   std::size_t get_part(std::size_t size);
   void grow_room();
@@ -51,13 +51,13 @@ class NffTokens {
   std::istream& input_;
   const std::string& name_;
   std::size_t room_bytes_;
-  std::unique_ptr<char[]> room_;                    ///< for a line; grows with the longest
+  std::unique_ptr<char[]> room_;                    ///< buffer for a line; grows with the longest
   std::string_view text_;                           ///< the current line
-  std::string_view token_;                          ///< in text_; empty if it is not cut yet
+  std::string_view token_;                          ///< in text_; empty if it is not split yet
   std::size_t position_ = 0;                        ///< in text_, behind token_
   std::size_t line_ = 0;                            ///< line in text_, from 1
   std::size_t taken_line_ = 0;                      ///< line of the token taken last
-  std::uint64_t bytes_read_ = 0, token_bytes_ = 0;  ///< up to the end of the current line, and of that of the last token
+  std::uint64_t bytes_read_ = 0, token_bytes_ = 0;  ///< up to the end of the current line, and of the last token's line
 };
 
 /// A token as a message shows it: in quotes, short, printable.

@@ -1,4 +1,4 @@
-// Writes scenes as NFF, Haines' neutral file format, the way the SPD's own files are written.
+// Writes scenes as NFF, Haines' neutral file format, like the SPD's own files.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace dmpc::apps {
 
-/// Writes each entity as it comes. A number takes 6 significant digits (C's %g) if that says it exactly, else as many as it
-/// needs, so that reading gives back the same doubles. The stream's state says whether writing succeeded.
+/// Writes each entity at once. A number has 6 significant digits (C's %g) if that is exact, else as many as it needs, so that
+/// reading gives back the same doubles. The stream's state says whether writing succeeded.
 class NffWriter final : public core::SceneSink {
  public:
   /// `output` must outlive the writer.
@@ -36,9 +36,9 @@ class NffWriter final : public core::SceneSink {
   std::string line_;
 };
 
-/// Writes what `produce` sends as the file `path`: under a temporary name beside it, renamed when all is written, so that no
-/// half-written file stays behind. Throws core::InputError if it cannot be written; then, and when `produce` throws, the
-/// temporary file is removed.
+/// Writes the entities of `produce` to the file `path`: under a temporary name in the same folder, renamed at the end, so that no
+/// half-written file is left. Throws core::InputError if it cannot be written; then, and when `produce` throws, the temporary
+/// file is removed.
 void write_nff_file(const std::string& path, const std::function<void(core::SceneSink&)>& produce);
 
 }  // namespace dmpc::apps

@@ -1,11 +1,11 @@
-// How many pixels a picture has.
+// The resolution of a picture.
 #pragma once
 
 #include <cstdint>
 
 namespace dmpc::apps {
 
-/// Pixels of one picture, whether the scene or the command line asks for them.
+/// The maximum number of pixels, whether the scene or the command line sets them.
 inline constexpr std::int64_t picture_pixels_max = std::int64_t{1} << 28;
 
 struct Resolution {

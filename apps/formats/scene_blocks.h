@@ -1,4 +1,4 @@
-// A scene of polygons and patches as messages, and back: whoever receives it believes nothing.
+// Sends a scene of polygons and patches as messages, and receives it; the receiver trusts nothing.
 #pragma once
 
 #include <cstddef>
@@ -17,36 +17,36 @@
 
 namespace dmpc::apps {
 
-/// So much room is made for each list that is announced, before it comes: addresses, until it does. What is more comes into lists
-/// that are copied into longer ones, which takes twice the room.
+/// Address space reserved for each announced list before its data arrive; memory is used as they do. Longer lists are copied as
+/// they grow, which takes twice the memory.
 inline constexpr std::uint64_t believed_bytes_max = std::uint64_t{1} << 30U;
 
-/// How long lists come: in messages, or, where the other end is dmpc and the system lets it, straight from the memory of the
-/// reader that it has started, which spares three copies of four.
+/// Transport of lists: in messages, or, where the other end is dmpc and the system allows it, directly from the memory of the
+/// reader process, which saves three copies of four.
 enum class Handing : std::uint8_t { in_messages, from_memory };
 
-/// Sends all but the textures, the name and the scene's own vertices, in place of which it sends `vertices`, and what stands in
-/// several places, `instances`, once with these; what is sent is freed on the way. Returns whether the other end took it.
+/// Sends everything except the textures, the name and the scene's own vertices, in place of which it sends `vertices`, with
+/// instanced meshes once and `instances`; sent data are freed on the way. Returns whether the other end received it.
 bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing);
 
-/// How much room is made for what few bytes say.
+/// Limits of memory for a few received bytes.
 struct ReceivingLimits {
-  /// For each list, before it comes: believed_bytes_max, or less for who tries many scenes that announce much and send nothing.
+  /// For each list, before it arrives: believed_bytes_max, or less for tests of many scenes that announce much and send nothing.
   std::uint64_t believed_bytes = believed_bytes_max;
-  std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every instance that is copied
+  std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every copied instance
 };
 
-/// Puts it together, with every instance expanded, or with copies of base meshes left out. Throws Nonsense for what no scene may
-/// hold: more than was announced; an index, a count, a kind or a number out of its range; a view that shows nothing;
-/// core::CapacityError if the instances need more than there is; std::bad_alloc if memory ends.
+/// Assembles the scene, with every instance expanded, or with copies of base meshes left out. Throws Nonsense for invalid data:
+/// more than was announced; an index, a count, a kind or a number out of its range; a view that shows nothing;
+/// core::CapacityError if the instances need more memory than there is; std::bad_alloc if memory is exhausted.
 class SceneReceiver {
  public:
   explicit SceneReceiver(const ReceivingLimits& limits = {}, core::Copies copies = core::Copies::put)
       : limits_(limits), copies_(copies) {}
 
-  /// Whether the message is one of a scene's, and was taken.
+  /// Returns whether the message belongs to a scene, and takes it.
   bool take(const Message& message);
-  /// Fills some room, and returns whether it could.
+  /// Fills a buffer, and returns whether it could.
   using Fill = std::function<bool(std::span<std::byte>)>;
   /// Reads `bytes` of a list's entries from `fill`, piece by piece, as from a message of `saying`. Returns false, and keeps none
   /// of them, if `fill` does.
@@ -54,7 +54,7 @@ class SceneReceiver {
   /// Throws Nonsense if there are too many.
   void add(core::Texture texture);
 
-  /// The whole, which is left empty. Requires the last message.
+  /// The scene; this object becomes empty. Requires the last message.
   core::Scene finish();
 
  private:
@@ -78,7 +78,7 @@ class SceneReceiver {
   core::Scene scene_;
   core::Instances instances_;
   std::vector<core::Vec3d> points_;            ///< the scene's vertices
-  std::map<Saying, std::uint64_t> announced_;  ///< how many entries there will be of each list
+  std::map<Saying, std::uint64_t> announced_;  ///< announced number of entries of each list
   bool has_head_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What makes a view one that shows nothing.
+// Views that show nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace dmpc::apps {
 
-/// So far out may the view's points and lights lie: farther out, squares of distances leave the range of floats.
+/// Limit for coordinates of the view's points and of lights: beyond it, squares of distances exceed the range of floats.
 inline constexpr double view_coordinate_max = 1e30;
-/// Whether all coordinates are numbers within it.
+/// Whether all coordinates are numbers within the limit.
 bool is_in_reach(const core::Vec3d& point);
-/// Whether all corners are in this place.
+/// Whether all transformed corners are.
 bool is_in_reach(const core::Box& box, const core::Transform& world);
 
 enum class ViewFault : std::uint8_t {
@@ -25,7 +25,7 @@ enum class ViewFault : std::uint8_t {
   up          ///< zero, or parallel to the line from `from` to `at`
 };
 
-/// The first of them, in that order.
+/// The first fault, in that order.
 std::optional<ViewFault> fault_of(const core::View& view);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// A view, lights and a background for what comes without them.
+// Default view, lights and background.
 #pragma once
 
 #include <span>
@@ -21,16 +21,16 @@ BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};
 
-/// The directions of a scene, of unit length: `front` is where it is looked at from.
+/// The directions of a scene as unit vectors: the viewer is at `front`.
 struct SceneAxes {
   core::Vec3d right, up, front;
 };
 SceneAxes axes_of(const UpAxis& up);
 
-/// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and above.
+/// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and up.
 core::View whole_view(const BoundingSphere& bounds, const UpAxis& up);
 
-/// Two white lights: the key light 1,000 radii away, above and to the right of the eye, and a weak fill in the eye, so that
+/// Two white lights: the key light 1,000 radii away, above and to the right of the eye, and a weak fill light at the eye, so that
 /// nothing in view is black.
 std::vector<core::PointLight> plain_lights(const BoundingSphere& bounds, const core::View& view);
 

@@ -1,4 +1,4 @@
-// Bytes packed as zlib streams, as EXR and PNG want them.
+// Compresses bytes as zlib streams, as in EXR and PNG.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@ struct libdeflate_compressor;
 
 namespace dmpc::apps {
 
-/// Packs streams one after the other (RFC 1950), each at once. The same bytes are packed the same. Thread safety: one thread at a
-/// time.
+/// Compresses one stream after the other (RFC 1950), each in one call. Equal bytes give equal streams. Thread safety: one thread
+/// at a time.
 class Deflater {
  public:
-  /// `level`: from 1, which is fast, to 12. Takes up to a mebibyte. Throws std::bad_alloc.
+  /// `level`: from 1, which is fast, to 12. Takes up to a mebibyte of memory. Throws std::bad_alloc.
   explicit Deflater(int level);
 
   /// Upper bound for the packed size of `byte_count` bytes.
   std::size_t packed_bytes_max(std::size_t byte_count) const;
-  /// Packs `bytes` into `room`, and returns how much of it that took; 0 if there is less than it takes and some bytes to spare.
+  /// Compresses `bytes` into `room`, and returns the size; 0 if `room` is too small, with some bytes to spare.
   std::size_t pack(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept;
 
  private:

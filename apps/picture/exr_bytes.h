@@ -1,4 +1,4 @@
-// The bytes of numbers in the order in which OpenEXR's zip packs them.
+// The byte order before OpenEXR's zip compression.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace dmpc::apps {
 
-/// First the bytes at even places, then those at odd ones, each but the first as what it is more than the one before it, plus
-/// 128: what OpenEXR undoes when it has unpacked a block. Requires as much room as there are bytes, an even number, not 0.
+/// First the bytes at even positions, then those at odd ones, each except the first as its difference to the one before plus 128:
+/// the inverse of OpenEXR's transform after decompression. Requires buffers of equal, even size, not 0.
 void split_bytes(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room);
 
 }  // namespace dmpc::apps

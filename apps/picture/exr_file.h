@@ -1,4 +1,4 @@
-// OpenEXR files, as dmpc writes them: scan lines of 32-bit floats, packed without loss.
+// Writes OpenEXR files: scan lines of 32-bit floats, with lossless compression.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// A picture of which nobody holds all numbers.
+/// A picture that is not stored as a whole.
 struct ExrRows {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< names
@@ -21,8 +21,8 @@ struct ExrRows {
   std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
 };
 
-/// The file's bytes, the same for the same picture. `threads`: how many pack its rows; 0: one for each core. Requires a pixel, a
-/// channel, and names of 1 to 31 bytes, no two alike.
+/// The file's bytes, equal for equal pictures. `threads`: the number that compress rows; 0: one per core. Requires at least a
+/// pixel and a channel, and distinct names of 1 to 31 bytes.
 std::string exr_file(const ExrRows& picture, std::uint32_t threads = 0);
 
 }  // namespace dmpc::apps

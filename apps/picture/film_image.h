@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// Mean linear radiance of each pixel, with the film's scale as a remark, as it is asked for. The film outlives it; requires
+/// Mean linear radiance of each pixel, computed on demand, with the film's scale as a remark. The film outlives it; requires
 /// samples > 0.
 ImageRows rows_of(const core::Film& film);
 
-/// All of it at once.
+/// As above, as a whole.
 Image image_of(const core::Film& film);
 
-/// "1", "2^34": a scale as people read it, and as files have it.
+/// A scale for people and files: "1", "2^34".
 std::string text_of(core::FilmScale scale);
 
 }  // namespace dmpc::apps

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 
 inline constexpr int glyph_width = 5, glyph_height = 7;
 
-/// Where text begins, and how many pixels wide and high a dot of it is (>= 1).
+/// The beginning of a text, and the width and height of its dots in pixels (>= 1).
 struct TextPlace {
   int x = 0, y = 0, dot = 1;
 };
@@ -19,8 +19,8 @@ struct TextPlace {
 /// Pixels from the left of the first to the right of the last letter.
 int text_width(std::string_view text, int dot);
 
-/// Writes in capitals; what has no glyph, such as a letter with an accent, is an empty box for each of its bytes. What lies
-/// outside the image is cut off.
+/// Writes in capitals; each byte of a character without a glyph, such as an accented letter, becomes an empty box. Text outside
+/// the image is clipped.
 void draw_text(Image& image, const TextPlace& place, std::string_view text, const core::Color& color);
 
 /// Fills the rectangle's pixels that lie in the image.

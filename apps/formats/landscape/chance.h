@@ -1,4 +1,4 @@
-// Numbers that look random and are the same everywhere.
+// Pseudo-random numbers that are the same everywhere.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace dmpc::apps {
 
-/// One after the other, in multiples of 2^-24.
+/// A sequence of numbers in multiples of 2^-24.
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : state_(core::mix(seed + 1)) {}
 
-  /// From 0 to below 1.
+  /// In [0, 1).
   double share() {
     state_ += 0x9e3779b97f4a7c15ULL;
     return static_cast<double>(core::mix(state_) >> 40U) * 0x1p-24;
   }
-  /// From -1 to below 1.
+  /// In [-1, 1).
   double signed_share() { return 2 * share() - 1; }
 
  private:

@@ -1,4 +1,4 @@
-// The landscape as files: a large textured scene that anybody can make, with or without trees.
+// The landscape as files: a large textured scene that anybody can generate, with or without trees.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 namespace dmpc::apps {
 
 inline constexpr int landscape_size_max = 11, landscape_size_default = 10;
-/// Names of scenes begin so.
+/// Prefixes of the scenes' names.
 inline const std::array<std::string, 2> landscape_families{"landscape", "grove"};
 
 inline constexpr int grove_size_max = 10, grove_size_default = 5;
 
-/// The size that "landscape-10" or "landscape" names; nothing for names that do not begin so. Throws core::InputError for one
-/// that begins so, but has no size from 1 to landscape_size_max.
+/// The size in "landscape-10" or "landscape"; nothing for names without this prefix. Throws core::InputError for one with the
+/// prefix, but without a size from 1 to landscape_size_max.
 std::optional<int> landscape_size(std::string_view name);
 
 /// The size in "grove-5" or "grove".
@@ -29,17 +29,17 @@ int ground_size(int grove_size);
 /// Texels along each side of the picture on a ground of this size.
 int ground_picture_side(int size);
 
-/// A line about each, as core::describe_scene_families() has them.
+/// A line per family, as in core::describe_scene_families().
 std::string describe_landscape();
 
-/// Writes a landscape of 4^size triangles and a lake to `gltf`, and beside it their numbers (FILE.bin) and a
-/// picture (FILE-ground.png) of 2^(size + 2) texels a side, at most 4,096; none of them gets its name before all are written.
-/// Throws core::UsageError unless `gltf` ends in .gltf and its name has letters, digits, - and _ alone, core::InputError if a
-/// file cannot be written.
+/// Writes a landscape of 4^size triangles and a lake to `gltf`, and beside it their numbers (FILE.bin) and a picture
+/// (FILE-ground.png) of 2^(size + 2) texels a side, at most 4,096; the files are renamed to their names once all are written.
+/// Throws core::UsageError unless `gltf` ends in .gltf and its name has only letters, digits, - and _, core::InputError if a file
+/// cannot be written.
 void write_landscape(int size, const std::filesystem::path& gltf, const RowsDone& rows_done = {});
 
-/// Likewise a landscape with up to 2*4^size trees of 2,048 triangles each (apps/formats/landscape/grove.h), which the file has
-/// but once for each of four kinds.
+/// As above with up to 2*4^size trees of 2,048 triangles each (apps/formats/landscape/grove.h); the file has one mesh for each of
+/// the four kinds.
 void write_grove(int size, const std::filesystem::path& gltf, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Trees on the landscape's ground: a few of them, in very many places.
+// Trees on the landscape's ground: many instances of a few trees.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Where a tree stands, how it is turned about y (a quaternion of unit length, its real part last), and how high it is.
+/// A tree's position, its rotation about y (a unit quaternion, its real part last), and its height.
 struct TreePlaces {
   std::vector<std::array<float, 3>> translations, scales;
   std::vector<std::array<float, 4>> rotations;
@@ -19,8 +19,8 @@ struct Grove {
   std::array<TreePlaces, tree_kinds> places;  ///< per kind of tree
 };
 
-/// One tree near each point of a lattice of 2^(size + 1) by 2^size over the ground, but in the lake, high up, where it is steep,
-/// and around the camera; size from 1 to 12. The same to the last bit on every machine.
+/// One tree near each point of a lattice of 2^(size + 1) by 2^size over the ground, except in the lake, high up, on steep ground,
+/// and around the camera; size from 1 to 12. Bit-identical on every machine.
 Grove grove(int size);
 
 }  // namespace dmpc::apps

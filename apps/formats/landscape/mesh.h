@@ -14,15 +14,15 @@ namespace dmpc::apps {
 /// empty.
 using RowsDone = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
-/// What glTF calls a primitive: vertices, and three numbers of theirs a triangle, counter-clockwise as seen from above.
+/// A primitive of glTF: vertices, and three indices per triangle, counter-clockwise as seen from above.
 struct LandscapeMesh {
   using Point = std::array<float, 3>;
   std::vector<Point> positions, normals;
-  std::vector<std::array<float, 2>> places;  ///< on the texture: s to the right, t downwards; or none
+  std::vector<std::array<float, 2>> places;  ///< texture coordinates: s to the right, t downwards; or none
   std::vector<std::uint32_t> indices;
 };
 
-/// A vertex without a place.
+/// Adds a vertex without texture coordinates.
 void add_vertex(LandscapeMesh& mesh, const core::Vec3d& position, const core::Vec3d& normal);
 
 /// 4^size triangles over a lattice of 2^size by 2^(size - 1) squares, x from -1 to 1, z from -1/2 to 1/2; size from 1 to 13.

@@ -6,8 +6,8 @@
 
 namespace dmpc::apps {
 
-/// A picture of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Painted by all cores, the
-/// same whatever their number.
+/// A picture of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Computed on all cores; the
+/// result does not depend on their number.
 Image ground_picture(int side, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

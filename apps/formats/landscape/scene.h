@@ -9,8 +9,8 @@
 
 namespace dmpc::apps {
 
-/// Whether landscape_scene() knows it: "landscape-7", "grove", ... Throws core::InputError for a name that begins so, and goes on
-/// otherwise.
+/// Whether landscape_scene() accepts the name: "landscape-7", "grove", ... Throws core::InputError for a name that begins like
+/// that, but continues differently.
 bool is_landscape_name(std::string_view name);
 
 /// The scene that write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same camera, except
