@@ -1,4 +1,4 @@
-// One call of `render`: what lasts from its beginning to its end, whatever becomes of its pictures.
+// The state of one call of `render`, from its beginning to its end.
 #pragma once
 
 #include <iosfwd>
@@ -21,7 +21,7 @@
 
 namespace dmpc::apps {
 
-/// On ranks, that of the first one.
+/// With ranks, rank 0's.
 struct RenderCall {
   /// Chooses the machine. Throws as choose_machine() and FrameScenes do.
   RenderCall(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files);
@@ -32,10 +32,10 @@ struct RenderCall {
   void say(const std::vector<std::string>& notes) const;
   /// Prints the notes that are not empty and have not been printed for an earlier frame.
   void report_once(const std::vector<std::string>& notes);
-  /// What an interruption means from now on, while a picture comes.
+  /// Sets what an interruption means while a picture is rendered.
   void set_consequence();
 
-  /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
+  /// Calls `work`, which does not communicate, while heartbeats go to the other ranks, if there are any.
   template <class Work>
   std::invoke_result_t<const Work&> apart(const Work& work) const {
     return asked.computer.ranks == nullptr ? work() : nodes::with_heartbeats(*asked.computer.ranks, work);
@@ -47,13 +47,13 @@ struct RenderCall {
   Files& files;
   FrameScenes scenes{asked};
   std::optional<FileLock> lock;    ///< on the checkpoint
-  std::unique_ptr<LiveView> live;  ///< outlives all that it looks on at
+  std::unique_ptr<LiveView> live;  ///< outlives everything that it observes
   std::optional<Checkpoints> checkpoints;
-  std::set<std::string> reported;  ///< what is said once
+  std::set<std::string> reported;  ///< notes printed so far
 };
 
-/// Takes what can be had before the scene is: paths, libraries, the checkpoint's lock, the port at which browsers look on. Throws
-/// core::UsageError or core::InputError for what cannot.
+/// Acquires everything that does not depend on the scene: paths, libraries, the checkpoint's lock, the port for browsers. Throws
+/// core::UsageError or core::InputError if one is not available.
 void claim(RenderCall& call, const DueFrame& first);
 
 }  // namespace dmpc::apps

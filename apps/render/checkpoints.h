@@ -1,4 +1,4 @@
-// The checkpoints of one render: read at its start, written on the way, removed in the end.
+// The checkpoints of one render: read at its start, written during it, removed at its end.
 #pragma once
 
 #include <chrono>
@@ -14,26 +14,27 @@
 
 namespace dmpc::apps {
 
-/// Thread safety: made and finished by one thread; in between the host's thread alone calls what continuation() returns.
+/// Thread safety: made and finished by one thread; in between only the host's thread calls what continuation() returns.
 class Checkpoints {
  public:
-  /// Reads the file if that is asked for, and says on `messages` what it has, unless `is_quiet`. Requires options.file. Throws
-  /// core::InputError as read_checkpoint() does. `messages` and `files` outlive it. `stop` is that of the run.
+  /// Reads the file if that is asked for, and reports its state on `messages`, unless `is_quiet`. Requires options.file. Throws
+  /// core::InputError as read_checkpoint() does. `messages` and `files` outlive it. `stop` is the run's.
   Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
               std::stop_token stop = {}, Files& files = real_files());
 
-  /// The picture is written, and another one is next, which begins at nothing.
+  /// Begins the next picture, from nothing; the last one has been written.
   void begin(PictureIdentity identity);
 
-  /// For a run, which it outlives. What cannot be written is a warning on `messages`; the last checkpoint stays.
+  /// For a run, which it outlives. A checkpoint that cannot be written is a warning on `messages`; the last one stays.
   core::Continuation continuation();
-  /// What the file had; nullptr without.
+  /// The file's contents; nullptr without.
   const core::PartialPicture* start() const { return start_ ? &*start_ : nullptr; }
-  /// Samples of all pixels that the file had.
+  /// Sum of the samples in the file over all pixels.
   std::uint64_t samples_found_done() const { return start_ ? start_->samples_done() : 0; }
-  /// There is a checkpoint to go on from: one was read, or one has been written. Not while the run's host may be writing.
+  /// Whether there is a checkpoint to resume from: one was read, or one has been written. Not while the run's host may be
+  /// writing.
   bool has_one() const { return has_one_; }
-  /// The picture is written: removes the file.
+  /// Removes the file; the picture has been written.
   void finish();
 
  private:
@@ -56,9 +57,8 @@ class Checkpoints {
 /// Removes the file if it is one of this picture.
 void remove_checkpoint_of(const PictureIdentity& identity, const CheckpointOptions& options, Files& files = real_files());
 
-/// To be held as long as the file may be read, written or removed; nothing without one. Throws core::InputError unless the
-/// options can be followed: the file can be written, it is no pipe or device, no other process has its checkpoint there, and it
-/// is not there unless it is to be resumed from.
+/// Held while the file may be read, written or removed; nothing without a checkpoint. Throws core::InputError unless the file can
+/// be written, is no pipe or device, is not locked by another process, and does not exist unless it is to be resumed from.
 std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options);
 
 }  // namespace dmpc::apps

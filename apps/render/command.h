@@ -1,4 +1,4 @@
-// The command `render`: scene in, picture and counters out.
+// The command `render`: renders a scene to a picture and counters.
 #pragma once
 
 #include <iosfwd>
@@ -10,17 +10,17 @@
 
 namespace dmpc::apps {
 
-/// With --runner=mpi it is to be called on all ranks, of which the first does what follows and the others lend it their nodes.
-/// Renders, writes the picture, then all else that is asked for, and prints the closing lines to `output`, the standard output,
-/// unless quiet; progress and remarks go to stderr. What can be seen beforehand (paths, scene, memory) is checked before anything
-/// is rendered: then it throws core::UsageError or core::InputError. What cannot be written afterwards is said on stderr, a line
-/// each, and keeps nothing else from being written. Returns the exit status. Throws Interrupted, and then no picture was written.
-/// `files` are those that the outputs and the checkpoint are written to.
+/// With --runner=mpi it is called on all ranks; the first does the following, and the others contribute their nodes. Renders,
+/// writes the picture, then the other outputs, and prints the closing lines to `output`, the standard output, unless quiet;
+/// progress and notes go to stderr. Everything that can be checked in advance (paths, scene, memory) is checked before rendering:
+/// then it throws core::UsageError or core::InputError. Outputs that cannot be written afterwards are reported on stderr, a line
+/// each, and do not prevent others. Returns the exit status. Throws Interrupted, in which case no picture was written. The
+/// outputs and the checkpoint are written to `files`.
 int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files = real_files());
 
-/// What it does on a rank of `fabric`, whose frames hold packets of payload_bytes_max(options) (apps/render/ranks.h): all ranks
-/// call it with the same options, and get the same status. Others than the first write and print nothing. Throws nodes::LostRank
-/// if a rank is lost.
+/// The command on a rank of `fabric`, whose frames hold packets of payload_bytes_max(options) (apps/render/ranks.h): all ranks
+/// call it with the same options, and get the same status. Only the first writes and prints. Throws nodes::LostRank if a rank is
+/// lost.
 int render_over(nodes::Fabric& fabric, const RenderOptions& options, Interrupt& interrupt, std::ostream& output,
                 Files& files = real_files());
 

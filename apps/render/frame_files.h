@@ -1,4 +1,4 @@
-// The files of frames: which each has, and whose are there already.
+// The output files of frames, and the frames that exist already.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace dmpc::apps {
 
-/// A picture that is to be made: one of several, or the only one.
+/// A picture to be rendered: one of several, or the only one.
 struct DueFrame {
   std::optional<std::uint64_t> number;  ///< nothing without --frames
-  RenderOptions options;                ///< with its names
+  RenderOptions options;                ///< with its file names
   OutputSet<RenderRecord> outputs;
 };
 
-/// The frames of a call whose pictures are not there. Thread safety: none.
+/// The frames whose pictures do not exist yet. Thread safety: none.
 class DueFrames {
  public:
   /// `asked`, with names for all frames, outlives it. Throws core::UsageError unless each output of several frames has a field
@@ -27,14 +27,14 @@ class DueFrames {
   /// cannot be read, or if a picture exists already that is not to be skipped.
   explicit DueFrames(const RenderOptions& asked);
 
-  /// How many are there, in a sentence; empty if there is none.
+  /// The number of existing frames, in a sentence; empty if there is none.
   std::string note() const;
   bool was_there(std::uint64_t frame) const { return there_.contains(frame); }
 
-  /// The first; nothing if all are there.
+  /// The first frame to render; nothing if all exist.
   std::optional<DueFrame> first() const;
-  /// The next of those that are not there by now: another process may have made them. Throws core::InputError if one has come
-  /// there that nobody wants to leave out.
+  /// The next frame that does not exist by now: another process may have made some. Throws core::InputError if one has appeared
+  /// that is not to be skipped.
   std::optional<DueFrame> after(const DueFrame& last) const;
 
   /// A warning if the pictures of `pixel_count` pixels may need more disk space than is free, even if they are compressed well;
@@ -46,7 +46,7 @@ class DueFrames {
   bool is_there_by_now(std::uint64_t number) const;
 
   const RenderOptions& asked_;
-  std::set<std::uint64_t> there_;  ///< from the beginning
+  std::set<std::uint64_t> there_;  ///< frames that existed at the beginning
 };
 
 }  // namespace dmpc::apps

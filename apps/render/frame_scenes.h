@@ -1,4 +1,4 @@
-// The scene as each frame shows it.
+// The scene of each frame.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace dmpc::apps {
 
-/// One scene for all frames, or, of an animation, one for each. Frame k's scene and view follow from the options and k alone.
+/// One scene for all frames, or, for an animation, one per frame. Frame k's scene and view depend on the options and k alone.
 class FrameScenes {
  public:
-  /// Reads the camera's path, if it has one. `asked`, which outlives this: as of all frames. Throws as camera_path_of().
+  /// Reads the camera's path, if there is one. `asked` holds for all frames, and outlives this. Throws as camera_path_of().
   explicit FrameScenes(const RenderOptions& asked);
 
   /// Whether frames differ in more than the camera.
   bool are_animated() const { return asked_.frames.animation.has_value(); }
-  /// The first frame that there is.
+  /// The number of the first frame.
   std::uint64_t first() const { return path_ ? path_->first() : 1; }
 
-  /// Reads the scene of a frame, or, without one, of the one picture. Its view is that of the scene as it stands before anything
-  /// moves, so that what else follows from a view is alike in all frames. `opened` gets all files that were read. Throws as
-  /// load_scene(), of an animation with the frame's number, and core::InputError if one of the frames shows nothing.
+  /// Reads the scene of a frame, or, without one, of the single picture. Its view is that of the still scene, so that everything
+  /// derived from a view is the same in all frames. `opened` gets all files that were read. Throws as load_scene(), for an
+  /// animation with the frame's number, and core::InputError if one of the frames shows nothing.
   core::Scene load(std::optional<std::uint64_t> frame, OpenedFiles& opened);
 
   /// After load() of this frame.
@@ -39,7 +39,7 @@ class FrameScenes {
 
   const RenderOptions& asked_;
   std::optional<CameraPath> path_;
-  core::View own_view_, moved_view_;  ///< the latter of the frame loaded last
+  core::View own_view_, moved_view_;  ///< the latter is that of the frame loaded last
   std::optional<StillScene> still_;   ///< an animation's, once it is known
 };
 

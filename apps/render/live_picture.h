@@ -1,4 +1,4 @@
-// The picture while it comes into being, for a thread that shows it.
+// The picture during its rendering, for a thread that shows it.
 #pragma once
 
 #include <atomic>
@@ -20,28 +20,28 @@ struct PictureTile {
   std::vector<float> rgb;  ///< linear, row by row
 };
 
-/// Cuts the film into tiles and hands over those on which light has fallen, as soon as light comes after it was asked for them:
-/// the host's thread never waits. Takes 4 bytes a pixel.
+/// Divides the film into tiles and passes on those that have changed: the host's thread copies a tile at the next change after it
+/// was requested, and never waits. Takes 4 bytes a pixel.
 ///
 /// Thread safety: made, begun again and finished by one thread; in between one other thread, the host's, calls watch(), and any
-/// calls take().
+/// thread calls take().
 class LivePicture {
  public:
-  /// `start`: what is done before, if anything.
+  /// `start`: what is already rendered, if anything.
   LivePicture(std::uint32_t width, std::uint32_t height, const core::PartialPicture* start = nullptr);
 
-  /// At a time; as many as a picture of 512x512 has.
+  /// Maximum at a time; a picture of 512x512 has as many.
   static constexpr std::size_t tiles_max = 64;
 
   std::uint32_t tile_count() const { return static_cast<std::uint32_t>(is_dirty_.size()); }
 
-  /// Light has come to a pixel of the pass.
+  /// To be called when a pixel of the pass has received light.
   void watch(const core::Film& film, const core::Refinement& pass, std::uint32_t pixel);
-  /// What was handed over since the last call, up to `tiles_max`; more is asked for.
+  /// The tiles passed on since the last call, up to `tiles_max`; requests more.
   std::vector<PictureTile> take();
-  /// Another picture of the same size.
+  /// Begins another picture of the same size.
   void begin_again();
-  /// The whole picture as it is in the end. Requires that watch() is not called any more.
+  /// The finished picture. Requires that watch() is not called any more.
   std::vector<PictureTile> finish(const core::Film& film);
 
  private:
@@ -49,13 +49,13 @@ class LivePicture {
   void migration(const core::Film& film);
 
   std::uint32_t width_, height_, columns_;
-  std::vector<std::uint8_t> is_dirty_;      ///< tile by tile: to be handed over
+  std::vector<std::uint8_t> is_dirty_;      ///< per tile: to be passed on
   std::vector<std::uint32_t> new_samples_;  ///< samples per pixel that have arrived in the current pass
-  std::uint32_t next_tile_ = 0;             ///< at which to look first, so that each has its turn
+  std::uint32_t next_tile_ = 0;             ///< tile to check first, so that each has its turn
   std::uint32_t pass_ = 0;
   std::atomic<bool> is_asked_for_ = false;
   std::mutex mutex_;
-  std::vector<PictureTile> tiles_;  ///< handed over, and not taken; mutex_ guards this
+  std::vector<PictureTile> tiles_;  ///< passed on, but not taken; guarded by mutex_
 };
 
 }  // namespace dmpc::apps

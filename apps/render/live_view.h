@@ -1,4 +1,4 @@
-// A render in a browser while it goes on: --serve.
+// Shows a running render in a browser: --serve.
 #pragma once
 
 #include <atomic>
@@ -22,17 +22,17 @@
 
 namespace dmpc::apps {
 
-/// How all ends.
+/// The final state.
 struct LiveEnd {
-  std::string said;          ///< as a sentence
-  std::string figures = {};  ///< lines that follow it
-  std::string page = {};     ///< which takes the live one's place, if there is one
+  std::string said;          ///< the state as a sentence
+  std::string figures = {};  ///< lines below it
+  std::string page = {};     ///< the page that replaces the live one, if there is one
 };
 
-/// Serves one page, with a secret in its address, and beside it the stream of its events. Whoever has it may stop what goes on.
-/// A thread of its own makes them: the host and the nodes leave what they have where it finds it (LivePicture,
-/// LiveCounts), and wait neither for it nor for a viewer. Beyond what a viewer takes of the server (WebServer) it keeps 4/3 bytes
-/// a byte of the picture as it is shown.
+/// Serves one page, with a secret in its address, and its event stream. Anybody who has the address may stop the run. A separate
+/// thread makes the events: the host and the nodes leave their data in LivePicture and LiveCounts, and wait neither for that
+/// thread nor for a viewer. In addition to the server's memory per viewer (WebServer) it takes 4/3 bytes per byte of the shown
+/// picture.
 ///
 /// Thread safety: one thread makes it, begins, ends and destroys it; watch() and update() are the host's.
 class LiveView {
@@ -45,30 +45,30 @@ class LiveView {
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
-  /// Where a browser finds it.
+  /// The address for a browser.
   std::string address() const { return server_.address(); }
-  /// Whether anybody has come.
+  /// Whether there has been any viewer.
   bool has_had_visitors() const { return server_.has_had_visitors(); }
   /// The error that stopped the events; empty if there was none.
   std::string complaint();
 
-  /// What is going on, as a sentence.
+  /// Shows the current phase, as a sentence.
   void say(const std::string& phase);
-  /// A picture is known, the first or, of the same size and on the same nodes, the next, between two runs. `start`: what of the
-  /// first is done before, if anything.
+  /// Begins a picture between two runs: the first or, of the same size and on the same nodes, the next. `start`: what is already
+  /// rendered of the first, if anything.
   void begin(const LiveHead& head, const core::PartialPicture* start);
-  /// Looks on at the nodes from begin() on; nullptr if it is not shown what they do.
+  /// Observes the nodes from begin() on; nullptr if their activities are not shown.
   nodes::Observer* observer() { return counts_.get(); }
 
   void watch(const core::Film& film, const core::Refinement& pass, std::uint32_t pixel);
   void update(std::uint32_t done, std::uint32_t total);
 
-  /// The picture as it is in the end; nothing of the run follows.
+  /// Shows the finished picture; nothing of the run follows.
   void show(const core::Film& film);
-  /// All is over. Viewers are told so, and where there is a page to ask for it; waits until they have it, or else have heard
-  /// that, for two seconds at most, or until a stop is requested. Only the first call counts.
+  /// Ends the events and informs viewers, also about a final page; waits until they have it, or otherwise this message, for two
+  /// seconds at most, or until a stop is requested. Only the first call counts.
   void end(LiveEnd end, const std::stop_token& stop = {});
-  /// Until it is requested.
+  /// Waits until it is requested.
   static void wait(const std::stop_token& stop);
 
  private:
@@ -88,7 +88,7 @@ class LiveView {
   std::unique_ptr<nodes::LiveCounts> counts_;
   std::atomic<std::uint32_t> done_ = 0, total_ = 0, pass_ = 1;
   bool has_ended_ = false;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::string phase_ = "The scene is read and built.";
   std::string complaint_;
   LiveHead head_;

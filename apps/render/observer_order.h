@@ -21,24 +21,24 @@ namespace dmpc::apps {
 struct ObserverOrder {
   std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< sizes of computer, database and picture
   std::vector<core::HeatKind> heat_kinds = {};                    ///< empty: no heat map
-  std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
+  std::optional<nodes::TraceChoice> trace = {};                   ///< a rank's share of the events
   bool has_profile = false;
   nodes::WaitOf wait_of = {};  ///< for the profile
   // Only for modelled machines, which have no ranks: not sent to other ranks.
-  bool follows_paths = false;  ///< what led to the end of each wait
+  bool follows_paths = false;  ///< records the critical path to the end of each wait
   std::optional<nodes::ExchangeChoice> exchange = {};
-  std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched
+  std::optional<svm::PageHomes> fetches = {};      ///< homes of the pages that are fetched
   std::optional<std::size_t> references_max = {};  ///< per node
-  bool has_all_references = false;                 ///< for a file: none is left out
+  bool has_all_references = false;                 ///< for a file: none is dropped
 
   bool is_empty() const { return heat_kinds.empty() && !trace && !has_profile && !fetches && !references_max; }
 };
 
-/// What the options ask for. `references_max`: of all nodes together that are kept, about.
+/// The observations for the options. `references_max`: approximate number recorded on all nodes together.
 ObserverOrder observer_order(const RenderOptions& options, std::uint32_t page_count, std::uint32_t pixel_count,
                              std::size_t references_max = references_usual);
 
-/// As bytes, and from them.
+/// Conversion to bytes and back.
 std::string bytes_of(const ObserverOrder& order);
 ObserverOrder observer_order_from(std::string_view bytes);
 

@@ -1,4 +1,4 @@
-// Who looks on at a render, or at a rank's part of it.
+// Observers of a render, or of a rank's part of it.
 #pragma once
 
 #include <memory>
@@ -23,34 +23,33 @@ namespace dmpc::apps {
 struct RunProfile {
   std::optional<nodes::Trace> trace;          ///< for --trace
   std::optional<RunView> view;                ///< for --report
-  std::vector<svm::ReferenceLog> references;  ///< for --references, one a node
+  std::vector<svm::ReferenceLog> references;  ///< for --references, one log per node
 };
 
-/// Instruments beside one run, whose memory is no node's. Thread safety: as an Observer; seen(), add() and take() when the run is
-/// over.
+/// Observers of one run, with memory outside the nodes. Thread safety: as an Observer; seen(), add() and take() after the run.
 class Observers {
  public:
-  /// `another` looks on, too, if there is one, and outlives this.
+  /// `another` is an additional observer, if there is one, and outlives this.
   explicit Observers(const ObserverOrder& order, nodes::Observer* another = nullptr);
   Observers(const Observers&) = delete;
   Observers& operator=(const Observers&) = delete;
 
-  /// For the run, where nobody has a pointer who wants to know nothing. On ranks, on rank 0, others are given the same order.
+  /// The observers for the run; absent ones are null pointers. With ranks, this is rank 0's, and the others get the same order.
   nodes::Watching watching();
-  /// For the run; nullptr if nobody wants to know the references.
+  /// For the run; nullptr if references are not recorded.
   std::vector<svm::ReferenceLog>* reference_logs() { return reference_logs_.empty() ? nullptr : &reference_logs_; }
 
-  /// All that was seen here, for add() of rank 0's.
+  /// All observations of this rank, for add() on rank 0.
   std::string seen() const;
-  /// Adds what was seen on another rank.
+  /// Adds the observations of another rank.
   void add(std::string_view seen, const nodes::ClockDrift& clock);
 
-  /// Another run begins, for heat maps alone: what was seen is forgotten.
+  /// Begins another run, for heat maps alone: earlier observations are dropped.
   void begin_again();
 
-  /// Nothing if nobody wants to know it.
+  /// Nothing if it was not asked for.
   const nodes::HeatMap* heat() const { return heat_ ? &*heat_ : nullptr; }
-  /// What else was seen; call it once.
+  /// The other observations; to be called once.
   RunProfile take();
 
  private:

@@ -1,4 +1,4 @@
-// The files that a render leaves.
+// The output files of a render.
 #pragma once
 
 #include "apps/frontend/system/output_set.h"
@@ -6,14 +6,14 @@
 
 namespace dmpc::apps {
 
-/// All outputs; of the picture and the checkpoint it has the names alone: they are written when it is their time.
+/// All outputs; the picture and the checkpoint have only names here, since they are written separately.
 OutputSet<RenderRecord> outputs_of(const RenderOptions& options);
 
-/// Throws core::InputError unless what the options ask for can be written, as far as can be known beforehand, and none of it
-/// falls on the scene or the machine's file.
+/// Throws core::InputError unless all outputs can be written, as far as can be known in advance, and none is the file of the
+/// scene or the machine.
 void check_outputs(const RenderOptions& options, const OutputSet<RenderRecord>& outputs);
 
-/// Counters that were asked for on the standard output go there with the closing lines, and not into a file.
+/// Whether the counters go to the standard output, together with the closing lines, instead of a file.
 bool has_counters_on_standard_output(const RenderOptions& options);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// How far a picture is that is refined pass by pass.
+// The progress of a picture that is refined in passes.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace dmpc::apps {
 /// good enough before the last pass ends early. Not thread-safe.
 class PassProgress {
  public:
-  /// `progress` outlives it. `first`: the pass with which it begins, from 1 on.
+  /// `progress` outlives it. `first`: the first pass, from 1 on.
   PassProgress(Progress& progress, std::uint32_t first, std::uint32_t passes_max)
       : progress_(progress), pass_(first), passes_max_(passes_max) {}
 
-  /// `done` of a pass's `total` pixels; fewer than before, or of another total, are the next pass's.
+  /// `done` of a pass's `total` pixels; a smaller number, or another total, begins the next pass.
   void update(std::uint32_t done, std::uint32_t total);
 
   /// "Pass 3 of at most 12:".
   std::string label() const;
-  /// 0 to 1, of all passes.
+  /// 0 to 1, over all passes.
   double share() const { return share_; }
 
  private:

@@ -1,4 +1,4 @@
-// What makes a picture: two with the same identity have the same bits, whatever computes them.
+// The identity of a picture: pictures with the same identity are bit-identical, whatever computes them.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,33 @@
 
 namespace dmpc::apps {
 
-/// One thing that a picture depends on. Both texts are without line ends, the name without "=".
+/// A property on which a picture depends. Neither text contains line ends, nor the name "=".
 struct PictureFact {
   std::string name;
-  std::string value;  ///< "#" and a digest where it would be too long
+  std::string value;  ///< "#" and a digest if it would be too long
   bool operator==(const PictureFact&) const = default;
 };
 
-/// How the facts of another picture differ from those of `here`, as a part of a sentence: "depth is 5, here 4; other materials".
-/// Empty if they are the same.
+/// The differences between another picture's facts and those of `here`, as a part of a sentence: "depth is 5, here 4; other
+/// materials". Empty if there are none.
 std::string difference_text(const std::vector<PictureFact>& other, const std::vector<PictureFact>& here);
 
-/// The name of the fact that is the last: the scale of the film.
+/// The name of the last fact: the scale of the film.
 inline constexpr const char* film_scale_fact = "film-scale";
 
 struct PictureIdentity {
   int width = 1, height = 1;
   std::vector<PictureFact> facts;
-  core::PictureTerms terms = {};  ///< what follows from the facts for a part of the picture
+  core::PictureTerms terms = {};  ///< consequences of the facts for a part of the picture
 };
 
-/// `scene` as it is rendered: staged, and not yet built from.
+/// `scene` as it is rendered: after scene set-up, before a database is built from it.
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
 
 /// Identity of a frame: the picture from `view`, in a scene whose own view, on which the sky and lights depend, may differ.
 PictureIdentity identity_from(const core::View& view, PictureIdentity own);
 
-/// A digest of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
+/// A digest of the whole scene: equal scenes give equal digests, whatever file or name they come from.
 std::uint64_t scene_digest(const core::Scene& scene);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What a user should know of a picture: light that its film could not hold, a scene of which it shows nothing.
+// Notes for users about a picture: saturated light, or a scene of which it shows nothing.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace dmpc::apps {
 
-/// A sentence for light that was cut, and one where the whole picture is so dark that the film's steps show; none, as a rule.
-/// `lit`: shadow rays that reached a light with something to bring: what says of a black picture that it should not be black.
+/// A sentence about clipped light, and one if the whole picture is so dark that the film's quantization shows; usually none.
+/// `lit`: number of shadow rays that reached a light with a contribution: if it is not 0, a picture should not be black.
 std::vector<std::string> film_notes(const core::Film& film, std::uint64_t lit);
 
-/// The axis that points up as a scene is seen: the one nearest to its view's up.
+/// The up axis of a scene as it is seen: the one nearest to its view's up.
 UpAxis up_of(const core::View& view);
 
-/// A sentence for a picture whose rays from the eye meet nothing: where the scene lies, and the camera that shows the whole of
-/// it. Requires bounds that hold something.
+/// A sentence for a picture whose primary rays hit nothing: the scene's position, and the camera that shows all of it. Requires
+/// bounds that are not empty.
 std::string unseen_note(const core::Box& bounds, const UpAxis& up);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// `render` on several ranks: the first does all that there is to do but run the others' nodes.
+// `render` on several ranks: rank 0 does everything except running the others' nodes.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace dmpc::apps {
 
-/// No packet of a render with these options is longer.
+/// The maximum payload of packets in a render with these options.
 std::size_t payload_bytes_max(const RenderOptions& options);
 
-/// Throws core::UsageError, in words of the command line, if there are fewer nodes than ranks or more than the strategy takes.
+/// Throws core::UsageError, in words of the command line, if there are fewer nodes than ranks or more than the strategy allows.
 void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count);
 
 /// Renders: reads, plans, writes and prints, and returns the status of the process.

@@ -1,4 +1,4 @@
-// A number that two builds of dmpc, or two processors, agree on if they come to the same pictures.
+// A self-test, whose result is the same for builds of dmpc and processors that compute the same pictures.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace dmpc::apps {
 
-/// The bytes of two small databases and the light that some 10^4 rays find there, one by one and in bundles, by the kernels that
-/// are used on this processor.
+/// Digests of two small databases and of the light that some 10^4 rays find in them, one by one and in bundles, by the kernels
+/// for this processor.
 struct SelfTest {
   std::uint64_t databases = 0, pictures = 0;
 };
 SelfTest self_test();
 
-/// What ranks that render must have in common: the build, the words, and what the test came to.
+/// Compatibility of ranks that render: the build, the command line, and the result of the self-test.
 Compatibility renderer_compatibility();
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What becomes of a picture on its way from the scene to files: values, each made of the one before.
+// The stages of a picture from the scene to files: each value is made from the one before.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@
 
 namespace dmpc::apps {
 
-/// What is known of a scene, also when its objects are gone.
+/// Properties of a scene that remain known when its objects are gone.
 struct SceneFacts {
   core::Box bounds;
-  UpAxis up;                                     ///< where a camera is advised
+  UpAxis up;                                     ///< for a suggested camera
   std::optional<std::uint64_t> digest = {};      ///< if a page shows it, or frames may differ in more than the view
-  std::optional<PictureIdentity> identity = {};  ///< that of its own view's picture, where there is a checkpoint
+  std::optional<PictureIdentity> identity = {};  ///< for its own view's picture, if there is a checkpoint
   Seconds seconds = {};                          ///< so far
 };
 
@@ -38,12 +38,12 @@ struct BuiltScene {
   SceneFacts facts;
 };
 
-/// Stays where it is: its nodes refer to all the rest.
+/// Not movable: its nodes refer to the other members.
 struct PlannedPicture {
   PlannedPicture(RenderCall& call, const DueFrame& frame, BuiltScene scene);
 
   BuiltScene built;
-  RenderOptions options;  ///< the frame's, with what the scene decides and where references are noted
+  RenderOptions options;  ///< the frame's, with what the scene decides and where references are recorded
   Observers observers;
   WarmNodes nodes;
 };
@@ -54,8 +54,8 @@ struct RenderedPicture {
 };
 
 struct WrittenPicture {
-  int status = 0;             ///< the exit status: not 0 if something could not be written
-  std::string page, closing;  ///< for who looks on, in the end
+  int status = 0;             ///< the exit status: not 0 if an output could not be written
+  std::string page, closing;  ///< for viewers, at the end
 };
 
 /// Reads, builds and plans the frame, or reuses the nodes of the last one if they exist and only the camera has changed;
@@ -65,17 +65,17 @@ struct WrittenPicture {
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,
                                              std::unique_ptr<PlannedPicture> last);
 
-/// What all threads of this process have computed so far, in seconds.
+/// Processor time of all threads of this process so far, in seconds.
 struct ProcessorTime {
   double user = 0, system = 0;
 };
 ProcessorTime processor_time();
 
-/// Shows how far it is. Throws Interrupted, and what ReadyRun does.
+/// Shows progress. Throws Interrupted, and what ReadyRun does.
 RenderedPicture render_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned);
 
-/// The picture before all else, so that nothing that fails takes it away. What fails is said on stderr, and keeps nothing else
-/// from being written.
+/// Writes the picture first, so that no error of another output loses it. Errors are reported on stderr, and do not prevent other
+/// outputs.
 WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned, RenderedPicture rendered);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The options that keep a picture under way, and go on with one.
+// The options for checkpoints of an unfinished picture, and for resuming.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,11 @@
 namespace dmpc::apps {
 
 struct CheckpointOptions {
-  std::optional<std::filesystem::path> file;  ///< where what is done is kept; without it nothing is
+  std::optional<std::filesystem::path> file;  ///< the checkpoint; none if empty
   double every_seconds = 120;                 ///< wall clock; above 0
-  bool resumes = false;                       ///< goes on from what the file has
+  bool resumes = false;                       ///< resumes from the file
 };
 
-/// Declares them.
 void add_options(OptionSet options, CheckpointOptions& checkpoint);
 
 }  // namespace dmpc::apps

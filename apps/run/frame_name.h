@@ -1,4 +1,4 @@
-// A file for each frame: a name with a place for the frame's number.
+// File names of frames: a name with a field for the frame's number.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace dmpc::apps {
 
-/// "out.####.png" or "out.%04d.png": the number has as many digits, with zeros in front, or more where it needs more. "%d" and
-/// "#" have as many as it needs. A value.
+/// "out.####.png" or "out.%04d.png": the number has as many digits, with leading zeros, or more if needed. "%d" and "#" have as
+/// many as needed. A value.
 class FrameName {
  public:
-  /// Nothing if the file's name has no such place. Throws core::UsageError, naming `option`, if it has two.
+  /// Nothing if the file's name has no such field. Throws core::UsageError, naming `option`, if it has two.
   static std::optional<FrameName> in(const std::filesystem::path& path, std::string_view option);
 
   std::filesystem::path of(std::uint64_t frame) const;
-  /// The frame whose file is called so in the folder of all; nothing if none is.
+  /// The frame whose file has this name in the frames' folder; nothing if there is none.
   std::optional<std::uint64_t> frame_of(const std::string& file_name) const;
   std::filesystem::path folder() const { return folder_; }
 

@@ -1,4 +1,4 @@
-// The option --heatmap: which pictures of what each pixel took, and where they go.
+// The option --heatmap: heat maps of each pixel's cost, and their files.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace dmpc::apps {
 
-/// One heat map to be written: to an EXR file the numbers, to a PNG file colours and a legend.
+/// One heat map to be written: to an EXR file as numbers, to a PNG file as colours and a legend.
 struct HeatRequest {
   core::HeatKind kind;
   std::filesystem::path path;
 };
 
-/// All kinds in both formats, and most of them again. They are under way at a time, for which apps/frontend/system/interrupt.cpp
-/// has room.
+/// All kinds in both formats, and most of them again. They are written at the same time, for which
+/// apps/frontend/system/interrupt.cpp has slots.
 inline constexpr std::size_t heat_requests_max = 32;
 
 /// "KIND:FILE.exr" or "KIND:FILE.png". Throws core::UsageError for anything else.
@@ -28,10 +28,10 @@ HeatRequest parse_heat_request(const std::string& text);
 /// Whether the file gets numbers, or else colours.
 bool holds_numbers(const HeatRequest& request);
 
-/// Declares --heatmap, which may be given several times.
+/// Declares --heatmap, which can be repeated.
 void add_heat_option(OptionSet options, std::vector<HeatRequest>& requests);
 
-/// Throws core::UsageError, saying why, for a kind that the strategy has not, or too many.
+/// Throws core::UsageError, with the reason, for a kind that the strategy does not have, or for too many.
 void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy);
 
 /// The kinds of all requests.

@@ -1,4 +1,4 @@
-// What --instances says: how often a mesh is there that stands in several places.
+// The option --instances: how meshes with several instances are stored.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@ namespace dmpc::apps {
 /// Declares --instances.
 void add_instance_option(OptionSet options, DatabaseOptions& database);
 
-/// Who looks for what rays meet.
+/// The parts that intersect rays.
 struct RayTracers {
   std::optional<System> system;
   TracerChoice tracer = TracerChoice::grid;
   std::uint32_t tested_objects = 0;
 };
 
-/// For OptionSet::check_in_the_end(), after settle_database(): has readers leave copies out, and the database be one tree, where
-/// meshes are to be kept; says what keeps `automatic` from keeping any. Throws core::UsageError where --instances=keep does not
-/// go with another option.
+/// For OptionSet::check_in_the_end(), after settle_database(): if base meshes are to be kept, has readers leave copies out, and
+/// the database be one tree; reports why `automatic` does not keep any. Throws core::UsageError if --instances=keep contradicts
+/// another option.
 void settle_instances(const OptionSet& options, const RayTracers& tracers, DatabaseOptions& database, MeshOptions& mesh);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What a render's nodes spend their memory on, in the words and the order in which it is shown.
+// The categories of the nodes' memory in a render, in words and in display order.
 #pragma once
 
 #include <array>
@@ -12,7 +12,6 @@ struct NamedCategory {
   nodes::Category category;
   const char* name;
 };
-/// All that there are.
 inline constexpr std::array<NamedCategory, nodes::category_count> memory_categories = {{
     {core::MemoryUse::home_pages, "home pages"},
     {core::MemoryUse::cache_frames, "cache frames"},

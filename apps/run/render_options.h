@@ -1,4 +1,4 @@
-// The options of `render`: a scene, a computer, a strategy, and what to look at.
+// The options of `render`: a scene, a computer, a strategy, and outputs.
 #pragma once
 
 #include <filesystem>
@@ -19,29 +19,29 @@
 namespace dmpc::apps {
 
 struct RenderOptions : StrategyOptions {
-  std::optional<System> system;      ///< whose options the strategy has, if one was named
-  bool is_node_count_given = false;  ///< else, on ranks, it follows from their processors
+  std::optional<System> system;      ///< the system whose options the strategy has, if one was named
+  bool is_node_count_given = false;  ///< otherwise, with ranks, it follows from their processors
   PictureOptions picture;
   DatabaseOptions database;
   FrameOptions frames;
-  std::filesystem::path image;                      ///< where the picture goes
-  std::optional<std::filesystem::path> stats;       ///< where the counters go, as JSON
-  std::optional<std::filesystem::path> report;      ///< where the page goes that shows all of it
-  std::vector<HeatRequest> heat_maps;               ///< what else is to be shown of each pixel
-  TraceOptions trace;                               ///< what is recorded of the run
-  std::optional<std::filesystem::path> references;  ///< where the nodes' page references go, as CSV
-  CheckpointOptions checkpoint;                     ///< what is kept on the way
-  std::string serve_port;                           ///< the port at which browsers may look on, 0: any; empty: nobody may
+  std::filesystem::path image;                      ///< file of the picture
+  std::optional<std::filesystem::path> stats;       ///< file of the counters, as JSON
+  std::optional<std::filesystem::path> report;      ///< file of the page
+  std::vector<HeatRequest> heat_maps;               ///< heat maps of the pixels
+  TraceOptions trace;                               ///< recording of the run
+  std::optional<std::filesystem::path> references;  ///< file of the nodes' page references, as CSV
+  CheckpointOptions checkpoint;                     ///< checkpoint of the unfinished picture
+  std::string serve_port;                           ///< port for browsers, 0: any; empty: none
   bool quiet = false;                               ///< no progress and no closing lines
 };
 
-/// Whether the nodes' pagers count the pages of each pixel, for --count-pages or a heat map: then they do not note references.
+/// Whether the nodes' pagers count the pages of each pixel, for --count-pages or a heat map: then they do not record references.
 bool counts_pages(const RenderOptions& render);
 
-/// For OptionSet::check_in_the_end(): throws core::UsageError for an option that does not go with the runner.
+/// For OptionSet::check_in_the_end(): throws core::UsageError for an option that contradicts the runner.
 void check_runner(const OptionSet& options, RunnerKind runner);
 
-/// Declares them, and which go together.
+/// Declares them, and the checks of their combinations.
 void add_options(OptionSet options, RenderOptions& render);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What is known of one render once it is done.
+// The data of one finished render.
 #pragma once
 
 #include <cstdint>
@@ -23,29 +23,28 @@ namespace dmpc::apps {
 
 struct RunView;
 
-/// Seconds of wall clock by phase, and of processor time.
+/// Wall-clock seconds by phase, and processor seconds.
 struct Seconds {
   double load = 0, build = 0, prepare = 0, render = 0, write = 0;
   double user = 0, system = 0;                ///< whole process so far
   double render_user = 0, render_system = 0;  ///< phase `render` alone
 };
 
-/// All that is known about one render.
 struct RenderRecord {
   const RenderOptions& options;
   const core::Database& database;
   const Report& report;
   Seconds seconds;
-  const nodes::HeatMap* heat = nullptr;                        ///< what options.heat_maps and options.report ask for
-  const nodes::Trace* trace = nullptr;                         ///< what options.trace asks for
-  const RunView* view = nullptr;                               ///< what options.report asks for
-  const std::vector<svm::ReferenceLog>* references = nullptr;  ///< what options.references asks for
-  std::uint64_t samples_found_done = 0;                        ///< sum over all pixels, in the checkpoint from which the run continued
-  std::optional<std::uint64_t> scene_digest = {};              ///< what options.report asks for
+  const nodes::HeatMap* heat = nullptr;                        ///< for options.heat_maps and options.report
+  const nodes::Trace* trace = nullptr;                         ///< for options.trace
+  const RunView* view = nullptr;                               ///< for options.report
+  const std::vector<svm::ReferenceLog>* references = nullptr;  ///< for options.references
+  std::uint64_t samples_found_done = 0;                        ///< sum over all pixels, in the checkpoint that was resumed
+  std::optional<std::uint64_t> scene_digest = {};              ///< for options.report
   std::uint64_t film_hash = account_of(report).film.hash();
 };
 
-/// The computer that rendered, in words: "svm, 8 nodes of ipsc2".
+/// The computer in words: "svm, 8 nodes of ipsc2".
 inline std::string computer_text(const RenderRecord& record) {
   const RenderOptions& options = record.options;
   const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";

@@ -1,4 +1,4 @@
-// What a run reports, whichever strategy it followed.
+// The report of a run, independent of its strategy.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@
 
 namespace dmpc::apps {
 
-/// svm and replicated report alike.
+/// svm and replicated have the same report.
 using Report = std::variant<svm::Report, dataflow::Report>;
 
 /// Kinds of waits by a strategy's packets.
 WaitKinds wait_kinds(Strategy strategy);
 
-/// What every strategy says of a node. A view.
+/// A node's report, common to all strategies. A view.
 struct NodeAccount {
   const core::Operations& operations;
   const nodes::NodeCounters& counters;
@@ -33,28 +33,28 @@ struct NodeAccount {
   const nodes::MemoryPlan& memory_used;
 };
 
-/// What every strategy reports. A view: the report outlives it.
+/// A run's report, common to all strategies. A view: the report outlives it.
 struct Account {
   const core::Film& film;
   nodes::RunEnd end;
-  std::size_t node_memory_max_bytes;                        ///< what the fullest node takes
-  const std::optional<nodes::Chaos>& chaos;                 ///< that disturbed the run
+  std::size_t node_memory_max_bytes;                        ///< maximum over the nodes
+  const std::optional<nodes::Chaos>& chaos;                 ///< the disturbance of the run
   std::vector<NodeAccount> nodes;                           ///< by number
-  core::Operations operations;                              ///< summed over them
+  core::Operations operations;                              ///< sum over the nodes
   const nodes::NodeCounters& host;                          ///< the host's
   std::uint64_t host_deposits_saturated;                    ///< pixels whose sums saturated on the host's film
   nodes::TrafficByKind sent;                                ///< by all nodes and the host, by kind
   std::span<const char* const> kind_names;                  ///< kinds of the strategy's packets
   const std::optional<nodes::VirtualReport>& virtual_time;  ///< modelled machine only
-  WaitKinds waits;                                          ///< what the waits for these packets are
+  WaitKinds waits;                                          ///< the meaning of waits for these packets
   core::RefinementResult refinement;
-  const std::vector<nodes::RankFigures>& ranks;  ///< where there are several, or could be
+  const std::vector<nodes::RankFigures>& ranks;  ///< if there are or could be several
 };
 
-/// Thread-safe, as long as nobody changes the report.
+/// Thread-safe, as long as the report is not changed.
 Account account_of(const Report& report);
 
-/// What became of the nodes' time, all of them together, on a modelled machine.
+/// The time of all nodes together by parts, on a modelled machine.
 TimeParts parts_of(const Account& account);
 
 }  // namespace dmpc::apps

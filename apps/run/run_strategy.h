@@ -15,29 +15,29 @@
 
 namespace dmpc::apps {
 
-/// Everything is planned and, for dataflow, balanced and assigned.
+/// A planned run; for dataflow also balanced and assigned.
 struct ReadyRun {
-  std::vector<std::string> notes;  ///< what the user should know before: sentences
+  std::vector<std::string> notes;  ///< notes for the user before the run: sentences
   /// Renders. Throws core::InputError if the real computer has too little memory or too few threads, and core::InternalError if a
-  /// law of conservation is broken.
+  /// conservation check fails.
   std::function<Report(const nodes::Progress&, std::stop_token)> start;
-  /// After start(), where the options say that there are several frames: renders the next on the same nodes, and says how far it
-  /// is as start() was told. `settings` differ from those of the first in the camera, and what follows from it, alone. Throws as
-  /// start() does. Empty with a tracer other than our own.
+  /// After start(), if the options have several frames: renders the next on the same nodes, with the progress of start().
+  /// `settings` may differ from those of the first in the camera and what depends on it only. Throws as start() does. Empty with
+  /// another tracer than our own.
   std::function<Report(const core::RenderSettings& settings, std::stop_token)> go_on;
 };
 
-/// Reads the machine that is to be modelled, if one is, with its topology as that onto which regions are mapped. Throws
-/// core::InputError as load_machine() does.
+/// Reads the machine to be modelled, if there is one, and uses its topology for the mapping of regions. Throws core::InputError
+/// as load_machine() does.
 void choose_machine(StrategyOptions& options);
-/// Chooses this machine as it is.
+/// Chooses this machine, unchanged.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 
-/// The options are such as choose_machine() leaves them. For dataflow it renders the subsampled picture, in haste once a stop is
-/// requested: then the result is good for a run that the same stop ends at once. `database` and `settings` outlive the result.
-/// `watching` may be told that the database is distributed before the start, and its progress is that which the start is given.
-/// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
-/// naming what works. No memory of a node is asked of the real computer before the start.
+/// Requires options after choose_machine(). For dataflow it renders the subsampled picture, cut short once a stop is requested:
+/// then the result is usable only for a run that the same stop ends at once. `database` and `settings` outlive the result. The
+/// distribution of the database may be reported to `watching` before the start; its progress is that of the start. Throws
+/// core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small, with
+/// sufficient sizes. No node's memory is allocated before the start.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                     const std::stop_token& stop = {}, const nodes::Watching& watching = {},
                     const core::Continuation& continuation = {});
