@@ -54,8 +54,8 @@ std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* wh
   }
 }
 
-/// During its lifetime, an end without an exception is reported with its node, too: a crash, which still is one, and a call of std::exit(),
-/// which becomes an end with internal_status. One at a time. `name`: what stands before what is said.
+/// During its lifetime, an end without an exception is reported with its node, too: a crash, which still is one, and a call of
+/// std::exit(), which becomes an end with internal_status. One at a time. `name`: what stands before what is said.
 class ProgramEnds {
  public:
   explicit ProgramEnds(const std::string& name);

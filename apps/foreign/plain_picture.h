@@ -18,9 +18,9 @@ struct RawPicture {
   std::vector<std::uint8_t> values;
 };
 
-/// The functions below are read from the front on; without values what stands before these is all that counts.
-/// Pixels of the largest that is read: beside what those take the start of OpenImageIO is little, and it takes half of the
-/// memory.
+/// The functions below read a picture from its beginning; without values they only read the data before these. This is the
+/// maximum number of pixels: for larger pictures the start of OpenImageIO takes little time in comparison, and it needs half
+/// of the memory.
 inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 24U;
 
 /// Whether this many pixels, of `value_bytes` each, are in a file of `file_bytes` and not more than `pixels_max`.

@@ -23,8 +23,8 @@ struct MeshSky {
 /// Position of a unit direction in such a square, 0 to 1 to the right and downwards.
 std::array<double, 2> equal_area_place(const core::Vec3d& direction);
 
-/// Gives the scene one sky, as bright as all of them and its background together; texels that are negative or NaN count as 0. The
-/// scene's background becomes black. Throws core::InputError for a picture that is not square.
+/// Gives the scene one sky, oriented by its zenith, as bright as all of them and its background together; texels that are
+/// negative or NaN count as 0. The scene's background becomes black. Throws core::InputError for a picture that is not square.
 void set_sky(const std::vector<MeshSky>& skies, core::Scene& scene);
 
 }  // namespace dmpc::apps

@@ -29,7 +29,7 @@ struct DatabaseFigures {
   bool has_voxels = false;                                         ///< which are the macro cells then
   std::uint64_t references = 0;                                    ///< voxels' references
   std::uint64_t instances = 0;                                     ///< places of base meshes
-  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< of base meshes; of instances
+  std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< in base meshes; in instances
   std::vector<RecordFigures> records;
   std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
 

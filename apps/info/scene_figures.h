@@ -35,7 +35,7 @@ const char* name_of(core::TexelFormat format);
 /// Meshes of a scene that stand in several places of it (core/scene/base_meshes.h).
 struct MeshFigures {
   std::uint64_t count = 0, places = 0;
-  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< of each mesh once; of all instances
+  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< with each mesh once; in all instances
   double stored_share = 1;  ///< share of the scene's corners that is stored with each mesh once (core/scene/base_meshes.h)
 };
 

@@ -13,8 +13,8 @@ namespace dmpc::apps {
 struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< processor time
   std::uint64_t bytes_a_second = 500'000;  ///< one more second for this many more bytes of files
-  std::uint64_t wall_factor = 30;       ///< limit of wall clock over processor time: other processes want the processor, too
-  std::uint64_t texture_bytes_max = 0;  ///< for all textures of a scene, with their levels; 0: as much memory as there is
+  std::uint64_t wall_factor = 30;          ///< limit of wall clock over processor time: other processes want the processor, too
+  std::uint64_t texture_bytes_max = 0;     ///< for all textures of a scene, with their levels; 0: as much memory as there is
   Sandbox sandbox = Sandbox::available;
 };
 

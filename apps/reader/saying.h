@@ -30,16 +30,16 @@ enum class Saying : std::uint8_t {
   yes,
   no,  ///< why not
   // From a reader.
-  ready,           ///< protocol, what confines it: a flag each of Confinement
-  open,            ///< path; answered by file or no
-  exists,          ///< path; answered by yes or no
-  meant,           ///< a folder and a name in the scene's file; answered by names
-  progress,        ///< share, 0 to 1
-  bytes,           ///< more of the picture that is talked of
-  texture_file,    ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
-  texture_bytes,   ///< number of bytes sent; the first time to be weighed: that, name, format hint, edges; answered likewise
-  picture,         ///< width, height, format; its bytes follow, then done
-  scene,           ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
+  ready,          ///< protocol, what confines it: a flag each of Confinement
+  open,           ///< path; answered by file or no
+  exists,         ///< path; answered by yes or no
+  meant,          ///< a folder and a name in the scene's file; answered by names
+  progress,       ///< share, 0 to 1
+  bytes,          ///< more of the picture that is talked of
+  texture_file,   ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
+  texture_bytes,  ///< number of bytes sent; the first time to be weighed: that, name, format hint, edges; answered likewise
+  picture,        ///< width, height, format; its bytes follow, then done
+  scene,          ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,
   materials,
   objects,

@@ -27,7 +27,7 @@ struct LiveState {
   std::uint64_t ns = 0;  ///< on the nodes' clock
   std::uint32_t done = 0, total = 0, pass = 1;
   std::uint64_t packets = 0, bytes = 0;  ///< sent by nodes
-  std::vector<double> shares = {};       ///< shares of the nodes' time since the last step, by kind of work; empty if no time has passed
+  std::vector<double> shares = {};       ///< the nodes' time since the last step, by kind of work; empty: none has passed
 };
 
 /// A finished picture of several.

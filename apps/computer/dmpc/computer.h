@@ -55,8 +55,8 @@ Senders to_node(std::uint32_t target, std::uint32_t count = 1);
 struct PacketNeed {
   std::string name;                         ///< for counters and traces
   std::size_t bytes_max = small_bytes_max;  ///< payload's maximum
-  /// Who may send. If the packet has an answer, the right to send returns with each answer; otherwise this is the number of
-  /// packets that a node can send to another in a run.
+  /// The packets that may be sent. If this packet has an answer, the right to send returns with each answer; otherwise this is
+  /// the number of packets that a node can send to another in a run.
   Senders senders = {};
   /// The name of the packet that it answers: its place is kept from the moment when that is sent.
   std::string answers = {};
@@ -221,8 +221,8 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
 
 /// Reads the command line, whose options --help lists (nodes, runner, machine, chaos, counters, trace, report and those of the
 /// program), runs the programs, prints what came of it, and returns the exit status of the process: 0 done, 1 bad input or an
-/// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 not enough memory, 130 interrupted. Call
-/// it once, from main().
+/// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 not enough memory, 130
+/// interrupted. Call it once, from main().
 template <class P>
 int run(int count, const char* const* words, const Application<P>& application);
 

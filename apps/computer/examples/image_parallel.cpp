@@ -1,6 +1,6 @@
 // A strategy of its own to render a scene that fits no node: each has a part of the picture and, before the start, the pages that
-// it will use most, estimated from a small picture of its part. What it keeps it keeps for good; any other page it asks its home for,
-// uses it until it needs the next one, and forgets it.
+// it will use most, estimated from a small picture of its part. What it keeps it keeps for good; any other page it asks its home
+// for, uses it until it needs the next one, and forgets it.
 //
 //   image_parallel --runner=virtual --machine=hdr --kept=64
 //

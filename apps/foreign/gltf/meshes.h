@@ -26,8 +26,7 @@ struct PrimitiveMesh {
 };
 
 struct Meshes {
-  std::vector<std::pair<std::size_t, std::size_t>>
-      ranges;  ///< per mesh of the document: its first primitive, one past its last
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;  ///< per mesh of the document: its first primitive, one past its last
   std::vector<PrimitiveMesh> list;
   std::uint64_t corners_left_over = 0;  ///< in lists whose length is no multiple of three
 };

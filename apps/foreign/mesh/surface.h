@@ -33,7 +33,7 @@ struct MetallicSurface {
   double metallic = 1, roughness = 1;
   double transmission = 0;
   double refraction_index = 1.5;  ///< 1 or less counts as 1.5
-  double opacity = 1;             ///< of a blended surface; otherwise 1
+  double opacity = 1;             ///< if blended; otherwise 1
 };
 
 /// By the table in apps/foreign/README.md. Energy is conserved in each channel.

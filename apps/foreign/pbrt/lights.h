@@ -15,7 +15,7 @@ namespace dmpc::apps::pbrt {
 /// What shapes shine with that follow an AreaLightSource statement.
 struct AreaLight {
   core::Vec3d radiance;
-  std::optional<double> power;  ///< of the whole shape; `radiance` is then relative to the power that a white light would need
+  std::optional<double> power;  ///< the whole shape's; `radiance` is then relative to the power that a white light would need
   bool is_twosided = false;
 };
 

@@ -35,7 +35,7 @@ class ShownBuffer : public std::streambuf {
   void put_escaped(char letter, char32_t code, int digits);
 
   std::streambuf& target_;
-  std::recursive_mutex one_at_a_time_;  ///< serializes threads; recursive, since the functions for texts call those for characters
+  std::recursive_mutex one_at_a_time_;  ///< recursive, since the functions for texts call those for characters
   std::array<char, 4> kept_{};          ///< the beginning of a character
   std::size_t kept_bytes_ = 0;
   bool is_whole_ = true;  ///< the target has accepted everything

@@ -28,8 +28,8 @@ struct Comparison {
   std::optional<Table> counters = {};  ///< counters that differ
 };
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs' clocks differ, of
-/// which one time would be said then, or if no temporary file can be written.
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs' clocks
+/// differ, of which one time would be said then, or if no temporary file can be written.
 std::string comparison_page(const Comparison& comparison, const Origin& origin, std::ostream& complaints);
 
 /// Milliseconds of a node's mean by what it did or waited for: a row each that either run has, and one for the whole run, to

@@ -26,7 +26,7 @@ struct MadeRun {
 
 /// A band beside runs.
 struct ForecastView {
-  std::uint32_t cache_pages = 0;  ///< of the run that predicts
+  std::uint32_t cache_pages = 0;  ///< the measured run's
   std::string why;                ///< the band is as wide as it is: sentences
   std::vector<TimeBand> sizes;    ///< in ascending order, whether narrow enough to be shown or not
   std::vector<MadeRun> runs;

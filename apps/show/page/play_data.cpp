@@ -33,7 +33,7 @@ using nlohmann::json;
 using Counts = std::vector<std::uint64_t>;
 
 constexpr std::size_t pages_max = 256;          ///< the hottest that are listed
-constexpr std::size_t over_time_side_max = 96;  ///< of pairs; there are 295,000 values then
+constexpr std::size_t over_time_side_max = 96;  ///< pairs of nodes; there are 295,000 values then
 
 std::uint64_t largest(std::span<const std::uint64_t> values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());

@@ -9,8 +9,8 @@
 
 namespace dmpc::apps::html {
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can be
-/// written.
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can
+/// be written.
 std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

@@ -31,8 +31,8 @@ struct Sweep {
   std::optional<ForecastView> forecast = {};  ///< from one of its runs, beside all of them
 };
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can be
-/// written.
+/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can
+/// be written.
 std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

@@ -18,7 +18,7 @@ struct NumberMap {
   std::string unit;                     ///< as amount_ticks() takes it
   std::size_t rows = 0, columns = 0;
   std::vector<double> values;         ///< row by row, not negative
-  std::optional<double> column_ns{};  ///< duration of a column, where columns are steps of time from 0 on; nothing: they are counted
+  std::optional<double> column_ns{};  ///< duration of a column, if columns are steps of time from 0 on; nothing: counted
   std::optional<double> most{};       ///< upper end of the scale; nothing: the largest number
 };
 

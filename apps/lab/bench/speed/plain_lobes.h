@@ -16,7 +16,7 @@ struct PlainWay {
   core::Vec3f towards;  ///< unit vector
   core::Color weight;
   bool is_scattered = false;
-  float density = std::numeric_limits<float>::infinity();  ///< probability density of the direction, per steradian; infinite for mirror and glass
+  float density = std::numeric_limits<float>::infinity();  ///< density of the direction, per steradian; infinite for specular
 };
 
 /// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/surfaces/path_step.h), or

@@ -56,7 +56,7 @@ struct PlainSurface {
   core::Vec3f geometric_normal, normal;  ///< unit vectors; the latter is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
-  float radius = 0;  ///< of a curved surface
+  float radius = 0;  ///< curved surfaces only
 };
 
 /// Immutable; every call is thread-safe.

@@ -82,7 +82,7 @@ class BundleSample {
 
 struct Recording {
   std::array<BundledRays, ray_class_count> rays;  ///< by class, each limited in number; empty if the scene has none
-  core::Operations operations;                    ///< of the whole render
+  core::Operations operations;                    ///< the whole render's
 
   const BundledRays& of(RayClass ray_class) const { return rays[static_cast<std::size_t>(ray_class)]; }
 };

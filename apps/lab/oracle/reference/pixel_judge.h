@@ -29,7 +29,7 @@ std::string_view name_of(PixelCause cause);
 
 struct Judgement {
   PixelCause cause{};
-  double largest_step = 0;  ///< of the pixel's Audit
+  double largest_step = 0;  ///< from the pixel's Audit
   std::string error;        ///< an unexplained pixel's
 };
 
