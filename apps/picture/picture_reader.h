@@ -90,7 +90,7 @@ class PictureReader {
 
   ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
-  Program program_ = Program::plain;  ///< the process runs it
+  Program program_ = Program::plain;  ///< which program the process runs
   std::uint64_t hidden_alphas_ = 0;
   std::uint64_t memory_bytes_ = 0, weighed_bytes_ = 0, texture_bytes_ = 0;
 };

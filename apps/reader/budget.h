@@ -1,4 +1,4 @@
-// What reading may take, of a scene or of its pictures, and what it is confined by.
+// Limits for reading a scene or its pictures, and the confinement of the readers.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// So much at first, and more for each byte of the files that are read.
+/// A basic amount, and more for each byte of the files that are read.
 struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< processor time
   std::uint64_t bytes_a_second = 500'000;  ///< one more second for this many more bytes of files
@@ -18,8 +18,8 @@ struct ReaderLimits {
   Sandbox sandbox = Sandbox::available;
 };
 
-/// One for all processes that read one after the other or beside each other, and for what dmpc does to answer them. Bytes of
-/// files renew it, each file's once; questions, further files that are small, and further processes do not. Not thread-safe.
+/// One budget for all processes that read a scene, one after the other or concurrently, and for dmpc's answers to them. Bytes of
+/// files extend it, once per file; requests, further small files, and further processes do not. Not thread-safe.
 class ReadingBudget {
  public:
   using Time = std::chrono::nanoseconds;
@@ -29,14 +29,14 @@ class ReadingBudget {
   void add_bytes(std::uint64_t bytes) { bytes_ += bytes; }
   /// Adds processor time that an ended process or dmpc itself has used.
   void spend(Time time) { spent_ += time; }
-  /// Passed on the wall.
+  /// Adds wall-clock time.
   void wait(Time time) { waited_ += time; }
 
   const ReaderLimits& limits() const { return limits_; }
-  /// All that there is, in whole seconds of processor time.
+  /// The whole budget, in seconds of processor time.
   std::uint64_t seconds() const { return limits_.seconds + bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1); }
   std::uint64_t wall_seconds() const { return seconds() * limits_.wall_factor; }
-  /// None, or less, where it is used up.
+  /// Zero or negative if it is used up.
   Time left() const { return std::chrono::seconds(seconds()) - spent_; }
   Time wall_left() const { return std::chrono::seconds(wall_seconds()) - waited_; }
 

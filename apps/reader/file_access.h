@@ -1,4 +1,4 @@
-// Which files a scene may have opened.
+// Decides which files a scene may open.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace dmpc::apps {
 
-/// A scene's own file, and ordinary files beside and below it, links resolved: beside the name that it was given by, or beside
-/// where it lies. Or any ordinary file.
+/// Allowed are a scene's own file, and ordinary files beside and below it, links resolved: beside its given name, or beside its
+/// real location. Or any ordinary file.
 class FileAccess {
  public:
-  /// Finds the scene's file. Throws core::InputError, a sentence that goes on "SCENE: ...", if there is none.
+  /// Finds the scene's file. Throws core::InputError, the end of a sentence "SCENE: ...", if there is none.
   FileAccess(const std::filesystem::path& scene, bool anywhere);
 
-  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened; ComputerCapacityError if
-  /// no further file can be open.
+  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened; ComputerCapacityError if no
+  /// further file can be open.
   InputFile open(const std::filesystem::path& path);
 
   /// Whether open() would find an ordinary file there; false for files that may not be opened.

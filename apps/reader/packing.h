@@ -13,7 +13,7 @@
 
 namespace dmpc::apps {
 
-/// A reader has said what no reader of ours says: the matter that it reads has taken it over.
+/// A message that no reader of ours sends: foreign data have taken over the reader.
 struct Nonsense : core::InputError {
   using core::InputError::InputError;
 };
@@ -26,7 +26,7 @@ class Packer {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
     return *this;
   }
-  /// Cut off if it is too long.
+  /// Truncated if it is too long.
   Packer& add_text(std::string_view text) {
     text = text.substr(0, text_bytes_max);
     add(static_cast<std::uint32_t>(text.size()));
@@ -46,12 +46,12 @@ class Packer {
   std::string bytes_;
 };
 
-/// Throws Nonsense where there is less than what is taken, or more in the end.
+/// Throws Nonsense if there is less than is taken, or a rest at the end.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
 
-  /// Only types all of whose bits are values: no bool.
+  /// Only for types for which all bit patterns are valid: no bool.
   template <class T>
   T take() {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, bool>);

@@ -1,4 +1,4 @@
-// A process that reads foreign files for dmpc, with limits on what it may take.
+// A process that reads foreign files for dmpc, with limited resources.
 #pragma once
 
 #include <sys/types.h>
@@ -13,12 +13,12 @@
 
 namespace dmpc::apps {
 
-/// It has ended before its time: by a signal, by a limit, or by saying nonsense. The text goes on "the reader of PLY files ...".
+/// The reader has ended early: by a signal, a limit, or invalid messages. The text continues "the reader of PLY files ...".
 struct ReaderDeath : core::InputError {
   using core::InputError::InputError;
 };
 
-/// Ended and waited for in the end.
+/// The destructor ends the process and waits for it.
 class ReaderProcess {
  public:
   /// Starts the program and waits until it is ready. It may use `memory_bytes` beyond its memory at the start, and from then on
@@ -30,11 +30,11 @@ class ReaderProcess {
   ReaderProcess(const ReaderProcess&) = delete;
   ReaderProcess& operator=(const ReaderProcess&) = delete;
 
-  /// With a file, its bytes give it more time. Throws ReaderDeath if it has ended, or if no time is left.
+  /// The bytes of a file extend its time. Throws ReaderDeath if it has ended, or if no time is left.
   void send(Saying saying, const Packer& fields = {}, const Descriptor* file = nullptr, std::uint64_t file_bytes = 0);
-  /// After a request, in as many messages as they take; waits while it does not take them. Throws ReaderDeath if it has ended.
+  /// After a request, as many messages as needed; waits while its buffer is full. Throws ReaderDeath if it has ended.
   void send_bytes(std::span<const std::byte> bytes);
-  /// The next message. Throws ReaderDeath if it has ended or takes too long, core::CapacityError if its memory ended.
+  /// The next message. Throws ReaderDeath if it has ended or takes too long, core::CapacityError if its memory is exhausted.
   Message receive();
   /// Copies the memory of the process at `address` into `room`. Changes that the reader makes meanwhile may show; later ones do
   /// not. Returns false if there are not so many bytes, if the data would exceed its memory limit when each byte becomes `growth`
@@ -46,14 +46,14 @@ class ReaderProcess {
   Confinement hear_that_it_is_ready();
   void check(const Confinement& confinement);
   void stop();
-  /// Has the system end it where its time ends.
+  /// Sets the time limit in the system.
   void allow();
   /// Processor time since its start.
   ReadingBudget::Time taken() const;
   void wait_for_message();
   [[noreturn]] void end(const char* unless_by_signal);
 
-  ReadingBudget starting_{ReaderLimits{}};  ///< to get ready takes as long as the computer is busy, whatever the files may take
+  ReadingBudget starting_{ReaderLimits{}};  ///< the start depends on the computer's load, not on the files' budget
   ReadingBudget* budget_ = &starting_;
   std::uint64_t memory_bytes_, grown_bytes_ = 0;
   pid_t id_ = -1;

@@ -1,4 +1,4 @@
-// What dmpc and the processes that read and write files for it say to each other: kinds of messages, each with its fields.
+// The protocol between dmpc and the processes that read and write files for it: kinds of messages with their fields.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,12 @@
 
 namespace dmpc::apps {
 
-/// The version of the messages and of what they hold; processes of different builds do not understand each other.
+/// The version of the messages and their contents; processes of different builds are incompatible.
 inline constexpr std::uint32_t protocol = 15;
 
-/// A message is no longer; more is sent in pieces.
+/// The maximum size of a message; longer data are sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
-/// A text is cut off there.
+/// Longer texts are truncated.
 inline constexpr std::size_t text_bytes_max = 32 * 1024;
 
 /// Fields in the order in which they are packed (apps/reader/packing.h).
@@ -22,43 +22,43 @@ enum class Saying : std::uint8_t {
               ///< if one is asked for
   read_texture,   ///< name, format hint, bytes of the file, whether alpha counts; with the file
   read_image,     ///< likewise
-  weigh_picture,  ///< likewise; answered by picture and done, from what stands before the pixels
-  writes,         ///< an ending; answered by yes or no
+  weigh_picture,  ///< likewise; answered by picture and done, from the data before the pixels
+  writes,         ///< an extension; answered by yes or no
   write_picture,  ///< name, width, height, whether its values are floats; these follow as bytes; answered by bytes, then done
   file,           ///< bytes of the file; with the file
   names,          ///< paths
   yes,
-  no,  ///< why not
+  no,  ///< the reason
   // From a reader.
-  ready,          ///< protocol, what confines it: a flag each of Confinement
+  ready,          ///< protocol, its confinement: a flag each of Confinement
   open,           ///< path; answered by file or no
   exists,         ///< path; answered by yes or no
   meant,          ///< a folder and a name in the scene's file; answered by names
   progress,       ///< share, 0 to 1
-  bytes,          ///< more of the picture that is talked of
-  texture_file,   ///< whether it is but weighed, path, edges; answered by yes, when it is the scene's next texture, or no
+  bytes,          ///< more of the current picture
+  texture_file,   ///< whether it is only weighed, path, edges; answered by yes, when it is the scene's next texture, or no
   texture_bytes,  ///< number of bytes sent; the first time to be weighed: that, name, format hint, edges; answered likewise
   picture,        ///< width, height, format; its bytes follow, then done
   scene,          ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,
   materials,
   objects,
-  points,  ///< where vertices lie
+  points,  ///< positions of vertices
   normals,
   corners,
-  meshes,     ///< which of the objects stand in places of their own: core::SharedMesh
+  meshes,     ///< the objects that are base meshes: core::SharedMesh
   places,     ///< instances of meshes: core::Instance
-  vertices,   ///< indices of the points that have come
+  vertices,   ///< indices into the received points
   note,       ///< a text
-  done,       ///< the last message about what was asked for
+  done,       ///< the last message of an answer
   bad_input,  ///< a text
   no_room,    ///< a text
   out_of_memory,
-  lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has them from there, or no
+  lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has copied them, or no
   spheres,    ///< if the scene has spheres
-  sky,        ///< the last of all: a picture's path, the rows of what turns the world's directions into its own, a factor
+  sky,        ///< the last of all: a picture's path, the rows that rotate the world's directions to its own, a factor
   bounds,     ///< for an animation's moment: a centre and a radius
-  left_to_another,  ///< the picture that is asked for: this program does not read it
+  left_to_another,  ///< the requested picture: this program does not read it
 };
 
 }  // namespace dmpc::apps

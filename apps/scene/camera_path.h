@@ -1,4 +1,4 @@
-// How a camera moves from frame to frame.
+// The motion of a camera from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace dmpc::apps {
 /// Frames are numbered from 1 on, up to this.
 inline constexpr std::uint64_t frame_max = 1'000'000'000;
 
-/// Where the camera is at a frame; what it leaves open is the scene's.
+/// The camera at a frame; missing values are the scene's.
 struct Keyframe {
   std::uint64_t frame = 1;
   CameraChoice camera;
 };
 
-/// That point before the camera, on its line of sight, which is nearest to the middle of the scene's bounds, or else what it
-/// looks at: about which it turns.
+/// The point around which the camera turns: the point on its line of sight, before the camera, that is nearest to the middle of
+/// the scene's bounds, or else the point that it looks at.
 core::Vec3d pivot_of(const core::View& view, const core::Box& bounds);
 
 /// Frame k's view depends on k, the scene's own view and its bounds alone, by + - * / sqrt, so that a frame is the same on every
@@ -31,19 +31,17 @@ class CameraPath {
   /// Turns around the scene: around pivot_of() of the scene's own view and the view's up, anticlockwise as seen from above, by
   /// `degrees` from each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
   static CameraPath turntable(double degrees);
-  /// At each keyframe as it says, between them on a spline through all of them (E. Catmull, R. Rom, "A Class of Local
-  /// Interpolating Splines", 1974), whose slope at a keyframe is that from the one before to the one behind. Requires keyframes
-  /// with frames that ascend.
+  /// The keyframes' cameras, and between them a spline through all of them (E. Catmull, R. Rom, "A Class of Local Interpolating
+  /// Splines", 1974): the slope at a keyframe is that between its neighbours. Requires ascending frames.
   explicit CameraPath(std::vector<Keyframe> keyframes);
 
-  /// The frames that there are.
   std::uint64_t first() const { return keyframes_.empty() ? 1 : keyframes_.front().frame; }
   std::uint64_t last() const { return keyframes_.empty() ? frame_max : keyframes_.back().frame; }
-  /// The scene's own view and, in the world's coordinates, its bounds: before a view is asked for.
+  /// Sets the scene's own view and, in world coordinates, its bounds. To be called before view().
   void set_scene(const core::View& own, const core::Box& bounds);
-  /// Requires one of them.
+  /// Requires a frame of the path.
   core::View view(std::uint64_t frame) const;
-  /// Throws core::InputError, naming the frame, unless each of these shows something.
+  /// Throws core::InputError, with the frame, unless each of these shows something.
   void check(std::uint64_t first, std::uint64_t last) const;
 
  private:
@@ -58,9 +56,9 @@ class CameraPath {
   std::vector<Keyframe> keyframes_;  ///< none: a turntable
 };
 
-/// Reads a file of lines "FRAME CAMERA", such as "1 4,3,5/0,0,0/0,1,0/45", the camera as --camera takes it; blank lines and what
-/// stands behind # are left out. Throws core::InputError with file and line for anything else, no keyframe, frames that do not
-/// ascend, and what cannot be read.
+/// Reads a file of lines "FRAME CAMERA", such as "1 4,3,5/0,0,0/0,1,0/45", the camera as for --camera; blank lines and text
+/// behind # are ignored. Throws core::InputError with file and line for anything else, no keyframe, frames that do not ascend,
+/// and a file that cannot be read.
 CameraPath read_camera_path(const std::filesystem::path& file);
 
 }  // namespace dmpc::apps

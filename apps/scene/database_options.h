@@ -1,4 +1,4 @@
-// How a scene becomes records in pages: page size, their order, the structure. Shared by `render` and the studies.
+// Options for a scene's database: page size, order of records, structure. Shared by `render` and the studies.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace dmpc::apps {
 
-/// As the command line calls it.
+/// Name on the command line.
 const char* name_of(core::RecordOrder order);
 
-/// As the command line calls it.
+/// Name on the command line.
 const char* name_of(core::Structure structure);
-/// As the command line calls it: there are no rules but its two.
+/// Name on the command line, which has only two rules.
 std::string text_of(const core::VoxelRule& rule);
 
-/// A mesh that stands in several places has a copy in each or is kept once. automatic: kept where that leaves less than half of
-/// the scene to store (core/scene/base_meshes.h), once the scene is known.
+/// A mesh with several instances has a copy for each or is stored once. automatic: once, if that leaves less than half of the
+/// scene to store (core/scene/base_meshes.h), when the scene is known.
 enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
 
 struct DatabaseOptions {
@@ -29,7 +29,7 @@ struct DatabaseOptions {
   InstancesChoice instances = InstancesChoice::expand;
   std::string why_copied;  ///< the option that keeps `automatic` from keeping any mesh; empty: none does
 
-  /// Meshes are kept, which takes one tree.
+  /// Stores meshes once, which requires one tree.
   void store_instances() {
     build.keeps_instances = true;
     build.structure = core::Structure::extents;
@@ -37,12 +37,12 @@ struct DatabaseOptions {
 };
 
 using DatabaseRow = OptionRow<DatabaseOptions, DatabaseOptions>;
-/// In the order in which help has them.
+/// In the order of the help.
 const std::vector<DatabaseRow>& database_rows();
 /// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
 
-/// For OptionSet::check_in_the_end(): throws core::UsageError where there is a rule for voxels and another structure.
+/// For OptionSet::check_in_the_end(): throws core::UsageError for a rule for voxels with another structure.
 void check_voxels(const OptionSet& options, const core::BuildOptions& build);
 
 /// "1KiB", in bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.

@@ -14,16 +14,15 @@ namespace dmpc::apps {
 struct SceneOptions {
   std::string name;                             ///< a built-in scene, a landscape or a grove
   std::optional<std::filesystem::path> output;  ///< stdout if not given
-  bool quiet = false;                           ///< no progress of a landscape or grove, which alone take long
+  bool quiet = false;                           ///< no progress of a landscape or grove; only these take long
 };
 
 /// Declares them.
 void add_options(OptionSet options, SceneOptions& scene);
 
-/// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
-/// Throws core::InputError for an unknown name or if writing fails,
-/// core::UsageError for a landscape or grove without an -o that ends in .gltf or another scene with one that ends in anything but
-/// .nff, Interrupted if a signal came before.
+/// Writes to the file asked for (atomically), else to `output`. A signal ends the process. Returns the exit status 0. Throws
+/// core::InputError for an unknown name or if writing fails, core::UsageError for a landscape or grove without an -o that ends in
+/// .gltf or another scene with one that ends in anything but .nff, Interrupted if a signal arrived before.
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

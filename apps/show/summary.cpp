@@ -93,8 +93,7 @@ std::string pages_text(const svm::Report& report) {
                      percent_text(percent_of(pages.misses, pages.references), 2) + "; " + grouped(pages.faults) + " faults, " +
                      grouped(pages.evictions) + " evictions";
   if (report.plan.request.pages.count_pages) {
-    const auto pixels =
-        static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // without those of an earlier run
+    const auto pixels = static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // this run's
     text += ", " + fixed(static_cast<double>(pages.distinct_pages) / pixels, 2) + " distinct pages a pixel";
   }
   return text;
