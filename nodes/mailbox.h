@@ -107,7 +107,7 @@ class BasicMailbox {
     if (!add(batch, header, payload, front)) {
       return false;
     }
-    migration(batch, awake);
+    hand_over(batch, awake);
     return true;
   }
 
@@ -130,7 +130,7 @@ class BasicMailbox {
   }
 
   /// Gives all packets of the batch to the receiver, in their order, and wakes it if it sleeps. `awake` as push()'s.
-  void migration(Batch& batch, BasicAwakeCount<Atomics>& awake) {
+  void hand_over(Batch& batch, BasicAwakeCount<Atomics>& awake) {
     if (batch.is_empty()) {
       return;
     }

@@ -124,12 +124,12 @@ void NodeThreads::add_waiting(ThreadProcessor& source, NodeId target, const Pack
   core::expect(mailbox_towards(target).add(source.waiting, header, payload, front), "credits leave room in the target's mailbox");
   source.waiting_for = target;
   if (++source.waiting_count >= source.batching.packets || !may_wait) {
-    migration(source);
+    hand_over(source);
   }
 }
 
-void NodeThreads::migration(ThreadProcessor& source) {
-  mailbox_towards(source.waiting_for).migration(source.waiting, count_towards(source.waiting_for));
+void NodeThreads::hand_over(ThreadProcessor& source) {
+  mailbox_towards(source.waiting_for).hand_over(source.waiting, count_towards(source.waiting_for));
   source.waiting_count = source.quanta_waited = 0;
 }
 
@@ -287,7 +287,7 @@ NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
   const bool holds_packets = self.holds_packets();
   // Before it sleeps in any case, for an awake node alone keeps the others from finding that all is over.
   if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= batching_quanta_max)) {
-    migration(self);
+    hand_over(self);
   }
   return has_more ? Next::go_on : holds_packets ? Next::pass : Next::rest;
 }

@@ -120,7 +120,7 @@ class NodeThreads final : public Network {
   Mailbox& mailbox_towards(NodeId target) const;
   void add_waiting(ThreadProcessor& source, NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
                    std::span<const std::byte> front, bool may_wait);
-  void migration(ThreadProcessor& source);
+  void hand_over(ThreadProcessor& source);
   AwakeCount& count_towards(NodeId target) { return by_index_[index_of(target)] != nullptr ? awake_ : uncounted_; }
   void make_worker_threads(std::size_t count);
   void start_threads();

@@ -58,7 +58,7 @@ struct TwoSenders {
       const bool fits = index == 2 ? mailbox.add(batch, header, payload) : mailbox.push(header, payload, awake);
       pushed[index] += fits ? 1 : 0;
     }
-    mailbox.migration(batch, awake);
+    mailbox.hand_over(batch, awake);
     done.fetch_sub(1, std::memory_order_relaxed);
     mailbox.rouse();
   }

@@ -81,7 +81,7 @@ TEST_CASE("packets of a batch come out when it is handed over, in their order, b
   CHECK(box.push_number(8, 3));
   CHECK(box.take() == Taken{{8, 3}});
   CHECK(box.push_number(8, 4));
-  box.mailbox.migration(batch, box.awake);
+  box.mailbox.hand_over(batch, box.awake);
   CHECK(batch.is_empty());
   CHECK(box.push_number(8, 5));
   CHECK(box.take() == Taken{{8, 4}, {7, 1}, {7, 2}, {8, 5}});
@@ -92,11 +92,11 @@ TEST_CASE("a batch of nothing wakes nobody, and one of packets counts a sleeper 
   Mailbox::Batch batch;
   REQUIRE(box.mailbox.fall_asleep());
   CHECK_FALSE(box.awake.leave());
-  box.mailbox.migration(batch, box.awake);
+  box.mailbox.hand_over(batch, box.awake);
   CHECK_FALSE(box.mailbox.has_packets());
   CHECK(box.mailbox.add(batch, {}, {}));
   CHECK(box.mailbox.add(batch, {}, {}));
-  box.mailbox.migration(batch, box.awake);
+  box.mailbox.hand_over(batch, box.awake);
   box.mailbox.wait();  // returns at once
   CHECK(box.take().size() == 2);
   CHECK_FALSE(box.awake.leave());

@@ -7,24 +7,24 @@
 #include <vector>
 
 #include "tests/dataflow/state_explorer.h"
-#include "tests/dataflow/units/hand_over_model.h"
+#include "tests/dataflow/units/migration_model.h"
 
 namespace dmpc::tests::migration_test {
 namespace {
 
-StateReport explore_units(const HandOverSettings& settings) {
-  const HandOverModel model(settings);
+StateReport explore_units(const MigrationSettings& settings) {
+  const MigrationModel model(settings);
   return StateExplorer(model).explore();
 }
 
-void check_all_orders(const HandOverSettings& settings, std::uint64_t states_min) {
+void check_all_orders(const MigrationSettings& settings, std::uint64_t states_min) {
   check_no_failure(explore_units(settings), states_min);
 }
 
 /// What becomes of it when a rule is broken, and what is said then.
 struct Broken {
   const char* sentence;
-  HandOverSettings settings;
+  MigrationSettings settings;
   const char* words;
 };
 

@@ -17,7 +17,7 @@
 namespace dmpc::tests {
 
 /// The rules as they are; each can be broken.
-struct HandOverRules {
+struct MigrationRules {
   bool sends_on = true;              ///< a ray that comes to a former owner goes on to the one it knows
   bool counts_transfers = true;      ///< for the proof of the end, as packets of rays
   bool counts_primaries = true;      ///< including those that go along with a unit
@@ -33,15 +33,15 @@ struct HandOverRules {
   bool believes_old_news = false;
 };
 
-struct HandOverSettings {
+struct MigrationSettings {
   std::array<std::uint8_t, model_nodes> rays{1, 1, 1};  ///< that start on a node, all of them for the unit
   /// That start later, or go along with the unit: until then the node may ask, but is not passive.
   std::array<std::uint8_t, model_nodes> held{};
   std::uint8_t questions = 2;  ///< that all nodes together may ask
-  HandOverRules rules = {};
+  MigrationRules rules = {};
 };
 
-class HandOverModel {
+class MigrationModel {
  public:
   enum class Kind : std::uint8_t { ray, ask, refusal, page, primaries, acknowledgement, moved, token };
   struct Message {
@@ -77,7 +77,7 @@ class HandOverModel {
     std::string text() const { return peer_name(actor) + " " + verb; }
   };
 
-  explicit HandOverModel(const HandOverSettings& settings) : settings_(settings) {}
+  explicit MigrationModel(const MigrationSettings& settings) : settings_(settings) {}
 
   State initial() const {
     State state;
@@ -413,7 +413,7 @@ class HandOverModel {
     }
   }
 
-  HandOverSettings settings_;
+  MigrationSettings settings_;
 };
 
 }  // namespace dmpc::tests
