@@ -29,11 +29,11 @@ def render(
     "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] |
     None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None,
     instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | None = None,
-    pool_threads: int | None = None, timeout: int | None = None, machine: Text | None = None, chaos: Text | None = None, cache_pages: int |
-    None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None, replacement: Literal["lru", "clock",
-    "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None =
-    None, work_donor: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None =
-    None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None = None, cache_pages:
+    int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None, replacement: Literal["lru",
+    "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int |
+    None = None, work_donor: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int |
+    None = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
     Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None =
     None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False,
     tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, trace: Text | None = None, trace_window: Text |
@@ -63,9 +63,9 @@ def sweep(
     None = None, page_size: Text | Sequence[Text] | None = None, record_order: Literal["spatial", "scattered"] | Sequence[Text] | None =
     None, structure: Literal["grid", "extents", "voxels"] | Sequence[Text] | None = None, voxels: Literal["usual", "article"] |
     Sequence[Text] | None = None, instances: Literal["expand", "keep", "auto"] | Sequence[Text] | None = None, runner: Literal["threads",
-    "pool", "virtual", "mpi"] | Sequence[Text] | None = None, pool_threads: int | Sequence[int] | None = None, timeout: int | Sequence[int]
-    | None = None, machine: Text | Sequence[Text] | None = None, chaos: Text | Sequence[Text] | None = None, cache_pages: int |
-    Sequence[int] | None = None, homes: Literal["spread", "host", "tree"] | Sequence[Text] | None = None, resident: int | Sequence[int] |
+    "pool", "virtual", "mpi"] | Sequence[Text] | None = None, pool_threads: int | Sequence[int] | None = None, rank_timeout: int |
+    Sequence[int] | None = None, machine: Text | Sequence[Text] | None = None, chaos: Text | Sequence[Text] | None = None, cache_pages: int
+    | Sequence[int] | None = None, homes: Literal["spread", "host", "tree"] | Sequence[Text] | None = None, resident: int | Sequence[int] |
     None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | Sequence[Text] | None = None, in_flight:
     int | Sequence[int] | None = None, bundles: bool | Sequence[bool] = False, work_item: int | Sequence[int] | None = None, work_donor:
     Literal["ring", "host"] | Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] | None = None,
@@ -93,14 +93,14 @@ def references(
     "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None =
     None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
     "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None,
-    runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, timeout: int | None = None,
+    runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None,
     machine: Text | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None
     = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None,
     in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
     pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False, balance:
     Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None,
-    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int
-    | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
+    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int |
+    None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
     Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace: Text | None = None, trace_window:
     Text | Sequence[Text] | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
     resume: bool = False
@@ -123,14 +123,14 @@ def trace(
     "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None =
     None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
     "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None,
-    runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, timeout: int | None = None,
+    runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None,
     machine: Text | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None
     = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None,
     in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
     pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False, balance:
     Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None,
-    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int
-    | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
+    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int |
+    None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
     Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None
     = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None =
     None, resume: bool = False
