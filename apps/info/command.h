@@ -1,4 +1,4 @@
-// The command `info`: what a scene is, and what a render of it would take, without rendering it.
+// The command `info`: describes a scene and what a render of it would require, without rendering it.
 #pragma once
 
 #include <cstdint>
@@ -24,22 +24,21 @@ struct InfoOptions {
   PictureOptions picture;
   DatabaseOptions database;
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64, 128, 256};    ///< ascending
-  dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< that nothing be rendered unasked
-  std::optional<System> system;                                                   ///< whose database and pages are looked at
+  dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< the default does not render anything
+  std::optional<System> system;                                                   ///< whose database and pages are examined
   svm::PageOptions pages;                                                         ///< for svm
   InfoFormat format = InfoFormat::text;
-  bool quiet = false;  ///< no progress and no remarks of the scene's reader
+  bool quiet = false;  ///< no progress and no notes from the scene's reader
 };
 
-/// Declares them.
 void add_options(OptionSet options, InfoOptions& info);
 
-/// Reads and builds, as render does, and looks. Throws core::InputError and core::UsageError as render_command() does for the
-/// scene.
+/// Reads the scene and builds the database, as render does, and collects the record. Throws core::InputError and core::UsageError
+/// for the scene as render_command() does.
 InfoRecord find_out(const InfoOptions& options);
 
-/// Finds out and prints to `output`. A signal ends the process. Returns the exit status 0. Throws as
-/// find_out() does, core::InputError if the output cannot be written, Interrupted if a signal came before.
+/// Collects the record and prints it to `output`. A signal ends the process. Returns the exit status 0. Throws the exceptions of
+/// find_out(), core::InputError if the output cannot be written, and Interrupted if a signal came before.
 int info_command(const InfoOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What `dmpc info` found out, as JSON with stable keys.
+// The results of `dmpc info` as JSON with stable keys.
 #pragma once
 
 #include <string>

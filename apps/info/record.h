@@ -1,4 +1,4 @@
-// All that `dmpc info` finds out.
+// All results of `dmpc info`.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct InfoRecord {
   DatabaseFigures database;
   core::RoundingLoss loss;
   Forecast forecast;
-  std::optional<System> system;                ///< that was asked about
-  std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
-  AvailableMemory room;                        ///< for a render here
+  std::optional<System> system;                ///< as requested
+  std::uint64_t build_peak_bytes = 0;          ///< peak memory of this process until the database was built
+  AvailableMemory room;                        ///< memory available here for a render
   int width = 1, height = 1;                   ///< picture size in pixels
   double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
 };

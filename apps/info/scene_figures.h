@@ -1,4 +1,4 @@
-// What a scene says, in figures: objects, bounds, view, lights, materials, textures.
+// Statistics of a scene: objects, bounds, view, lights, materials, textures.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ inline constexpr std::size_t object_kind_count = 5;
 /// "polygon", "patch", ...
 const char* name_of(core::ObjectKind kind);
 
-/// Materials, and those of them that mirror, transmit, or have a texture. A material may be several of these, or none.
+/// Number of materials, and how many of them mirror, transmit, or have a texture. A material may be several of these, or none.
 struct MaterialCounts {
   std::uint64_t count = 0, mirroring = 0, transmitting = 0, textured = 0;
 };
 
-/// A texture as its records will hold it.
+/// A texture as stored in its records.
 struct TextureFigures {
   std::string name;
   std::uint32_t width = 1, height = 1, levels = 1;
@@ -32,10 +32,10 @@ struct TextureFigures {
 /// "srgb", "srgb of 10 bits", "srgb with alpha" or "shared exponent".
 const char* name_of(core::TexelFormat format);
 
-/// Meshes of a scene that stand in several places of it (core/scene/base_meshes.h).
+/// Meshes of a scene with several instances (core/scene/base_meshes.h).
 struct MeshFigures {
   std::uint64_t count = 0, places = 0;
-  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< with each mesh once; in all instances
+  std::uint64_t triangles = 0, triangles_in_places = 0;  ///< with each mesh once; over all instances
   double stored_share = 1;  ///< share of the scene's corners that is stored with each mesh once (core/scene/base_meshes.h)
 };
 
@@ -45,7 +45,7 @@ struct SceneFigures {
   core::Box bounds;                                        ///< bounds of finite objects, in the world; empty if there are none
   core::View view;
   core::Vec3d background;
-  std::vector<core::PointLight> lights;  ///< with the colours in which they shine
+  std::vector<core::PointLight> lights;  ///< with their effective colours
   MeshFigures meshes;
   MaterialCounts materials;
   std::vector<TextureFigures> textures;

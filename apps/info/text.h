@@ -1,4 +1,4 @@
-// What `dmpc info` found out, for people.
+// The results of `dmpc info` as text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace dmpc::apps {
 
 struct InfoRecord;
 
-/// Lines with a word in front, then tables in Markdown: records, textures if there are any, memory by strategy and nodes.
+/// Returns labelled lines, then tables in Markdown: records, textures if there are any, memory by strategy and nodes.
 std::string info_text(const InfoRecord& record);
 
 }  // namespace dmpc::apps

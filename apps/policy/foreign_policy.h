@@ -1,4 +1,4 @@
-// A replacement policy that is not dmpc's own: a class of Python's, or a shared library, each in a process of its own.
+// A user-defined replacement policy, a Python class or a shared library, which runs in its own process.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@
 
 namespace dmpc::apps {
 
-/// A value. The policy's code runs in children of this process that know nothing but the references, and may crash, hang or end
-/// without harm to it. Thread safety: an immutable value once made.
+/// The policy's code runs in child processes that see only the references; if it crashes, hangs or exits, this process is not
+/// affected. Thread safety: an immutable value.
 class ForeignPolicy {
  public:
-  /// `place`: "/full/path/library.so" by <dmpc/policy.h>, or "python:/full/path/file.py:Class", whose class has the methods of
-  /// apps/python/dmpc/policies.py. Starts it once, to have its name. `check` is called while that lasts, and may throw. Throws
-  /// core::InputError that begins with "--policy=PLACE: " for a file that others can write, is no policy or has none of the name,
-  /// a name of dmpc's own policies, or a policy that does not start.
+  /// `place` is "/full/path/library.so", which implements <dmpc/policy.h>, or "python:/full/path/file.py:Class", whose class has
+  /// the methods in apps/python/dmpc/policies.py. The constructor starts the policy once to get its name. `check` is called
+  /// meanwhile, and may throw. Throws core::InputError that begins with "--policy=PLACE: " for a file that others can write, a
+  /// file that is not a policy or does not have this class, the name of one of dmpc's own policies, or a policy that does not
+  /// start.
   ForeignPolicy(const std::string& place, const std::function<void()>& check);
 
   /// Name of its column: printable, and different from dmpc's own policies.
   const std::string& name() const { return name_; }
 
-  /// The faults of a node's caches of several sizes, each as svm::policy_misses() counts them. `check` is called all the time,
-  /// and may throw: then the process is ended. `fed` is called once for each cache. Throws core::InputError for what the policy
-  /// does wrong, naming call, fault and cache, and what was expected.
+  /// Returns a node's faults for caches of several sizes, counted as in svm::policy_misses(). `check` is called continually and
+  /// may throw, which ends the process. `fed` is called once per cache. Throws core::InputError for an error of the policy, with
+  /// the call, the fault, the cache and the expected behaviour.
   std::vector<std::uint64_t> misses(std::span<const svm::PageId> references, std::span<const std::uint32_t> cache_pages,
                                     std::uint32_t node, const std::function<void()>& check,
                                     const std::function<void()>& fed) const;
@@ -39,7 +40,7 @@ class ForeignPolicy {
   std::string place_, path_, class_name_, source_, name_;
 };
 
-/// Throws core::InputError if two of them have one name.
+/// Throws core::InputError if two policies have the same name.
 void check_names_differ(std::span<const ForeignPolicy> policies);
 
 }  // namespace dmpc::apps

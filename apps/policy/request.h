@@ -1,4 +1,4 @@
-// What a policy's own process is asked: the references of a node, and the caches to feed them to.
+// The request to a policy's process: the references of a node, and the caches to simulate.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace dmpc::apps {
 
-/// Its answer is text: a line with the policy's name, then for each cache a line with its faults. With no caches it is asked for
-/// its name alone.
+/// The answer is text: a line with the policy's name, then a line with the faults for each cache. A request without caches asks
+/// only for the name.
 struct PolicyRequest {
   std::uint32_t node = 0;
   std::vector<std::uint32_t> cache_pages;  ///< per cache
@@ -21,11 +21,11 @@ struct PolicyRequest {
   std::string source;  ///< source text of a Python policy
 };
 
-/// Four numbers (node, caches, bytes of the source, references), then the caches, the references, and the source: numbers of 32
-/// bits in this computer's order. At the file's beginning, where who gets its descriptor reads.
+/// Writes four numbers (node, caches, bytes of the source, references), then the caches, the references, and the source. Numbers
+/// have 32 bits in native byte order. The file offset is then at the beginning, for the process that inherits the descriptor.
 void put_request(const MemoryFile& file, std::uint32_t node, std::span<const std::uint32_t> cache_pages,
                  std::span<const svm::PageId> references, std::string_view source);
-/// From a file that is read to its end. Throws core::InternalError if that is no such thing.
+/// Reads a request from a file to its end. Throws core::InternalError if it is malformed.
 PolicyRequest take_request(int descriptor);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The options for checkpoints of an unfinished picture, and for resuming.
+// The options for checkpoints of an unfinished picture, and for resuming from them.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 namespace dmpc::apps {
 
 struct CheckpointOptions {
-  std::optional<std::filesystem::path> file;  ///< the checkpoint; none if empty
-  double every_seconds = 120;                 ///< wall clock; above 0
-  bool resumes = false;                       ///< resumes from the file
+  std::optional<std::filesystem::path> file;  ///< the checkpoint, if any
+  double every_seconds = 120;                 ///< wall-clock time; above 0
+  bool resumes = false;                       ///< continues from the file
 };
 
 void add_options(OptionSet options, CheckpointOptions& checkpoint);

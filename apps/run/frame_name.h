@@ -9,15 +9,15 @@
 
 namespace dmpc::apps {
 
-/// "out.####.png" or "out.%04d.png": the number has as many digits, with leading zeros, or more if needed. "%d" and "#" have as
-/// many as needed. A value.
+/// "out.####.png" or "out.%04d.png": the field gives the minimum number of digits, padded with zeros. "%d" and "#" add no
+/// padding.
 class FrameName {
  public:
-  /// Nothing if the file's name has no such field. Throws core::UsageError, naming `option`, if it has two.
+  /// Returns nothing if the file name has no such field. Throws core::UsageError, naming `option`, if it has two.
   static std::optional<FrameName> in(const std::filesystem::path& path, std::string_view option);
 
   std::filesystem::path of(std::uint64_t frame) const;
-  /// The frame whose file has this name in the frames' folder; nothing if there is none.
+  /// Returns the number of the frame with this file name in the frames' folder, or nothing.
   std::optional<std::uint64_t> frame_of(const std::string& file_name) const;
   std::filesystem::path folder() const { return folder_; }
 

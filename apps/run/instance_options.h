@@ -11,19 +11,17 @@
 
 namespace dmpc::apps {
 
-/// Declares --instances.
 void add_instance_option(OptionSet options, DatabaseOptions& database);
 
-/// The parts that intersect rays.
+/// The components that intersect rays.
 struct RayTracers {
   std::optional<System> system;
   TracerChoice tracer = TracerChoice::grid;
   std::uint32_t tested_objects = 0;
 };
 
-/// For OptionSet::check_in_the_end(), after settle_database(): if base meshes are to be kept, has readers leave copies out, and
-/// the database be one tree; reports why `automatic` does not keep any. Throws core::UsageError if --instances=keep contradicts
-/// another option.
+/// For OptionSet::check_in_the_end(), after settle_database(). If base meshes are to be kept, makes readers omit copies and the
+/// database one tree; reports why `automatic` keeps none. Throws core::UsageError if --instances=keep contradicts another option.
 void settle_instances(const OptionSet& options, const RayTracers& tracers, DatabaseOptions& database, MeshOptions& mesh);
 
 }  // namespace dmpc::apps

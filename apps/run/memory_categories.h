@@ -1,4 +1,4 @@
-// The categories of the nodes' memory in a render, in words and in display order.
+// Names of the memory categories of a render's nodes, in display order.
 #pragma once
 
 #include <array>

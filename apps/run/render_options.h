@@ -19,29 +19,29 @@
 namespace dmpc::apps {
 
 struct RenderOptions : StrategyOptions {
-  std::optional<System> system;      ///< the system whose options the strategy has, if one was named
+  std::optional<System> system;      ///< the named system, whose options the strategy has
   bool is_node_count_given = false;  ///< otherwise, with ranks, it follows from their processors
   PictureOptions picture;
   DatabaseOptions database;
   FrameOptions frames;
   std::filesystem::path image;                      ///< file of the picture
-  std::optional<std::filesystem::path> stats;       ///< file of the counters, as JSON
-  std::optional<std::filesystem::path> report;      ///< file of the page
+  std::optional<std::filesystem::path> stats;       ///< JSON file of the counters
+  std::optional<std::filesystem::path> report;      ///< HTML file of the report
   std::vector<HeatRequest> heat_maps;               ///< heat maps of the pixels
   TraceOptions trace;                               ///< recording of the run
-  std::optional<std::filesystem::path> references;  ///< file of the nodes' page references, as CSV
+  std::optional<std::filesystem::path> references;  ///< CSV file of the nodes' page references
   CheckpointOptions checkpoint;                     ///< checkpoint of the unfinished picture
-  std::string serve_port;                           ///< port for browsers, 0: any; empty: none
+  std::string serve_port;                           ///< port for browsers, 0: any free port; empty: none
   bool quiet = false;                               ///< no progress and no closing lines
 };
 
-/// Whether the nodes' pagers count the pages of each pixel, for --count-pages or a heat map: then they do not record references.
+/// Returns whether the pagers count the pages of each pixel, for --count-pages or a heat map; then they do not record references.
 bool counts_pages(const RenderOptions& render);
 
 /// For OptionSet::check_in_the_end(): throws core::UsageError for an option that contradicts the runner.
 void check_runner(const OptionSet& options, RunnerKind runner);
 
-/// Declares them, and the checks of their combinations.
+/// Declares the options and the checks of their combinations.
 void add_options(OptionSet options, RenderOptions& render);
 
 }  // namespace dmpc::apps

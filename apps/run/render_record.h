@@ -26,8 +26,8 @@ struct RunView;
 /// Wall-clock seconds by phase, and processor seconds.
 struct Seconds {
   double load = 0, build = 0, prepare = 0, render = 0, write = 0;
-  double user = 0, system = 0;                ///< whole process so far
-  double render_user = 0, render_system = 0;  ///< phase `render` alone
+  double user = 0, system = 0;                ///< of the whole process so far
+  double render_user = 0, render_system = 0;  ///< of the phase `render` alone
 };
 
 struct RenderRecord {
@@ -39,12 +39,12 @@ struct RenderRecord {
   const nodes::Trace* trace = nullptr;                         ///< for options.trace
   const RunView* view = nullptr;                               ///< for options.report
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< for options.references
-  std::uint64_t samples_found_done = 0;                        ///< sum over all pixels, in the checkpoint that was resumed
+  std::uint64_t samples_found_done = 0;                        ///< sum over all pixels of the resumed checkpoint
   std::optional<std::uint64_t> scene_digest = {};              ///< for options.report
   std::uint64_t film_hash = account_of(report).film.hash();
 };
 
-/// The computer in words: "svm, 8 nodes of ipsc2".
+/// Returns a description such as "svm, 8 nodes of ipsc2".
 inline std::string computer_text(const RenderRecord& record) {
   const RenderOptions& options = record.options;
   const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";

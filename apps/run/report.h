@@ -22,10 +22,10 @@ namespace dmpc::apps {
 /// svm and replicated have the same report.
 using Report = std::variant<svm::Report, dataflow::Report>;
 
-/// Kinds of waits by a strategy's packets.
+/// Returns the names of the waits for a strategy's packets.
 WaitKinds wait_kinds(Strategy strategy);
 
-/// A node's report, common to all strategies. A view.
+/// The part of a node's report that all strategies share. A view.
 struct NodeAccount {
   const core::Operations& operations;
   const nodes::NodeCounters& counters;
@@ -33,7 +33,7 @@ struct NodeAccount {
   const nodes::MemoryPlan& memory_used;
 };
 
-/// A run's report, common to all strategies. A view: the report outlives it.
+/// The part of a run's report that all strategies share. A view: the report outlives it.
 struct Account {
   const core::Film& film;
   nodes::RunEnd end;
@@ -43,10 +43,10 @@ struct Account {
   core::Operations operations;                              ///< sum over the nodes
   const nodes::NodeCounters& host;                          ///< the host's
   std::uint64_t host_deposits_saturated;                    ///< pixels whose sums saturated on the host's film
-  nodes::TrafficByKind sent;                                ///< by all nodes and the host, by kind
-  std::span<const char* const> kind_names;                  ///< kinds of the strategy's packets
+  nodes::TrafficByKind sent;                                ///< by all nodes and the host, by packet kind
+  std::span<const char* const> kind_names;                  ///< names of the strategy's packet kinds
   const std::optional<nodes::VirtualReport>& virtual_time;  ///< modelled machine only
-  WaitKinds waits;                                          ///< the meaning of waits for these packets
+  WaitKinds waits;                                          ///< names of the waits for these packets
   core::RefinementResult refinement;
   const std::vector<nodes::RankFigures>& ranks;  ///< if there are or could be several
 };
@@ -54,7 +54,7 @@ struct Account {
 /// Thread-safe, as long as the report is not changed.
 Account account_of(const Report& report);
 
-/// The time of all nodes together by parts, on a modelled machine.
+/// Returns the total time of all nodes by parts, on a modelled machine.
 TimeParts parts_of(const Account& account);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The options that some strategies have and others have not: a row each.
+// A table of the options that only some strategies have.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +17,21 @@ using PageRow = OptionRow<svm::PageOptions, svm::Plan>;
 using BalanceRow = OptionRow<dataflow::BalanceOptions, dataflow::Plan>;
 using RayRow = OptionRow<dataflow::RayOptions, dataflow::Plan>;
 
-/// In the order in which help has them.
+/// In the order of the help.
 const std::vector<PageRow>& page_rows();
 const std::vector<BalanceRow>& balance_rows();
 const std::vector<RayRow>& ray_rows();
 
-/// The strategy by which pixels stay; nullptr for dataflow.
+/// Returns the strategy if it is one in which pixels stay on their nodes; nullptr for dataflow.
 const svm::Strategy* page_strategy(Strategy strategy);
-/// Whether a strategy has the row's field.
+/// Returns whether a strategy has the row's field.
 bool has(Strategy strategy, const PageRow& row);
 template <class Options>
 bool has(Strategy strategy, const OptionRow<Options, dataflow::Plan>&) {
   return strategy == Strategy::dataflow;
 }
 
-/// Calls visit(row) for all that some strategies have.
+/// Calls visit(row) for each option that only some strategies have.
 template <class Visit>
 void for_each_row(const Visit& visit) {
   std::for_each(page_rows().begin(), page_rows().end(), visit);
@@ -39,24 +39,24 @@ void for_each_row(const Visit& visit) {
   std::for_each(ray_rows().begin(), ray_rows().end(), visit);
 }
 
-/// The words of all fields of plans, for with_options_named().
+/// Returns the option words of all plan fields, for with_options_named().
 const std::vector<OptionWord>& strategy_words();
 
-/// A key of --stats, and what the schema says of it.
+/// A key of --stats and its description in the schema.
 struct ReportedKey {
   std::string_view key;
   OptionKind kind;
   std::string_view meaning;
 };
-/// All keys, in the order of --stats.
+/// In the order of --stats.
 std::vector<ReportedKey> reported_keys();
 
-/// A key of --stats, and its value.
+/// A key of --stats and its value.
 struct ReportedOption {
   std::string_view key;
   OptionValue value;
 };
-/// As above; null except for the options of the plan's strategy.
+/// Like reported_keys(); values are null except for the options of the plan's strategy.
 std::vector<ReportedOption> reported_options(Strategy strategy, const svm::Plan& plan);
 std::vector<ReportedOption> reported_options(Strategy strategy, const dataflow::Plan& plan);
 

@@ -1,4 +1,4 @@
-// The options --trace and --trace-window: whether and what of a run is recorded, and where it goes.
+// The options --trace and --trace-window: whether a run is recorded, which part, and where.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct TraceChoice;
 
 namespace dmpc::apps {
 
-/// A window of a run in nanoseconds since its start; `to_ns` is not included, and without it the end of the run.
+/// A half-open window of a run, in nanoseconds since its start; without `to_ns` it ends with the run.
 struct TraceWindow {
   std::uint64_t from_ns = 0;
   std::optional<std::uint64_t> to_ns;
@@ -25,16 +25,15 @@ struct TraceOptions {
   std::optional<TraceWindow> window;
 };
 
-/// "FROM,TO" in milliseconds; either may be left out. Throws core::UsageError for anything else, or an empty window.
+/// Parses "FROM,TO" in milliseconds; either may be omitted. Throws core::UsageError for anything else, or an empty window.
 TraceWindow parse_trace_window(const std::string& text);
 
-/// Declares them.
 void add_options(OptionSet options, TraceOptions& trace);
 
-/// Throws core::UsageError for a window without --trace, and a file that is none of Perfetto's.
+/// Throws core::UsageError for a window without --trace, and for a file that is not Perfetto's.
 void check_trace(const TraceOptions& trace);
 
-/// What a recorder is to record.
+/// Returns what the recorder records.
 nodes::TraceChoice trace_choice(const TraceOptions& trace);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Nodes that render pictures of one scene and one size, one after the other.
+// Nodes that render several pictures of one scene and size in succession.
 #pragma once
 
 #include <optional>
@@ -16,34 +16,34 @@
 
 namespace dmpc::apps {
 
-/// A picture with another camera and what depends on it.
+/// Returns the settings with another camera and what depends on it.
 core::RenderSettings seen_from(const core::View& view, const core::RenderSettings& settings, const core::Database& database);
 
-/// They keep memories, caches and regions from picture to picture, unless one was stopped: then the next begins on new ones.
+/// Nodes keep memory, caches and regions from picture to picture. After a stopped picture the next one starts on new nodes.
 /// Thread safety: none.
 class WarmNodes {
  public:
-  /// Options and database outlive it.
+  /// `options` and `database` outlive this object.
   WarmNodes(const StrategyOptions& options, const core::Database& database, core::RenderSettings settings)
       : options_(options), database_(database), settings_(std::move(settings)) {}
   WarmNodes(const WarmNodes&) = delete;
   WarmNodes& operator=(const WarmNodes&) = delete;
 
   const core::Camera& camera() const { return settings_.camera; }
-  /// From where the next picture is seen.
+  /// Sets the view of the next picture.
   void move_to(const core::View& view) { settings_ = seen_from(view, settings_, database_); }
 
-  /// As make_ready(), whose notes it returns. Not needed where nobody looks on.
+  /// Calls make_ready() and returns its notes. Only needed with an observer.
   std::vector<std::string> plan(const nodes::Watching& watching = {}, const core::Continuation& continuation = {},
                                 const std::stop_token& stop = {});
-  /// Renders; says by `progress` how far it is. Throws as make_ready(), ReadyRun::start() and go_on() do.
+  /// Renders, and reports to `progress`. Throws as make_ready(), ReadyRun::start() and go_on() do.
   Report render(const nodes::Progress& progress, const std::stop_token& stop);
 
  private:
   const StrategyOptions& options_;
   const core::Database& database_;
   core::RenderSettings settings_;
-  std::optional<ReadyRun> ready_;  ///< while it is good for a further picture
+  std::optional<ReadyRun> ready_;  ///< if usable for another picture
   bool is_started_ = false;
   nodes::Progress progress_;
 };

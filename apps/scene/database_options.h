@@ -12,22 +12,21 @@
 
 namespace dmpc::apps {
 
-/// Name on the command line.
+/// The name on the command line.
 const char* name_of(core::RecordOrder order);
 
-/// Name on the command line.
 const char* name_of(core::Structure structure);
-/// Name on the command line, which has only two rules.
+/// The name on the command line, which has only two rules.
 std::string text_of(const core::VoxelRule& rule);
 
-/// A mesh with several instances has a copy for each or is stored once. automatic: once, if that leaves less than half of the
-/// scene to store (core/scene/base_meshes.h), when the scene is known.
+/// A mesh with several instances is copied for each or stored once. automatic: once, if that leaves less than half of the scene
+/// to store (core/scene/base_meshes.h); this is decided when the scene is known.
 enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
 
 struct DatabaseOptions {
   core::BuildOptions build;
   InstancesChoice instances = InstancesChoice::expand;
-  std::string why_copied;  ///< the option that keeps `automatic` from keeping any mesh; empty: none does
+  std::string why_copied;  ///< the option that prevents `automatic` from keeping any mesh; empty: no such option
 
   /// Stores meshes once, which requires one tree.
   void store_instances() {
@@ -39,13 +38,12 @@ struct DatabaseOptions {
 using DatabaseRow = OptionRow<DatabaseOptions, DatabaseOptions>;
 /// In the order of the help.
 const std::vector<DatabaseRow>& database_rows();
-/// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
 
-/// For OptionSet::check_in_the_end(): throws core::UsageError for a rule for voxels with another structure.
+/// For OptionSet::check_in_the_end(): throws core::UsageError for a voxel rule with another structure.
 void check_voxels(const OptionSet& options, const core::BuildOptions& build);
 
-/// "1KiB", in bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.
+/// Parses "1KiB" into bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.
 std::size_t parse_page_size(const std::string& text);
 
 }  // namespace dmpc::apps

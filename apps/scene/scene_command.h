@@ -17,12 +17,11 @@ struct SceneOptions {
   bool quiet = false;                           ///< no progress of a landscape or grove; only these take long
 };
 
-/// Declares them.
 void add_options(OptionSet options, SceneOptions& scene);
 
-/// Writes to the file asked for (atomically), else to `output`. A signal ends the process. Returns the exit status 0. Throws
-/// core::InputError for an unknown name or if writing fails, core::UsageError for a landscape or grove without an -o that ends in
-/// .gltf or another scene with one that ends in anything but .nff, Interrupted if a signal arrived before.
+/// Writes to the requested file (atomically), else to `output`. A signal ends the process. Returns the exit status 0. Throws
+/// core::InputError for an unknown name or if writing fails; core::UsageError for a landscape or grove unless -o ends in .gltf,
+/// and for another scene if -o ends in anything but .nff; Interrupted if a signal arrived before.
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

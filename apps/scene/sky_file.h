@@ -1,4 +1,4 @@
-// A sky from a picture's file.
+// Reads a sky from an image file.
 #pragma once
 
 #include <string>

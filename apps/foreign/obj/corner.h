@@ -11,28 +11,30 @@
 
 namespace dmpc::apps::obj {
 
-/// What a corner names, in the order in which it does.
+/// The elements that a corner refers to, in the order of the corner's numbers.
 enum class Named : std::size_t { vertex, place, normal };
 constexpr std::size_t named_count = 3;
 
-/// How many vertices, places and normals there are, by Named.
+/// Numbers of vertices, texture coordinates and normals, indexed by Named.
 using Counts = std::array<std::uint64_t, named_count>;
 
-/// From 0, or `none` of geometry.h for what the corner does not name.
+/// Indices from 0, or `none` (apps/foreign/obj/geometry.h) for an element that the corner does not refer to.
 using Corner = std::array<std::uint32_t, named_count>;
 
-/// Reads corners: "3", "3/1", "3//2" or "3/1/2", from 1, or from -1 backwards. What is named before it is there is remembered.
+/// Parses corners: "3", "3/1", "3//2" or "3/1/2", counted from 1, or from -1 backwards. References to elements that are defined
+/// later are remembered and checked at the end.
 class CornerReader {
  public:
-  /// Throws core::InputError, with the line of `words`, whose last word `word` is, for what is no corner, or what cannot exist.
+  /// Parses `word`, which is the last word of `words`. Throws core::InputError, with the line, for a malformed corner or an
+  /// impossible index.
   Corner read(std::string_view word, const LineWords& words, const Counts& so_far);
-  /// Throws core::InputError, with the line, for the first corner that names what is not even there at the end.
+  /// Throws core::InputError, with the line, for the first corner that refers to an element that the whole file does not define.
   void check_named(const Counts& all) const;
 
  private:
   std::uint32_t index(std::string_view text, std::size_t kind, const LineWords& words, const Counts& so_far);
 
-  /// One that names more than all before it.
+  /// A corner that refers to an element beyond all earlier references.
   struct Later {
     std::uint64_t index;
     std::size_t line;

@@ -1,4 +1,4 @@
-// What an OBJ file says, before its materials are known.
+// The contents of an OBJ file before its materials are resolved.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@ namespace dmpc::apps::obj {
 
 inline constexpr std::uint32_t none = 0xffffffffU;
 
-/// All corners of a face have a place, or none, and so with normals.
+/// Texture coordinates are given for all corners of a face or for none; the same holds for normals.
 struct Faces : FaceList {
-  std::vector<std::uint32_t> places;   ///< a corner each, or `none`; empty until a corner has one
-  std::vector<std::uint32_t> normals;  ///< a corner each, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> places;   ///< one per corner, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> normals;  ///< one per corner, or `none`; empty until a corner has one
   std::vector<std::uint32_t> groups;   ///< smoothing group per face, 0 for none; empty if the file has none
 
   bool has_places(std::size_t face) const { return !places.empty() && places[begin_of(face)] != none; }
   bool has_normals(std::size_t face) const { return !normals.empty() && normals[begin_of(face)] != none; }
 };
 
-/// Faces that follow one another and have one material.
+/// Consecutive faces with one material.
 struct Run {
   std::uint32_t first_face;
   std::uint32_t name;  ///< index into Geometry::material_names, or `none` before any usemtl
@@ -32,15 +32,15 @@ struct Run {
 
 struct Geometry {
   std::vector<core::Vec3d> vertices, normals;
-  std::vector<core::Vec3d> colors;            ///< a vertex each, white where it has none; empty if none has one
-  std::vector<std::array<double, 2>> places;  ///< t grows upwards
+  std::vector<core::Vec3d> colors;            ///< one per vertex, white for vertices without one; empty if no vertex has one
+  std::vector<std::array<double, 2>> places;  ///< t increases upwards
   Faces faces;
-  std::vector<Run> runs;                    ///< in order, each with a face at least
-  std::vector<std::string> material_names;  ///< as usemtl says them, once each
-  std::vector<std::string> libraries;       ///< what follows mtllib, once each
-  std::vector<std::string> notes;           ///< what is not shown, a sentence each
+  std::vector<Run> runs;                    ///< in order; none is empty
+  std::vector<std::string> material_names;  ///< as written after usemtl, without repetitions
+  std::vector<std::string> libraries;       ///< operands of mtllib, without repetitions
+  std::vector<std::string> notes;           ///< one sentence per feature that is not shown
 
-  /// Calls take(face, index of its run) for each.
+  /// Calls take(face, index of its run) for each face.
   template <class Take>
   void for_each_face(const Take& take) const {
     std::size_t run = 0;

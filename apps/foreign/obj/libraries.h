@@ -1,4 +1,4 @@
-// The materials that an OBJ file names, from the files in which they are.
+// Looks up the materials that an OBJ file names in its material libraries.
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 
 namespace dmpc::apps::obj {
 
-/// Finds materials in these files by name: first the name as it stands, then without a trailing remark; of several materials with
-/// one name the first counts.
+/// Finds materials by name: first by the full name, then without a trailing comment. If several materials share a name, the
+/// first one wins.
 class Libraries {
  public:
-  /// `wanted`: names as usemtl says them.
+  /// `wanted` contains material names as written after usemtl.
   Libraries(const std::vector<std::string>& wanted, const std::filesystem::path& scene, SceneFiles& files);
 
-  /// Reads what a line names behind mtllib: one file whose name has blanks, if there is one, else a list. Throws core::InputError
-  /// with the file's name for what the file may not say.
+  /// Reads the operand of mtllib: a single file whose name contains blanks, if that file exists, else a list of files. Throws
+  /// core::InputError, with the file's name, for an invalid file.
   void read(const std::string& names);
 
-  /// Nothing if no file has it.
+  /// Returns nullptr if no file defines the material.
   const MtlMaterial* find(const std::string& name) const;
 
-  std::vector<std::string> notes;    ///< what of the files is not shown, a sentence each
-  std::vector<std::string> missing;  ///< which files cannot be had, a sentence each
+  std::vector<std::string> notes;    ///< one sentence per feature of the files that is not shown
+  std::vector<std::string> missing;  ///< one sentence per file that could not be read
 
-  /// Appends what is known of all of them.
+  /// Appends notes that concern all files together.
   void note_repeated(std::vector<std::string>& all) const;
 
  private:
@@ -43,7 +43,7 @@ class Libraries {
   SceneFiles& files_;
   std::unordered_set<std::string> read_;
   std::vector<MtlMaterial> materials_;
-  std::map<std::string, std::size_t, std::less<>> names_, short_names_;  ///< as they stand, and without what looks like a remark
+  std::map<std::string, std::size_t, std::less<>> names_, short_names_;  ///< full names, and names without an apparent comment
   std::size_t repeated_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Which materials the faces of an OBJ file have.
+// The materials of the faces of an OBJ file.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace dmpc::apps::obj {
 
 struct Materials {
   std::vector<FileMaterial> list;    ///< used materials, in the order of the faces
-  std::vector<TexturePlace> places;  ///< per material: how its texture coordinates are mapped
+  std::vector<TexturePlace> places;  ///< mapping of texture coordinates, per material
   std::vector<std::uint32_t> of_runs;
-  std::vector<std::string> notes;  ///< what is not shown of them, a sentence each
+  std::vector<std::string> notes;  ///< one sentence per feature that is not shown
 };
 
-/// The grey one for what names no material, and for names that no file of materials has, which is said. A texture that no face
-/// has a place on is left out, which is said, too.
+/// Faces without a material, and faces whose material no library defines, get the grey default material; the latter case is
+/// noted. A texture is left out, with a note, if no face with it has texture coordinates.
 Materials materials_of(const Geometry& geometry, const Libraries& libraries);
 
 }  // namespace dmpc::apps::obj

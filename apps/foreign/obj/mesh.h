@@ -1,4 +1,4 @@
-// The faces of an OBJ file as a mesh.
+// Converts the faces of an OBJ file into a mesh.
 #pragma once
 
 #include "apps/foreign/mesh/polygon_mesh.h"
@@ -7,9 +7,9 @@
 
 namespace dmpc::apps::obj {
 
-/// Requires a face. In the file's order, since of faces in one plane the first shows, with places on their materials' textures.
-/// Faces of one smoothing group that have no normals of their own are smooth among themselves, whatever the angle
-/// (apps/foreign/mesh/smooth.h).
+/// Requires at least one face. Faces keep the file's order, because the first of several coplanar faces is visible. Texture
+/// coordinates are mapped to the textures of their materials. Faces of one smoothing group without normals of their own are
+/// smooth among themselves, whatever the angle (apps/foreign/mesh/smooth.h).
 PolygonMesh mesh_of(Geometry geometry, const Materials& materials);
 
 }  // namespace dmpc::apps::obj

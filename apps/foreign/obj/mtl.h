@@ -1,4 +1,4 @@
-// Files of materials that OBJ files name.
+// Material libraries (MTL files) of OBJ files.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@
 
 namespace dmpc::apps::obj {
 
-/// What a material says, and nothing that it does not say. Colours are linear.
+/// The statements of a material; absent statements have no value. Colours are linear.
 struct MtlMaterial {
-  std::string name;                           ///< with blanks, and what looks like a remark
+  std::string name;                           ///< with blanks and any apparent comment
   std::optional<core::Vec3d> diffuse;         ///< Kd
   core::Vec3d specular, emission;             ///< Ks, Ke
   std::optional<core::Vec3d> filter;          ///< Tf
@@ -26,24 +26,24 @@ struct MtlMaterial {
   std::optional<double> roughness, metallic;  ///< Pr, Pm
   bool has_halo = false;                      ///< d -halo
   bool has_clear_coat = false;                ///< Pc
-  bool has_other_colors = false;              ///< by spectral curves, or CIE XYZ
+  bool has_other_colors = false;              ///< given as spectral curves or CIE XYZ
   std::optional<TextureWords> texture;        ///< map_Kd
   bool has_light_texture = false;             ///< map_Ke
-  std::set<std::string> other_textures;       ///< names of those that are not of its colour
+  std::set<std::string> other_textures;       ///< statements of textures other than of the diffuse colour
 };
 
-/// Whether it names a colour of its highlight, and no exponent without which none is shown.
+/// Returns whether the material has a specular colour but no exponent; without an exponent no highlight is shown.
 bool lacks_exponent(const MtlMaterial& material);
-/// By d, which what Tr says otherwise does not change; 0 to 1.
+/// Returns the opacity, 0 to 1, from d, which takes precedence over Tr.
 double opacity_of(const MtlMaterial& material);
 bool contradicts_itself(const MtlMaterial& material);
-/// What it shines with by itself; nothing where a texture says how much.
+/// Returns the emitted radiance; zero if a texture defines it.
 core::Vec3d emission_of(const MtlMaterial& material);
-/// By the table in apps/foreign/README.md.
+/// Converts the material by the table in apps/foreign/README.md.
 core::Material shown_material(const MtlMaterial& material);
 
-/// Hands over each material of a file, in order, and adds to `notes` what of the file has no meaning. Throws core::InputError,
-/// with the line, for a value that is none, or a statement of a material before any is named.
+/// Passes each material of a file to `take`, in order, and notes statements without meaning. Throws core::InputError, with the
+/// line, for an invalid value, or for a statement before the first newmtl.
 void parse_mtl(std::string_view file, const std::function<void(MtlMaterial)>& take, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps::obj

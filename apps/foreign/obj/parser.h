@@ -9,9 +9,9 @@
 
 namespace dmpc::apps::obj {
 
-/// Reads all of a file in one pass (Wavefront, "Advanced Visualizer", appendix B1). `passed` hears now and then which share lies
-/// behind. Throws core::InputError, with the line, for values that are none, a number or a byte too many, what does not exist, or
-/// what has too many corners; core::CapacityError for more than indices or memory reach.
+/// Parses a whole file in one pass (Wavefront, "Advanced Visualizer", appendix B1). `passed` is called now and then with the
+/// fraction read. Throws core::InputError, with the line, for invalid values, superfluous numbers or bytes, references to
+/// undefined elements, and faces with too many corners; core::CapacityError if indices or memory do not suffice.
 Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed, SceneTotals& totals);
 
 }  // namespace dmpc::apps::obj

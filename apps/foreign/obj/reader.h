@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// All faces, with materials from the files that it names. Throws core::InputError, with the line, for what it may not say,
-/// core::CapacityError for more than indices reach.
+/// Reads all faces, and the materials from the libraries that the file names. Throws core::InputError, with the line, for
+/// invalid input, and core::CapacityError if indices do not suffice.
 PlacedFile read_obj(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

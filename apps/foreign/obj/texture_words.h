@@ -1,4 +1,4 @@
-// What an MTL file says of a texture: options, then a file's name.
+// A texture statement of an MTL file: options, then a file name.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@
 namespace dmpc::apps::obj {
 
 struct TextureWords {
-  std::string name;                   ///< with blanks, and what looks like a remark
-  TexturePlace place;                 ///< by -s and -o
-  TextureEdges edges;                 ///< by -clamp
-  std::vector<std::string> left_out;  ///< other options, "-mm", that change the picture
+  std::string name;                   ///< with blanks and any apparent comment
+  TexturePlace place;                 ///< from -s and -o
+  TextureEdges edges;                 ///< from -clamp
+  std::vector<std::string> left_out;  ///< ignored options that change the picture, such as "-mm"
 };
 
 /// Parses the text after the keyword. The last word is the file name, even if it looks like an option.

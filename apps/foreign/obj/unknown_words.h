@@ -1,4 +1,4 @@
-// Words of a text that are not followed.
+// Counts unsupported words of a text.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps::obj {
 
-/// Words that no specification knows.
+/// Words that are not part of the specification.
 struct UnknownWords {
   std::uint64_t count = 0;
   std::string first;  ///< "'foo' in line 3"

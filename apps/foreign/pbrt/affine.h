@@ -1,4 +1,4 @@
-// Affine maps as pbrt's statements make them, in double precision.
+// Affine maps of pbrt's transform statements, in double precision.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace dmpc::apps::pbrt {
 
-/// Nothing of what presses space flat, or whose numbers are beyond what doubles hold.
+/// Returns nothing for singular maps and for inverses beyond the range of doubles.
 std::optional<Transform> inverse_of(const Transform& map);
 
 Transform translation(const core::Vec3d& by);
 Transform scaling(const core::Vec3d& by);
-/// About an axis of any length above 0, by degrees of at most 1e6 in magnitude, counter-clockwise in right-handed coordinates.
+/// Rotates counter-clockwise in right-handed coordinates by at most 1e6 degrees in magnitude; the axis has any length above 0.
 Transform rotation(double degrees, const core::Vec3d& axis);
-/// From the world to a camera that looks from `from` to `at`: z ahead, y up, x to the right. Nothing if that has no direction, or
-/// `up` points along it.
+/// Maps the world to a camera at `from` that looks at `at`: z ahead, y up, x to the right. Returns nothing if the direction of
+/// view is undefined or parallel to `up`.
 std::optional<Transform> look_at(const core::Vec3d& from, const core::Vec3d& at, const core::Vec3d& up);
 
 }  // namespace dmpc::apps::pbrt

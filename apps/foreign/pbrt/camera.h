@@ -1,4 +1,4 @@
-// The camera of a pbrt scene, and the film's pixels.
+// The camera and the film of a pbrt scene.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace dmpc::apps::pbrt {
 
-/// What a film makes of light.
+/// The conversion from radiance to film values.
 struct Exposure {
   double factor = 1;
-  std::array<core::Vec3d, 3> balance = Transform{}.rows;  ///< in linear sRGB, before the factor
+  std::array<core::Vec3d, 3> balance = Transform{}.rows;  ///< in linear sRGB, applied before the factor
 
   core::Vec3d of(const core::Vec3d& light) const;
 };
@@ -30,17 +30,17 @@ struct Film {
 Film film_of(const std::string& kind, const Parameters& parameters, Notes& notes);
 
 struct Camera {
-  double degrees = 90;      ///< field of view of the shorter side, from edge to edge; 0 without perspective
-  Transform from_world;     ///< to where x is right, y up and z ahead
-  double open_seconds = 1;  ///< its shutter
+  double degrees = 90;      ///< field of view across the shorter side; 0 for cameras without perspective
+  Transform from_world;     ///< to camera space: x right, y up, z ahead
+  double open_seconds = 1;  ///< shutter time
 };
-/// Throws core::InputError if the world is pressed flat before it, or for an angle that none has.
+/// Throws core::InputError if the map from the world is singular, or for an invalid angle.
 Camera camera_of(const std::string& kind, const Parameters& parameters, const Transform& from_world, Notes& notes);
 
-/// Whether its world is left-handed, so that a camera of ours shows it the wrong way round.
+/// Returns whether the camera's world is left-handed, so that our camera would mirror the picture.
 bool sees_left_handed(const Camera& camera);
-/// In the coordinates of the world, first turned by `turn`. Over a picture of `size` pixels, the film's if none is given; nothing
-/// for a camera without perspective.
+/// Returns the view in world coordinates after transformation by `turn`. The picture has `size` pixels, or the film's resolution
+/// if no size is given. Returns nothing for a camera without perspective.
 std::optional<core::View> view_of(const Camera& camera, const Film& film, const std::optional<Resolution>& size,
                                   const Transform& turn);
 

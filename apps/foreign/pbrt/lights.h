@@ -12,22 +12,23 @@
 
 namespace dmpc::apps::pbrt {
 
-/// What shapes shine with that follow an AreaLightSource statement.
+/// The emission of shapes that follow an AreaLightSource statement.
 struct AreaLight {
   core::Vec3d radiance;
-  std::optional<double> power;  ///< the whole shape's; `radiance` is then relative to the power that a white light would need
+  std::optional<double> power;  ///< of the whole shape; `radiance` is then relative to the power that a white light would need
   bool is_twosided = false;
 };
 
-/// Throws core::InputError for a kind that pbrt-v4 does not have. `exposure` is what the film makes of all light.
+/// Throws core::InputError for a kind that pbrt-v4 does not have. `exposure` is the film's conversion of radiance.
 AreaLight area_light_of(const std::string& kind, const Parameters& parameters, const Exposure& exposure, Notes& notes);
-/// What the shape shines with, in these coordinates of the world.
+/// Returns the shape's emitted radiance; `world` maps to world coordinates.
 core::Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transform& world);
 
-/// What lights as an area light does of which nothing is to be seen.
+/// Returns lights that replace an area light whose shape is invisible.
 std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world);
 
-/// Adds what a LightSource statement says to the file's lights, background or skies. `world` is from its coordinates.
+/// Adds the light of a LightSource statement to the file's lights, background or skies. `world` maps from the light's
+/// coordinates to the world.
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
                const Exposure& exposure, PlacedFile& file, Notes& notes);
 

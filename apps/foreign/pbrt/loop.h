@@ -9,13 +9,13 @@
 
 namespace dmpc::apps::pbrt {
 
-/// So many triangles may a mesh become.
+/// The maximum number of triangles of a subdivided mesh.
 inline constexpr std::uint64_t subdivided_max = std::uint64_t{1} << 24U;
 
-/// Loop subdivision, `levels` times, with vertices and normals on the limit surface: J. Warren's weights inside, cubic splines on
-/// boundary edges (as in pbrt). Normals on boundary edges are means of the faces'. Throws core::InputError for a mesh that is no
-/// surface: an edge with three faces, faces of inconsistent orientation, a vertex at which two surfaces touch; and for more
-/// triangles than are allowed.
+/// Applies `levels` steps of Loop subdivision and projects vertices and normals to the limit surface: J. Warren's weights
+/// inside, cubic splines on boundary edges (as in pbrt). Normals on boundary edges are means of the faces' normals. Throws
+/// core::InputError for a mesh that is not a manifold surface (an edge with three faces, faces of inconsistent orientation, a
+/// vertex at which two surfaces touch), and for more triangles than allowed.
 PolygonMesh subdivided(std::vector<core::Vec3d> vertices, std::vector<std::uint32_t> corners, int levels);
 
 }  // namespace dmpc::apps::pbrt

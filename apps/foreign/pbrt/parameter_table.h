@@ -1,4 +1,4 @@
-// Each parameter of each statement of pbrt-v4, and what becomes of it here.
+// The parameters of each statement of pbrt-v4, and how each is treated.
 #pragma once
 
 #include <cstdint>
@@ -7,22 +7,22 @@
 
 namespace dmpc::apps::pbrt {
 
-/// What a statement of one kind may say, "type name" each, with commas between; by pbrt-v4's source. What else it says means
-/// nothing, in pbrt, too.
+/// The valid parameters of a statement of one kind, from pbrt-v4's source: comma-separated lists of "type name". Other
+/// parameters have no meaning in pbrt either.
 struct ParameterRow {
   std::string_view statement, kind;
-  std::string_view used;    ///< shown, or a note of its own says how
-  std::string_view said;    ///< not shown, which finish() says
-  std::string_view silent;  ///< how pbrt renders, or what other words of ours are said of already: no picture of ours is another
+  std::string_view used;    ///< shown, or covered by a specific note
+  std::string_view said;    ///< not shown; finish() notes it
+  std::string_view silent;  ///< concerns only how pbrt renders, or is covered by other notes; does not affect our pictures
 };
 std::span<const ParameterRow> parameter_table();
-/// Whether pbrt-v4 has such a statement of this kind.
+/// Returns whether pbrt-v4 has this kind of the statement.
 bool has_row(std::string_view statement, std::string_view kind);
 
 enum class ParameterFate : std::uint8_t { used, said, silent, unknown };
 ParameterFate fate_of(std::string_view statement, std::string_view kind, std::string_view name);
 
-/// The next of such a list, which is cut off it: its type and its name, empty behind the last.
+/// The first entry of such a list, which is removed from the list; empty after the last entry.
 struct ListedParameter {
   std::string_view type, name;
 };

@@ -1,4 +1,4 @@
-// What stands behind a statement's names: "type name" and a value, or a list in brackets.
+// The parameters of a statement: "type name" and a value, or a list in brackets.
 #pragma once
 
 #include <cstdint>
@@ -38,40 +38,40 @@ struct Parameter {
   mutable bool is_used = false;
 };
 
-/// All of a statement. Looking for one marks it as used; what nobody looks for is counted.
+/// All parameters of a statement. A lookup marks a parameter as used; unused parameters are counted.
 class Parameters {
  public:
-  /// Reads as many as follow. `owner` is what they belong to, for messages: `Shape "disk"`. `tokens` outlives this.
+  /// Reads all parameters that follow. `owner`, such as `Shape "disk"`, is used in messages. `tokens` outlives this object.
   Parameters(Tokens& tokens, std::string owner, const Place& place);
 
   const Place& place() const { return place_; }
-  /// What Attribute says of all such that follow, where they do not say it themselves. A list that has another's shares them.
+  /// Defaults that Attribute statements set for subsequent statements. Copies of a list share the parameters.
   using List = std::vector<std::shared_ptr<const Parameter>>;
   using Defaults = std::shared_ptr<const List>;
   void add_defaults(const Defaults& defaults) { defaults_ = defaults; }
   std::vector<Parameter> take_list() { return std::move(list_); }
 
-  /// The last parameter with this name and one of these types; nothing if there is none. A parameter of another type stays
-  /// unused.
+  /// Returns the last parameter with this name and one of these types, or nullptr. A parameter of another type stays unused.
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types) const;
 
   bool name_textures() const;
 
-  /// Throw core::InputError at the parameter's place if it has not one value.
+  /// Throw core::InputError, with the parameter's position, unless it has exactly one value.
   double number(std::string_view name, double fallback) const;
   std::optional<double> number(std::string_view name) const;
   std::int64_t integer(std::string_view name, std::int64_t fallback) const;
   bool flag(std::string_view name, bool fallback) const;
   std::string text(std::string_view name, const std::string& fallback) const;
   std::optional<core::Vec3d> point(std::string_view name) const;
-  /// In single precision, as pbrt keeps them. Throws core::InputError if their number is not a multiple of three.
+  /// Returns points in single precision, as pbrt stores them. Throws core::InputError if the number of values is not a multiple
+  /// of three.
   std::vector<core::Vec3d> points(std::string_view name, std::initializer_list<ParameterType> types) const;
 
-  /// core::InputError at the place of a parameter, or of the statement, that names it.
+  /// Throws core::InputError with the position of a parameter or of its statement.
   [[noreturn]] void fail(const Place& place, const std::string& what) const { tokens_.fail(place, owner_ + ": " + what); }
   [[noreturn]] void fail(const std::string& what) const { fail(place_, what); }
 
-  /// Names of what nobody has looked for, nor for another parameter of that name.
+  /// Returns the names of parameters that were never looked up, unless another parameter of the same name was.
   std::vector<std::string> unused() const;
 
  private:
@@ -87,7 +87,7 @@ class Parameters {
   Defaults defaults_;
 };
 
-/// All of its letters, in steps of `width`.
+/// Groups all values into triples.
 std::vector<core::Vec3d> triples(const std::vector<double>& numbers);
 
 }  // namespace dmpc::apps::pbrt

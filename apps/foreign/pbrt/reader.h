@@ -10,8 +10,9 @@
 
 namespace dmpc::apps::pbrt {
 
-/// The scene that begins with this file, in right-handed coordinates: where pbrt's camera sees left-handed ones, x is turned
-/// round. Throws core::InputError, with file, line and column, for what pbrt-v4 does not read, std::bad_alloc if memory ends.
+/// Reads the scene whose first file is `path`, in right-handed coordinates: if pbrt's camera sees left-handed coordinates, x is
+/// negated. Throws core::InputError, with file, line and column, for input that pbrt-v4 rejects, and std::bad_alloc if memory is
+/// exhausted.
 PlacedFile read_pbrt(const std::string& path, const MeshOptions& options, SceneFiles& files);
 
 }  // namespace dmpc::apps::pbrt

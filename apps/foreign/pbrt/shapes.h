@@ -11,9 +11,9 @@
 
 namespace dmpc::apps::pbrt {
 
-/// Makes the shape of a Shape statement; nothing for one that is not shown (curves), which is counted. Throws core::InputError,
-/// with its place, for invalid indices, counts that do not match, numbers out of range, kinds that pbrt-v4 does not have, and
-/// missing or unreadable files. `has_pictures`: a texture may need texture coordinates.
+/// Converts a Shape statement; returns nothing, and counts it, for a kind that is not shown (curves). Throws core::InputError,
+/// with the position, for invalid indices, mismatched counts, numbers out of range, kinds that pbrt-v4 does not have, and
+/// missing or unreadable files. With `has_pictures` a texture may need texture coordinates.
 std::optional<PlacedShape> shape_of(const std::string& kind, const Parameters& parameters, const Tokens& tokens,
                                     SceneFiles& files, Notes& notes, bool has_pictures);
 

@@ -1,4 +1,4 @@
-// Light, reflectance and metals as pbrt's scenes name them, in linear sRGB.
+// Emission, reflectance and metal spectra of pbrt scenes, converted to linear sRGB.
 #pragma once
 
 #include <array>
@@ -10,22 +10,24 @@
 
 namespace dmpc::apps::pbrt {
 
-/// A reflectance is the colour that white light comes back as; light that is not given as rgb has luminance 1, as pbrt-v4 scales
-/// it; an index is a number per channel.
+/// A reflectance becomes the colour of reflected white light. A light that is not given as rgb is scaled to luminance 1, as in
+/// pbrt-v4. An index is converted to one number per channel.
 enum class SpectrumUse : std::uint8_t { reflectance, light, index };
 
-/// Colour of an rgb, spectrum or blackbody parameter, by CIE's observer of 1931; reflectances under daylight (D65). A spectrum is
-/// 0 beyond its points. Throws core::InputError, with its place, for numbers out of range, and for a light without light.
+/// Converts an rgb, spectrum or blackbody parameter with the CIE 1931 observer; reflectances are seen under daylight (D65). A
+/// spectrum is 0 outside its range. Throws core::InputError, with the position, for numbers out of range, and for a light that
+/// emits nothing.
 core::Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use);
-/// Whether pbrt-v4 knows a light, a metal or a glass by this name; else it is a file's.
+/// Returns whether pbrt-v4 has a light, metal or glass spectrum of this name; otherwise it is a file name.
 bool is_named_spectrum(const std::string& name);
 
-/// What a metal reflects straight ahead by its index eta + i k, below what has the index `below` (Fresnel).
+/// Returns the Fresnel reflectance at normal incidence for the relative index n + i k.
 double straight_reflection(double n, double k);
-/// Metal's colour from spectra, wavelength by wavelength; copper's where there is none.
+/// Returns the colour of a metal, computed per wavelength, with copper for missing spectra. `below` is the index of the medium
+/// outside the metal.
 core::Vec3d metal_color(const Parameter* eta, const Parameter* k, double below);
 
-/// Rows of what makes white of a light's temperature, in linear sRGB.
+/// Returns the rows of the matrix that maps light of this temperature to white, in linear sRGB.
 std::array<core::Vec3d, 3> white_balance(double kelvin);
 
 double luminance(const core::Vec3d& color);

@@ -1,4 +1,4 @@
-// Numbers of standards and measurements behind spectra that scenes name.
+// Tabulated data of standards and measurements for named spectra.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace dmpc::apps::pbrt {
 
-/// CIE 1931, 2 degrees (CIE 15, "Colorimetry"): x, y and z, every 5 nm.
+/// CIE 1931 colour matching functions, 2 degrees (CIE 15, "Colorimetry"): x, y and z, every 5 nm.
 inline constexpr double observer_first_nm = 380, observer_step_nm = 5;
 inline constexpr std::array<std::array<double, 81>, 3> observer{{
     {{0.001368, 0.002236, 0.004243, 0.00765,  0.01431,  0.02319,  0.04351,  0.07763,  0.13438,  0.21477,  0.2839,  0.3285,
@@ -31,7 +31,7 @@ inline constexpr std::array<std::array<double, 81>, 3> observer{{
       0,       0,       0,       0,       0,       0,       0,       0,       0,       0,       0}},
 }};
 
-/// CIE's illuminant D65 (CIE 15), every 10 nm from 380 on, between which it is straight.
+/// CIE illuminant D65 (CIE 15), every 10 nm from 380 nm, interpolated linearly.
 inline constexpr std::array<double, 41> daylight{
     {49.975498, 54.648201,  82.754898,  91.486,     93.431801,  86.682297,  104.864998, 117.008003, 117.811996,
      114.861,   115.922997, 108.810997, 109.353996, 107.802002, 104.790001, 107.689003, 104.404999, 104.045998,
@@ -39,8 +39,8 @@ inline constexpr std::array<double, 41> daylight{
      80.026802, 80.2146,    82.277802,  78.284203,  69.721298,  71.6091,    74.348999,  61.604,     69.885597,
      75.086998, 63.592701,  46.418201,  66.805397,  63.382801}};
 
-/// Where CIE's illuminants lie on its chromaticity diagram (CIE 15). That of pbrt-v4's D50 is its table's, whose red falls below
-/// CIE's (0.34567, 0.35850).
+/// Chromaticities of CIE illuminants (CIE 15). For D50 the value is that of pbrt-v4's table, whose red is below CIE's (0.34567,
+/// 0.35850).
 struct NamedLight {
   std::string_view name;
   double x, y;
@@ -64,7 +64,7 @@ inline constexpr std::array<NamedLight, 16> named_lights{{
     {"illum-acesD60", 0.32168, 0.33767},
 }};
 
-/// Every 20 nm from 400 on: what was measured of these, as renderers share it and pbrt-v4 names it, rounded. Of oxides k is 0.
+/// Measured values every 20 nm from 400 nm, rounded, as renderers share them and under pbrt-v4's names. k is 0 for oxides.
 struct NamedMetal {
   std::string_view name;
   std::array<double, 17> value;
@@ -95,7 +95,7 @@ inline constexpr std::array<NamedMetal, 12> named_metals{{
     {"metal-TiO2-eta", {{3.399, 3.29, 3.2, 3.13, 3.08, 3.03, 3, 2.97, 2.94, 2.92, 2.9, 2.88, 2.87, 2.85, 2.84, 2.83, 2.82}}},
 }};
 
-/// At the yellow line of sodium, by Schott's catalogue: pbrt-v4's F5, F10 and F11 are SF5, SF10 and SF11.
+/// Values at the sodium D line from Schott's catalogue; pbrt-v4's F5, F10 and F11 are SF5, SF10 and SF11.
 struct NamedGlass {
   std::string_view name;
   double index;

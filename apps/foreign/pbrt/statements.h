@@ -1,4 +1,4 @@
-// The statements of a pbrt scene, one after the other, and what they leave for those that follow.
+// Interprets the statements of a pbrt scene in order, with the graphics state that they modify.
 #pragma once
 
 #include <array>
@@ -23,28 +23,28 @@
 
 namespace dmpc::apps::pbrt {
 
-/// So many AttributeBegin, ObjectBegin and the like may stand within each other.
+/// The maximum nesting depth of AttributeBegin, ObjectBegin and similar statements.
 inline constexpr std::size_t attribute_levels_max = 100'000;
 
 class Statements {
  public:
-  /// `files` outlives it.
+  /// `files` outlives this object.
   Statements(const std::string& path, SceneFiles& files);
 
-  /// All of them. Call it once.
+  /// Interprets all statements. Call it once.
   PlacedFile read(const std::optional<Resolution>& size);
 
  private:
   using Statement = void (Statements::*)(const Token& name);
   static const std::map<std::string_view, Statement>& all();
 
-  /// What AttributeBegin keeps and AttributeEnd gives back.
+  /// The state that AttributeBegin saves and AttributeEnd restores.
   struct State {
     Transform ctm;
     std::uint32_t surface = 0;
     std::optional<AreaLight> light;
     bool is_reversed = false;
-    bool moves_start = true;                               ///< what moves things holds when the shutter opens
+    bool moves_start = true;                               ///< transforms apply to the time when the shutter opens
     std::map<std::string, Parameters::Defaults> defaults;  ///< per kind of owner: shapes, lights, materials, ...
   };
   enum class Opening : std::uint8_t { attribute, object, import };
@@ -54,21 +54,21 @@ class Statements {
     Place place;
     std::size_t file_level;
   };
-  /// What an object's shapes are, each where its own CTM puts it.
+  /// The shapes of an object, each with its own CTM.
   struct Object {
     std::vector<ShapePlace> places;
-    GeometrySize anew;  ///< geometry that is made anew for each instance but the first
+    GeometrySize anew;  ///< geometry that is created again for each instance after the first
     bool is_there = false;
   };
 
-  /// An instance of an object that has not begun yet.
+  /// An instance of an object that has not been defined yet.
   struct Awaited {
     std::string object;
     Transform ctm;
     Token name;
   };
 
-  /// What a shape's material is made of, in the end.
+  /// The components of a shape's final material.
   struct Look {
     std::uint32_t surface = 0;
     core::Vec3d emission;
@@ -121,14 +121,14 @@ class Statements {
   void check_map(const Token& name, const Transform& map) const;
   std::vector<double> numbers(const Token& name, std::size_t count);
   std::string text(const Token& name, const char* what);
-  /// With what Attribute has said of such. What of it nobody has looked for is counted by finish(), by the table of parameters.
+  /// Reads parameters, with the defaults of Attribute statements. finish() counts the unused ones by the parameter table.
   Parameters parameters(const std::string& owner, const Token& name, const char* kind);
   void finish(const Parameters& parameters, const std::string& statement, const std::string& kind);
   Exposure exposure() const;
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);
   std::size_t look_number(const Look& look);
-  /// To the scene's totals, or an error at the place that says so.
+  /// Adds to the scene's totals; a failure is reported at `said`.
   void count(const GeometrySize& more, const Place& said);
   void give_materials();
   void add_unseen_lights();
@@ -148,7 +148,7 @@ class Statements {
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;
   std::vector<Awaited> awaited_;
-  /// Pbrt makes textures of pictures first, then others of numbers and of colours, each in their order, and materials at last.
+  /// Pbrt creates image textures first, then other textures of numbers and of colours, each in file order, and materials last.
   std::array<std::vector<std::function<void()>>, 3> awaited_looks_;
   std::vector<Look> looks_;
   std::vector<std::pair<std::uint32_t, FileLight>> unseen_;  ///< with their surfaces

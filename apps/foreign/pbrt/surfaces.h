@@ -1,4 +1,4 @@
-// Materials of a pbrt scene as ours.
+// Converts the materials of a pbrt scene.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +14,33 @@
 
 namespace dmpc::apps::pbrt {
 
-/// One that is diffuse alone, or has tiny mirrors.
+/// A purely diffuse surface, or one with microfacets.
 struct Surface {
   TextureValue color;
   bool has_facets = false, is_thin = false;
-  bool is_drawn = true;    ///< what only parts one medium from another is not
-  MetallicSurface facets;  ///< without its base, which is `color`
+  bool is_drawn = true;    ///< false for interfaces that only separate two media
+  MetallicSurface facets;  ///< without its base colour, which is `color`
 };
 
-/// By the table in apps/foreign/README.md. What a shape shows is made of a surface, its own light and how much of it is there.
+/// Converts by the table in apps/foreign/README.md. A shape's final material combines a surface, the shape's emission and its
+/// opacity.
 class Surfaces {
  public:
-  /// The first surface, 0, is what pbrt gives shapes before any Material statement.
+  /// Surface 0 is pbrt's default before any Material statement.
   Surfaces(Notes& notes, const Textures& textures);
 
-  /// The number of a Material statement's, or of a MakeNamedMaterial statement's of this name, which make() makes when its
-  /// textures are there. Throws core::InputError for kinds of pbrt-v3, and if there is one of that name.
+  /// Returns the number of the surface of a Material statement, or of a MakeNamedMaterial statement with this name; make()
+  /// creates it once its textures exist. Throws core::InputError for kinds of pbrt-v3, and for a duplicate name.
   std::uint32_t announce(const std::optional<std::string>& name, const std::string& kind, const Parameters& parameters);
   /// Throws core::InputError for a kind that pbrt-v4 does not have.
   void make(std::uint32_t slot, const std::string& kind, const Parameters& parameters);
   bool is_made(std::uint32_t number) const { return slots_[number].surface.has_value(); }
-  /// The number of the one of this name, which may come later.
+  /// Returns the number of the named surface, which may be defined later.
   std::uint32_t named(const std::string& name, const Place& place);
 
-  /// Throws core::InputError for a name that no statement has defined, or that is mixed of itself. Call it behind the last
-  /// statement.
+  /// Call it after the last statement. Throws core::InputError for an undefined name, and for a mixture that contains itself.
   void settle(const Tokens& tokens);
-  /// After settle().
+  /// Requires settle().
   const Surface& at(std::uint32_t number) const { return *slots_[number].surface; }
   static FileMaterial material_of(const Surface& surface, const core::Vec3d& emission, double opacity);
 

@@ -13,28 +13,28 @@
 
 namespace dmpc::apps::pbrt {
 
-/// A colour, times that of a picture if there is one.
+/// A colour, multiplied by a picture if there is one.
 struct TextureValue {
   core::Vec3d color{1, 1, 1};
   std::optional<TextureUse> picture;
   TexturePlace place;
 };
 
-/// Numbers by texture are told by what stands for them: a picture's are not read here.
+/// The value that replaces a number given by a picture, since such pictures are not read.
 inline constexpr double number_of_picture = 0.5;
 
 class Textures {
  public:
   Textures(Notes& notes, std::vector<MadePicture>& pictures) : notes_(notes), pictures_(pictures) {}
 
-  /// A Texture statement. Throws core::InputError for what pbrt-v4 does not have, and for a second one of this name.
+  /// Adds a Texture statement. Throws core::InputError for textures that pbrt-v4 does not have, and for a duplicate name.
   void add(const std::string& name, const std::string& type, const std::string& kind, const Parameters& parameters);
 
-  /// A parameter's colour, by texture or by itself. Throws core::InputError for a texture that has not been added.
+  /// Returns a parameter's colour, given as a texture or directly. Throws core::InputError for an undefined texture.
   TextureValue color(const Parameters& parameters, const char* name, const core::Vec3d& fallback, SpectrumUse use) const;
   std::optional<TextureValue> color(const Parameters& parameters, const char* name, SpectrumUse use) const;
 
-  /// A parameter's number; nothing where the statement has none.
+  /// Returns a parameter's number, or nothing if the statement does not have it.
   std::optional<double> number(const Parameters& parameters, const char* name) const;
 
  private:

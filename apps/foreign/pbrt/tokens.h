@@ -1,7 +1,7 @@
-// The words of a scene of pbrt-v4, through all the files that it includes.
+// The tokens of a pbrt-v4 scene, across all included files.
 //
-// A text is words, strings in quotes and brackets (pbrt.org, "pbrt-v4 Input File Format"); a # begins a remark. Include and
-// Import put another file's words in their place, whose name counts from the folder of the scene's first file.
+// A text consists of words, quoted strings and brackets (pbrt.org, "pbrt-v4 Input File Format"); # begins a comment. Include and
+// Import insert another file; its name is relative to the folder of the scene's first file.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace dmpc::apps::pbrt {
 
-/// Where a word stands: in which of the files that were opened, and there in which line and at which byte of it, from 1.
+/// The position of a token: the index of the opened file, the line, and the byte within the line, from 1.
 struct Place {
   std::uint32_t file = 0;
   std::uint32_t line = 1, column = 1;
@@ -27,19 +27,19 @@ enum class TokenKind : std::uint8_t { end, word, text, open, close };
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  std::string text;  ///< a word's, or what stands between quotes
+  std::string text;  ///< the word, or the contents of the quotes
   Place place;
 };
 
-/// Limits: nested open files, files opened in all, and bytes read as a multiple of all files' bytes, or bytes_read_min if that is
-/// more.
+/// Limits: nested open files, total opened files, and bytes read as a multiple of the size of all files, or bytes_read_min if
+/// that is larger.
 inline constexpr std::size_t include_levels_max = 64, includes_max = 100'000;
 inline constexpr std::uint64_t rereadings_max = 64, bytes_read_min = std::uint64_t{1} << 20U;
 
-/// A file's bytes, unpacked if they are packed.
+/// The bytes of a file, decompressed if necessary.
 class SourceText {
  public:
-  /// Throws core::InputError, a whole sentence, if it cannot be had.
+  /// Throws core::InputError with a complete message if the file cannot be read.
   SourceText(const std::string& path, SceneFiles& files);
 
   std::string_view text() const {
@@ -55,26 +55,27 @@ class SourceText {
 
 class Tokens {
  public:
-  /// Opens the scene's first file. `files` outlives this.
+  /// Opens the scene's first file. `files` outlives this object.
   Tokens(const std::string& path, SceneFiles& files);
 
-  /// The next; one of kind `end` behind the last of all. Throws core::InputError with its place for what is none.
+  /// Returns the next token, of kind `end` after the last one. Throws core::InputError, with the position, for an invalid token.
   Token next();
-  /// The next, which stays the next.
+  /// Returns the next token without consuming it.
   const Token& peek();
 
-  /// Goes on with the file of this name, which is meant at `from`, before what follows there. peek() must not have looked
-  /// further.
+  /// Continues with the named file, which is included at `from`, before the tokens that follow. peek() must not have read ahead.
   void include(const std::string& name, const Place& from);
-  /// How many files are open: the first alone is 1. One that ends is closed when the word behind it is asked for.
+  /// Returns the number of open files, 1 for the first file alone. A file is closed when the token after its last one is
+  /// requested.
   std::size_t level() const { return open_.size(); }
 
-  /// A file of numbers, as of a spectrum, where # begins a remark. Throws core::InputError at `from` for what is none.
+  /// Reads a file of numbers, such as a spectrum, in which # begins a comment. Throws core::InputError at `from` for an invalid
+  /// file.
   const std::vector<double>& numbers_of(const std::string& name, const Place& from);
 
-  /// A file's name beside the scene's first.
+  /// Returns the path of a file relative to the scene's first file.
   std::string path_of(const std::string& name) const;
-  /// core::InputError "scene.pbrt:120:7: WHAT (included from main.pbrt:8)".
+  /// Throws core::InputError "scene.pbrt:120:7: WHAT (included from main.pbrt:8)".
   [[noreturn]] void fail(const Place& place, const std::string& what) const;
   std::string text_of(const Place& place) const;
 
@@ -87,7 +88,7 @@ class Tokens {
   struct Source {
     std::unique_ptr<SourceText> bytes;
     std::string_view rest;
-    Place place;  ///< place of the first of `rest`
+    Place place;  ///< position of the first byte of `rest`
     std::string normal_path;
   };
 

@@ -1,4 +1,4 @@
-// Files that may be packed by gzip.
+// Decompresses files that may be compressed with gzip.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace dmpc::apps::pbrt {
 
-/// By their first two bytes (RFC 1952).
+/// Checks the first two bytes (RFC 1952).
 bool is_packed(std::string_view file);
 
-/// What is packed, all of its parts one after the other. Throws core::InputError for what is damaged, cut short, or becomes more
-/// than a thousand times as long, which no text or mesh does.
+/// Decompresses all members of the file. Throws core::InputError for damaged or truncated data, and for an expansion by more
+/// than a factor of 1000, which no text or mesh reaches.
 std::vector<char> unpacked(std::string_view file);
 
 }  // namespace dmpc::apps::pbrt

@@ -1,4 +1,4 @@
-// What the faces of a mesh have, as files of scans say it.
+// Attributes of mesh faces in scan formats.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace dmpc::apps {
 
-/// A face each, or none.
+/// Each vector has one entry per face, or none.
 struct FaceLooks {
   std::vector<Color> colors;             ///< linear
-  std::vector<std::uint32_t> materials;  ///< indices into a file's materials; without any all have material 0
+  std::vector<std::uint32_t> materials;  ///< indices into a file's materials; if empty, all faces have material 0
 
-  /// If both vertices and faces have colours, the vertices' are shown; `notes` gets a note.
+  /// Drops the face colours, with a note, if the vertices have colours as well.
   void give_way_to(const PolygonMesh& mesh, std::vector<std::string>& notes);
 };
 
-/// Throws core::CapacityError if there are more corners than indices reach.
+/// Throws core::CapacityError if there are more corners than indices can address.
 void add_face(std::span<const std::uint32_t> corners, PolygonMesh& mesh);
 
-/// Adds a mesh that has faces, those of one material together, in their order. Where faces have at most face_colors_max colours,
-/// each becomes a material, which has the faces' one colour to the last bit; where they have more, corners have the colours. The
-/// first of the file's materials is there.
+/// Adds a mesh that has faces, grouped by material in their order. If the faces have at most face_colors_max colours, each
+/// colour becomes a material that reproduces it exactly; otherwise the colours are stored per corner. The file's first material
+/// must exist.
 void add_mesh(PolygonMesh mesh, FaceLooks looks, PlacedFile& file);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// OFF, as Geomview describes it (The Geometry Center), in text.
+// OFF in text, as Geomview specifies it (The Geometry Center).
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace dmpc::apps {
 
-/// `[ST][C][N]OFF`, or no such word; the counts of vertices and faces; a vertex a line: x y z, a normal with N, 3 or 4 numbers of
-/// a colour with C or, as others than Geomview write them, without; a face a line: a count, as many vertices, and perhaps 3 or 4
-/// numbers of a colour. Colours are of 255 where any is beyond 1. `#` begins a remark. Refuses files in binary, of four
-/// coordinates (4OFF) and of other dimensions (nOFF), by name. Throws core::InputError, with the line.
+/// The format: an optional `[ST][C][N]OFF`; the numbers of vertices and faces; one vertex per line: x y z, a normal with N, and
+/// 3 or 4 colour components with C or, as programs other than Geomview write them, without C; one face per line: a count, that
+/// number of vertices, and optionally 3 or 4 colour components. Colours range to 255 if any component exceeds 1. `#` begins a
+/// comment. Binary files, four coordinates (4OFF) and other dimensions (nOFF) are refused with a specific message. Throws
+/// core::InputError, with the line.
 PlacedFile read_off(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

@@ -10,14 +10,14 @@
 
 namespace dmpc::apps {
 
-/// The vertices and faces of the file are one mesh, whose faces may have materials (`element material`, `material_index`),
-/// textures (`comment TextureFile`, `texnumber`), places on these and colours; strips of triangles (`tristrips`) are faces, too.
-/// Elements and properties come in any order. Numbers in text are read as doubles, whatever type they have. Throws
+/// The vertices and faces of the file form one mesh, whose faces may have materials (`element material`, `material_index`),
+/// textures (`comment TextureFile`, `texnumber`), texture coordinates and colours; triangle strips (`tristrips`) are faces, too.
+/// Elements and properties may be in any order. Numbers in text are read as doubles, whatever their type. Throws
 /// core::InputError, with the line or byte.
 PlacedFile read_ply(const std::string& path, SceneFiles& files);
 
-/// The shape alone of such a file, as a mesh without a material, with normals and places on a texture if the file has them.
-/// `notes` gets sentences about what of the shape is not shown.
+/// Reads only the shape, as a mesh without a material, with normals and texture coordinates if the file has them. Adds one
+/// sentence to `notes` per feature of the shape that is not shown.
 PolygonMesh read_ply_shape(std::string_view file, SceneFiles& files, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps

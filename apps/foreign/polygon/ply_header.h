@@ -1,4 +1,4 @@
-// What a PLY file says of itself (G. Turk, "The PLY Polygon File Format", 1994).
+// The header of a PLY file (G. Turk, "The PLY Polygon File Format", 1994).
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, f
 
 std::size_t bytes_of(PlyType type);
 bool is_whole(PlyType type);
-/// The least and the most that one of whole numbers holds.
+/// The smallest and largest values of an integer type.
 double least_of(PlyType type);
 double most_of(PlyType type);
 
@@ -32,16 +32,16 @@ struct PlyElement {
 
 enum class PlyFormat : std::uint8_t { text, little_endian, big_endian };
 
-/// Its names are views into the file.
+/// Names are views into the file.
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  std::vector<std::string> textures;  ///< `comment TextureFile NAME`, in order
+  std::vector<std::string> textures;  ///< from `comment TextureFile NAME`, in order
   std::vector<std::string> notes;
-  std::size_t bytes = 0, lines = 0;  ///< its own
+  std::size_t bytes = 0, lines = 0;  ///< of the header
 };
 
-/// Throws core::InputError, with the line, for a header that is none or does not end.
+/// Throws core::InputError, with the line, for an invalid or unterminated header.
 PlyHeader read_ply_header(std::string_view file);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What the properties of a PLY file's element mean, and their values.
+// Maps the properties of a PLY element to their meanings and reads their values.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace dmpc::apps {
 
-/// What a property may mean. The last two are lists, all others single numbers.
+/// Meanings of properties. The last two are lists, all others are single numbers.
 enum class PlyRole : std::uint8_t {
   x,
   y,
@@ -40,21 +40,21 @@ enum class PlyRole : std::uint8_t {
 };
 inline constexpr std::size_t ply_roles = 21;
 
-/// The values of one element after the other. Properties that mean nothing here are passed over.
+/// The values of one element at a time. Unknown properties are skipped.
 class PlyRow {
  public:
-  /// Both outlive it. What is none of the `used` is passed over. Throws core::InputError for a used property that is a list and
-  /// ought not to be, or the other way round.
+  /// `element` and `values` outlive this object. Properties that are not in `used` are skipped. Throws core::InputError if a
+  /// used property is a list but should be a number, or vice versa.
   PlyRow(const PlyElement& element, PlyValues& values, std::initializer_list<PlyRole> used);
 
-  /// Names of properties that are passed over, in the file's order.
+  /// Returns the names of skipped properties, in the file's order.
   std::vector<std::string> left_out() const;
   bool has(PlyRole role) const { return types_[static_cast<std::size_t>(role)].has_value(); }
   bool has_all(std::initializer_list<PlyRole> roles) const;
-  /// Requires that the role is there.
+  /// Requires that the element has the role.
   PlyType type_of(PlyRole role) const { return *types_[static_cast<std::size_t>(role)]; }
 
-  /// Reads the next element. Throws as PlyValues does.
+  /// Reads the next element. Throws the exceptions of PlyValues.
   void read();
   double operator[](PlyRole role) const { return numbers_[static_cast<std::size_t>(role)]; }
   const std::vector<double>& corners() const { return corners_; }

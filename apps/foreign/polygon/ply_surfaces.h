@@ -1,4 +1,4 @@
-// The surfaces that faces of a PLY file have: a material of the file's, with a texture of the file's.
+// The surfaces of PLY faces: combinations of the file's materials and textures.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ class PlySurfaces {
  public:
   explicit PlySurfaces(std::vector<std::string> textures) : textures_(std::move(textures)) {}
 
-  /// Adds an `element material`. Colours are linear, as MTL's.
+  /// Adds an `element material`. Colours are linear, as in MTL files.
   void add_material(const PlyRow& row);
   bool has_materials() const { return !materials_.empty(); }
   std::size_t texture_count() const { return textures_.size(); }
 
-  /// The index, among those of materials(), of the one with these; `texture` may be none.
+  /// Returns the index within materials() of this combination; `texture` may be empty.
   std::uint32_t find(std::uint32_t material, std::optional<std::uint32_t> texture);
 
-  /// All that were found, at least one. What has no material is grey, and white where it has a texture or, by `has_colors`,
-  /// colours. Throws core::InputError for a material that does not exist.
+  /// Returns all combinations that find() returned, at least one. Faces without a material are grey, or white if they have a
+  /// texture or, with `has_colors`, colours. Throws core::InputError for an undefined material.
   std::vector<FileMaterial> materials(bool has_colors);
 
  private:

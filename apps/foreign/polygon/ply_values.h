@@ -1,4 +1,4 @@
-// The values of a PLY file's body, one after the other.
+// The values of a PLY file's body, in order.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,38 @@
 
 namespace dmpc::apps {
 
-/// The body ends within an element.
+/// Thrown if the body ends within an element.
 struct PlyIsShort {};
 
 class PlyValues {
  public:
   virtual ~PlyValues() = default;
 
-  /// An element begins. In text that is a line's begin, or behind another element where nothing is left over in the end.
+  /// Begins an element. In text an element starts a new line, or follows another on the same line provided that no values remain
+  /// at the end.
   virtual void begin_element() = 0;
-  /// Throws PlyIsShort at the end, core::InputError, with the place, for what is no value of the type.
+  /// Throws PlyIsShort at the end, and core::InputError, with the position, for an invalid value of the type.
   virtual double next(PlyType type) = 0;
-  /// Length of a list of `type`: at most as many as there are bytes for. Throws as next() does.
+  /// Returns the length of a list of `type`, bounded by the remaining bytes. Throws the exceptions of next().
   virtual std::uint64_t next_length(PlyType count_type, PlyType type) = 0;
-  /// A list's values, in place of what is in `values`. Throws as the others do.
+  /// Replaces `values` by a list's values. Throws the exceptions of next().
   virtual void next_list(PlyType count_type, PlyType type, std::vector<double>& values) = 0;
   virtual void skip(PlyType type, std::uint64_t count) = 0;
 
-  /// How many of these there are bytes for, at most.
+  /// Returns an upper bound on the number of elements for which there are bytes.
   virtual std::uint64_t room_for(const PlyElement& element) const = 0;
-  /// What follows the last element, in bytes. Throws core::InputError if lines had more values than elements have.
+  /// Returns the number of bytes after the last element. Throws core::InputError if lines contained more values than their
+  /// elements.
   virtual std::uint64_t count_rest() = 0;
-  /// How many bytes of the body are read.
+  /// Returns the number of bytes read.
   virtual std::size_t position() const = 0;
-  /// What may be the reason for an error that is met later, to be added to it: " (...)", or nothing.
+  /// Returns a possible reason for a later error, to be appended to its message: " (...)", or nothing.
   virtual std::string doubt() const { return ""; }
-  /// "line 7" or "byte 1234", of the last value.
+  /// Returns the position of the last value, "line 7" or "byte 1234".
   virtual std::string place() const = 0;
 };
 
-/// `file` outlives it.
+/// `file` outlives the result.
 std::unique_ptr<PlyValues> ply_values(const PlyHeader& header, std::string_view file);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Reads a file as a whole, and reports the progress now and then.
+// Reads a whole file and reports progress.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace dmpc::apps {
 
 class ReadingProgress {
  public:
-  /// `files` outlives it. `bytes`: of the whole file.
+  /// `files` outlives this object. `bytes` is the size of the whole file.
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
-  /// Throws core::CapacityError if the scene has no space for this size. Cheap.
+  /// Throws core::CapacityError if the scene has no space for this size. This call is cheap.
   void ask(const GeometrySize& size) const { files_.totals().ask(size); }
   void ask_for_triangles(std::uint64_t count) const { ask(size_of_faces(count, 3 * count)); }
-  /// So many bytes are read. Cheap.
+  /// Reports that `position` bytes have been read. This call is cheap.
   void show(std::size_t position) {
     if (position >= next_) {
       files_.show_progress(static_cast<float>(position) / static_cast<float>(std::max<std::size_t>(bytes_, 1)));
@@ -34,7 +34,7 @@ class ReadingProgress {
   std::size_t bytes_, next_ = 0;
 };
 
-/// What read(bytes as text, progress) makes of the file. Throws core::InputError if it cannot be opened.
+/// Returns the result of read(bytes as text, progress). Throws core::InputError if the file cannot be opened.
 template <class Read>
 PlacedFile read_whole(const std::string& path, SceneFiles& files, const Read& read) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);

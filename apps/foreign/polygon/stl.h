@@ -8,10 +8,10 @@
 
 namespace dmpc::apps {
 
-/// Each solid is a mesh, whose facets share no vertices; their normals are not read, since corners have them. Text is known by
-/// its first word, `solid`, in letters of any case, by having no zero byte, and by not being as long as its count says, since
-/// files in binary begin with that word, too. Colours of the whole (COLOR=) and of facets are shown. Throws core::InputError,
-/// with the line or facet.
+/// Each solid becomes a mesh whose facets share no vertices. The normals are not read, since they follow from the corners. A
+/// text file is recognized by the first word `solid`, in any case, by the absence of zero bytes, and by a length that differs
+/// from the one its facet count implies, since binary files may begin with that word, too. Colours of the object (COLOR=) and of
+/// facets are shown. Throws core::InputError, with the line or facet.
 PlacedFile read_stl(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

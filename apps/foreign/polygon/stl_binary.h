@@ -1,4 +1,4 @@
-// STL in binary.
+// Binary STL.
 #pragma once
 
 #include <string_view>
@@ -8,13 +8,13 @@
 
 namespace dmpc::apps {
 
-/// Whether it is as long as the count of facets in it says.
+/// Returns whether the file is as long as its facet count implies.
 bool is_whole_stl_binary(std::string_view file);
 
-/// 80 bytes of header, a count, 50 bytes a facet, of which the last 2 are its attribute. A header with COLOR= (Magics) has the
-/// colour of all facets whose attribute is 0 or has its highest bit; others have their own: 5 bits of red, from the lowest, of
-/// green and of blue. Without it attributes with the highest bit are colours (VisCAM): 5 bits of blue, green and red. Throws
-/// core::InputError.
+/// The format: a header of 80 bytes, a count, and 50 bytes per facet, of which the last 2 are its attribute. A header with
+/// COLOR= (Magics) has the colour of all facets whose attribute is 0 or has its highest bit set; other facets have their own
+/// colour: 5 bits each of red, from the lowest bit, green and blue. Without COLOR=, attributes with the highest bit set are
+/// colours (VisCAM): 5 bits each of blue, green and red. Throws core::InputError.
 PlacedFile read_stl_binary(std::string_view file, ReadingProgress& progress);
 
 }  // namespace dmpc::apps

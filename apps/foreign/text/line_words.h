@@ -1,4 +1,4 @@
-// The words of foreign text, its numbers, and names in it.
+// Words, numbers and names in text of foreign formats.
 #pragma once
 
 #include <cstddef>
@@ -9,48 +9,49 @@
 
 namespace dmpc::apps {
 
-/// A decimal number, all of the word: `.9`, `+1`, `1.`, `1e5`. Nothing for anything else, such as `1x`, `10.0D-01`, `-1.#IND`,
-/// `nan`, `inf`, hexadecimal digits, or a number beyond what a double holds. One below that is 0.
+/// Parses a decimal number that takes up the whole word: `.9`, `+1`, `1.`, `1e5`. Returns nothing for anything else, such as
+/// `1x`, `10.0D-01`, `-1.#IND`, `nan`, `inf`, hexadecimal digits, or a number above the range of doubles. A number below the
+/// range is 0.
 std::optional<double> decimal_number(std::string_view word);
 
-/// Whether programs write it for what is no finite number: `nan`, `-nan(ind)`, `inf`, `-1.#IND`, `1.#QNAN`.
+/// Returns whether programs write this word for a non-finite number: `nan`, `-nan(ind)`, `inf`, `-1.#IND`, `1.#QNAN`.
 bool is_no_number(std::string_view word);
 
-/// What parts words beside blanks and ends of lines, which are \n, \r or both.
+/// Separators of words besides blanks and line ends, which are \n, \r or both.
 struct WordRules {
-  char remark = '#';     ///< begins one that goes to the line's end, but behind a point, as in `1.#INF`; 0: there are none
-  bool are_one = false;  ///< the text is one line, in which a backslash before an end of a line is a blank (text_lines.h)
+  char remark = '#';     ///< begins a comment to the end of the line, except after a point, as in `1.#INF`; 0: no comments
+  bool are_one = false;  ///< the text is one line, in which a backslash before a line end counts as a blank (apps/foreign/text/text_lines.h)
 };
 inline constexpr WordRules one_line{.are_one = true}, without_remarks{.remark = '\0'};
 
-/// The words of a text, one after the other, whatever lines they stand in. Views are into the text, which outlives this.
+/// The words of a text in order, across lines. Results are views into the text, which outlives this object.
 class LineWords {
  public:
-  /// `first_line`: the number of the text's first line, for messages.
+  /// `first_line` is the number of the text's first line, for messages.
   explicit LineWords(std::string_view text, std::size_t first_line = 1, const WordRules& rules = one_line)
       : text_(text), line_(first_line), rules_(rules) {}
 
-  /// The next word; empty at the end of the text.
+  /// Returns the next word; empty at the end of the text.
   std::string_view next();
-  /// The next word, if it stands in the line of the last one; else empty.
+  /// Returns the next word if it is on the line of the last one; else empty.
   std::string_view next_in_line();
   bool has_next() const { return !LineWords(*this).next().empty(); }
-  /// What is left of the line, without the blanks around it, with what looks like a remark: names may have both in them.
+  /// Returns the rest of the line without surrounding blanks. Apparent comments are included, since names may contain both.
   std::string_view rest_of_line();
 
-  /// Line of the last word; at the end, of the text's end.
+  /// Returns the line of the last word, or at the end the line of the text's end.
   std::size_t line() const { return line_; }
-  /// How many bytes are read.
+  /// Returns the number of bytes read.
   std::size_t position() const { return at_; }
 
-  /// The next word as a number; `what` says in errors what it is. Throw core::InputError, with the line.
+  /// Parses the next word as a number; `what` describes it in errors. Throw core::InputError, with the line.
   double number(const std::string& what = "a number");
   std::int64_t integer();
   /// Throws core::InputError, with the line, if a word follows.
   void expect_end() const;
-  /// core::InputError "line N: WHAT".
+  /// Throws core::InputError "line N: WHAT".
   [[noreturn]] void fail(const std::string& what) const;
-  /// core::InputError "line N: found 'WORD', expected WHAT", of the last word.
+  /// Throws core::InputError "line N: found 'WORD', expected WHAT" for the last word.
   [[noreturn]] void fail_at(std::string_view word, const std::string& expected) const;
 
  private:
@@ -67,9 +68,9 @@ class LineWords {
   WordRules rules_;
 };
 
-/// A name without the remark behind it: what follows a # at the begin of a word.
+/// Returns a name without a trailing comment, which is a # at the start of a word and the text after it.
 std::string_view without_remark(std::string_view name);
-/// As above, without quotes around the name.
+/// Also removes quotes around the name.
 std::string_view plain_name(std::string_view name);
 
 }  // namespace dmpc::apps

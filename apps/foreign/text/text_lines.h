@@ -1,4 +1,4 @@
-// Text of foreign files, line by line, where it lies.
+// Splits the text of foreign files into lines without copying.
 #pragma once
 
 #include <cstddef>
@@ -6,31 +6,32 @@
 
 namespace dmpc::apps {
 
-/// Whether a line goes on behind a backslash at its end.
+/// Whether a backslash at the end of a line joins it with the next one.
 enum class LineJoin : bool { none, backslash };
 
-/// A line ends with \n, \r\n or \r. Nothing is copied: `file` outlives this.
+/// Lines end with \n, \r\n or \r. Nothing is copied: `file` outlives this object.
 class TextLines {
  public:
-  /// A byte order mark is passed over.
+  /// Skips a byte order mark.
   explicit TextLines(std::string_view file, LineJoin join = LineJoin::none);
 
-  /// Goes to the next line; false at the file's end. Throws core::InputError "line 3: ..." for a byte that no text has: any below
-  /// 32 but blanks and line ends, and 127, unless a # stands before it in its line; one byte 26 at the end of all is passed over,
-  /// with which DOS ended texts.
+  /// Advances to the next line; returns false at the end of the file. Throws core::InputError "line 3: ..." for a byte that text
+  /// cannot contain: any below 32 except blanks and line ends, and 127, unless a # precedes it on its line. One byte 26 at the
+  /// end of the file, with which DOS terminated texts, is skipped.
   bool next();
 
-  /// Without its end. Joined lines are one, with the backslash and the line end between them, which LineWords takes for blanks.
+  /// Returns the line without its end. Joined lines are one, including the backslash and the line end between them, which
+  /// LineWords treats as blanks.
   std::string_view line() const { return line_; }
-  /// Number of the line, or of the first of joined lines, counted from 1.
+  /// Returns the number, from 1, of the line or of the first of joined lines.
   std::size_t number() const { return number_; }
-  /// How much of the file lies behind, with the line and its end: where the next line begins.
+  /// Returns the number of bytes up to and including the line's end, where the next line begins.
   std::size_t bytes_passed() const { return passed_; }
 
  private:
-  /// From `begin` to the end of that line, without its end.
+  /// Returns the end of the line that contains `begin`, excluding the line terminator.
   std::size_t end_of_line(std::size_t begin) const;
-  /// Behind what ends the line there.
+  /// Returns the position after the line terminator at `end`.
   std::size_t behind_end(std::size_t end) const;
   bool goes_on(std::size_t begin, std::size_t end) const;
 
