@@ -1,4 +1,4 @@
-// Whether what programs declare can be: names of their own, not too many of them, prices; and how such names are shown.
+// Validates the declarations of programs: unique names, maximum numbers, prices. Formats such names for display.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace dmpc::apps {
 
-/// In quotes, so that it is no other column's.
+/// Quotes a name, so that it differs from all built-in columns.
 inline std::string own_name(const std::string& name) { return "'" + name + "'"; }
 
-/// Throws core::UsageError for a need without a name of its own, in one line. `what` they are, in the plural.
+/// Throws core::UsageError for a need without a unique name on one line. `what` names the needs, in the plural.
 template <class Need>
 void check_different(const std::vector<Need>& needs, const std::string& what) {
   std::set<std::string> names;
@@ -29,10 +29,10 @@ void check_different(const std::vector<Need>& needs, const std::string& what) {
   }
 }
 
-/// Throws core::UsageError for more than `most`, which is how many `program` has at most.
+/// Throws core::UsageError for more than `most`, the maximum of `program`.
 void check_count(std::size_t count, std::size_t most, const std::string& what, const std::string& program = "a program");
 
-/// Both of operations, and of prices beyond a millisecond.
+/// Applies both checks to operations, and refuses prices above a millisecond.
 void check_operations(const std::vector<OperationNeed>& operations, std::size_t most, const std::string& program = "a program");
 
 }  // namespace dmpc::apps

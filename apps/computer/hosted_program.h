@@ -1,4 +1,4 @@
-// A program of somebody's own as the runners know programs, and its Node as that sees it.
+// Adapts a user's program and its Node to the interface of the runners.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@
 
 namespace dmpc::apps {
 
-/// A node with packets, operations and memory by a program's own numbers. Keeps the program to what it has declared.
+/// A node with packets, operations and memory by the program's own indices. Restricts the program to its declared needs.
 class HostedNode final : public Node {
  public:
-  /// Takes the tables of `plan` from the node's memory, and grants its credits. Both outlive this.
+  /// Allocates the plan's tables from the node's memory, and grants its credits. Both arguments outlive this object.
   HostedNode(nodes::Node& node, const ProgramPlan& plan);
 
   std::uint32_t id() const override { return nodes::index_of(node_.id()); }
@@ -30,19 +30,19 @@ class HostedNode final : public Node {
   void answer(std::uint32_t target, Index packet, std::span<const std::byte> payload) override;
   void charge(Index operation, std::uint64_t count) override;
 
-  /// A packet has come: of an answer the right to send its request once more, of a request the duty to answer it.
+  /// Records an arrived packet: an answer returns the right to send its request; a request must be answered.
   void take_note(const nodes::Packet& packet);
   const nodes::Charges& charges() const { return charges_; }
-  /// Answers that are to come from others, and that it owes them.
+  /// Returns answers that this node expects from others, and those that it owes.
   std::vector<Unanswered> awaited() const;
   std::vector<Unanswered> owed() const;
-  /// What is allocated of each piece of memory.
+  /// Returns the allocated bytes of each piece of memory.
   const std::vector<std::size_t>& used_bytes() const { return used_bytes_; }
 
  private:
   std::byte* allocate_bytes(Index memory, std::size_t bytes) override;
   nodes::Channel channel_of(Index packet) const { return plan_.is_small(packet) ? 0 : 1; }
-  /// The credits that are left for a request, or those that are owed for an answer.
+  /// The remaining credits of a request, or the number of owed answers.
   std::uint16_t& rights(std::uint32_t target, Index packet) const;
   void check(std::uint32_t target, Index packet, std::size_t payload_bytes) const;
 
@@ -53,7 +53,7 @@ class HostedNode final : public Node {
   std::vector<std::size_t> used_bytes_;
 };
 
-/// A node's program, whoever wrote it.
+/// Wraps the program of a node.
 class HostedProgram final : public nodes::Program {
  public:
   using Make = std::function<std::unique_ptr<dmpc::Program>(Node&)>;
@@ -71,7 +71,7 @@ class HostedProgram final : public nodes::Program {
     return call_program(node_.id(), "describe()", [this] { return program_->describe(); }) +
            waiting_text(node_.awaited(), node_.owed());
   }
-  /// What outcome(program) returns.
+  /// Returns the result of outcome(program).
   template <class Outcome>
   std::string outcome(const Outcome& outcome) const {
     return call_program(node_.id(), "outcome()", [&] { return outcome(*program_); });

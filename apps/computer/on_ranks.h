@@ -1,4 +1,4 @@
-// A program on the ranks that MPI has started: each of them runs all of it, with the nodes that are there.
+// Runs a program on ranks started by MPI. Each rank executes the whole program, with its own nodes.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace dmpc::apps {
 
-/// What ranks need to know of a program before they talk to each other.
+/// The requirements that ranks must know before they communicate.
 struct RankNeeds {
   std::size_t payload_bytes_max = 0;  ///< per packet
-  Compatibility alike = {};           ///< what it must be on all of them, beside its words
+  Compatibility alike = {};           ///< what must be equal on all ranks, besides the program's words
 };
 
 /// Runs act() as one of the ranks, with as many nodes as there are processors for them where the options do not say it; returns

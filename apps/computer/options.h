@@ -1,4 +1,4 @@
-// The options of a program of somebody's own: those of the computer, as `dmpc render` has them, and the program's.
+// The options of a user's program: those of the computer, as in `dmpc render`, and its own.
 #pragma once
 
 #include <cstdint>
@@ -23,30 +23,30 @@ struct ProgramOptions {
   bool is_node_count_given = false;
   RunnerKind runner = RunnerKind::threads;
   std::string machine_name = "ipsc2";           ///< to be modelled: a preset's name or a machine file
-  std::optional<nodes::TopologyKind> topology;  ///< in place of the machine's
+  std::optional<nodes::TopologyKind> topology;  ///< replaces the machine's
   std::optional<std::uint64_t> chaos_seed;
-  std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
+  std::optional<std::filesystem::path> stats;   ///< JSON file of the counters
   std::optional<std::filesystem::path> trace;   ///< .pftrace
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
-  // A program of tasks has these, too:
+  // Only for programs of tasks:
   svm::TaskOptions tasks;                           ///< the computer is the program's
-  std::optional<std::filesystem::path> references;  ///< where those of the last run go, as CSV
-  std::optional<std::filesystem::path> heat;        ///< where what each task of the last run took goes, as CSV
+  std::optional<std::filesystem::path> references;  ///< CSV file of the last run's references
+  std::optional<std::filesystem::path> heat;        ///< CSV file of the cost of each task in the last run
 
-  /// Somebody sees the run happen.
+  /// Returns whether the run has observers.
   bool is_observed() const { return trace || report; }
   bool is_modelled() const { return runner == RunnerKind::virtual_time; }
 };
 
-/// Declares them, and which go together.
+/// Declares all options and their compatibility checks.
 void add_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
-/// Its parts: the program's own and the computer's, and, once others are declared, what is written of a run.
+/// Declares the first part: the program's own options and the computer's. The output options follow once others are declared.
 void add_computer_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
 void add_closer_look(OptionSet options, ProgramOptions& program);
 
-/// Reads the machine that is to be modelled, if one is, and gives it the program's operations in place of a renderer's. Throws
-/// core::InputError as load_machine() does.
+/// Reads the machine to be modelled, if any, and replaces a renderer's operations by the program's. Throws core::InputError as
+/// load_machine() does.
 void choose_machine(ProgramOptions& options, const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

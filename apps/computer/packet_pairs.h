@@ -1,4 +1,4 @@
-// Who sends whom how much: an instrument beside the computer, whose memory is no node's.
+// Counts the traffic between pairs of nodes, outside of the emulated memory.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace dmpc::apps {
 
-/// By pair of nodes: what node a sent to node b stands at a * node_count + b.
+/// One entry per pair: traffic from node a to node b is at index a * node_count + b.
 struct PacketPairs {
   std::vector<std::uint64_t> packets;
   std::vector<std::uint64_t> bytes;  ///< headers and payloads
 };
 
-/// Counts what is sent. Thread safety: as an Observer; pairs() when the run is over.
+/// Counts what is sent. Thread-safe as an Observer; call pairs() after the run.
 class PairObserver final : public nodes::Observer {
  public:
   explicit PairObserver(std::uint32_t node_count);
@@ -27,7 +27,7 @@ class PairObserver final : public nodes::Observer {
   void received(const nodes::Passing&) override {}
   void worked(const nodes::Worked&) override {}
 
-  /// What nodes that are here have sent, for add() of another rank's.
+  /// Serializes the traffic sent by local nodes, for add() on another rank.
   std::string bytes() const;
   void add(std::string_view bytes);
 

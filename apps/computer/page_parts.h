@@ -1,4 +1,4 @@
-// What the pages of all programs on the computer have in common.
+// Parts that the reports of all user programs share.
 #pragma once
 
 #include <cstdint>
@@ -20,40 +20,40 @@
 
 namespace dmpc::apps::html {
 
-/// Pairs of more nodes cannot be told apart, and they would make a page of tens of megabytes.
+/// A matrix of more nodes is not legible, and would make a page of tens of megabytes.
 inline constexpr std::uint32_t readable_nodes_max = 256;
 
-/// By alphabet. Thread-safe.
+/// In alphabetical order. Thread-safe.
 std::span<const GlossaryEntry> page_words();
 
-/// Whose page it is: that of the program `name`.
+/// Returns the page's speaker: the program `name`.
 PageSpeaker speaker(const std::string& name);
 
-/// Puts where it is from, what it is of and what the program came to at the beginning of a page.
+/// Begins a page with its origin, its facts and the program's result.
 void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count);
 
-/// This process is the program `name`.
+/// Returns the origin for this process, the program `name`.
 Origin program_origin(const std::string& name);
 
-/// The computer, runner and what disturbs it.
+/// Describes the computer, the runner and chaos.
 Facts computer_facts(const ProgramOptions& options);
 
 /// How often an operation was charged.
 struct OperationCount {
   std::string name;
   std::uint64_t count = 0;
-  std::optional<double> today_ns;  ///< as the program declares it
+  std::optional<double> today_ns;  ///< as declared by the program
   std::uint64_t each_ps = 0;       ///< on the modelled machine
 };
-/// A row for each; on a modelled `machine` with what it takes of the nodes' computing.
+/// Returns a row per operation; with a modelled `machine` also its share of the nodes' computing.
 Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 
-/// Nothing where nodes are in one process.
+/// Adds nothing if all nodes are in one process.
 void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks);
 
 void add_losses(Page& page, const Losses& losses);
-/// `remark`: of which run it is, if there were several.
+/// `remark` names the run if there were several.
 void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<std::string>& work_names,
                const std::string& remark);
 

@@ -1,4 +1,4 @@
-// From what a program declares to what every node gets: mailboxes, credits, memory.
+// Plans mailboxes, credits and memory of every node from a program's declarations.
 #pragma once
 
 #include <cstddef>
@@ -14,37 +14,37 @@
 
 namespace dmpc::apps {
 
-/// What a program's nodes spend memory on, beside what the computer takes.
+/// The memory categories of a program, besides those of the computer.
 enum class ProgramMemory : std::uint8_t { declared };
 
-/// A computer for a program. Immutable; everything is checked when it is made.
+/// A computer for a program. Immutable; everything is checked at construction.
 class ProgramPlan {
  public:
-  /// Throws core::UsageError for needs that contradict each other or go beyond the computer's bounds, naming them, and
-  /// core::CapacityError for more than `computer.node_memory_bytes`, naming what would do.
+  /// Throws core::UsageError for needs that contradict each other or exceed the computer's limits, naming them, and
+  /// core::CapacityError if they exceed `computer.node_memory_bytes`, naming a sufficient size.
   ProgramPlan(Needs needs, const nodes::ComputerRequest& computer);
 
   const Needs& needs() const { return needs_; }
   std::uint32_t node_count() const { return node_count_; }
-  /// The packet that answers `packet`, or that `packet` answers.
+  /// Returns the answer to `packet`, or the request that `packet` answers.
   std::optional<Index> answer_of(Index packet) const { return answers_[packet]; }
   std::optional<Index> request_of(Index packet) const { return requests_[packet]; }
   bool is_small(Index packet) const { return needs_.packets[packet].bytes_max <= small_bytes_max; }
-  /// How many of them `source` may have under way to `target`; fewer than there are slots for under chaos.
+  /// Returns how many packets `source` may have in flight to `target`; under chaos fewer than there are slots for.
   std::uint32_t credits(std::uint32_t source, std::uint32_t target, Index packet) const;
 
-  /// The longest payload of all packets.
+  /// Returns the maximum payload over all packets.
   std::size_t payload_bytes_max() const;
-  /// Equal plans, equal digests.
+  /// Equal plans have equal digests.
   std::uint64_t digest() const;
 
   const nodes::MailboxCapacity& mailbox(std::uint32_t node) const { return mailboxes_[node]; }
-  /// The memory of a node, all of its program's included.
+  /// Returns the memory plan of a node, including its program.
   nodes::MemoryPlan memory(std::uint32_t node) const;
-  /// The memory of the host, which has nothing to do.
+  /// Returns the memory plan of the host, which has no work.
   nodes::MemoryPlan host_memory() const;
   std::size_t held_bytes() const { return held_bytes_; }
-  /// The table of credits and unanswered packets of a program's own, by packet and node.
+  /// The program's table of credits and unanswered packets, by packet and node.
   nodes::Room<std::uint16_t> rights() const { return {nodes::Category::queues, needs_.packets.size() * node_count_}; }
 
  private:

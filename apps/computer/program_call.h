@@ -14,10 +14,10 @@
 
 namespace dmpc::apps {
 
-/// While it lives, the calling thread is in a call of a node's program. Calls of one node do not overlap.
+/// Marks the calling thread as executing a call of a node's program during its lifetime. Calls of one node do not overlap.
 class CallUnderWay {
  public:
-  /// `what` is a literal: "work()".
+  /// `what` is a string literal such as "work()".
   CallUnderWay(std::uint32_t node, const char* what);
   ~CallUnderWay();
   CallUnderWay(const CallUnderWay&) = delete;
@@ -27,11 +27,11 @@ class CallUnderWay {
   std::uint32_t node_;
 };
 
-/// ", in work() of node 1".
+/// Returns ", in work() of node 1".
 std::string place_of_call(std::uint32_t node, const char* what);
 
-/// What act() returns. What is not ours that it throws comes as a ProgramError that says where, or as core::CapacityError where
-/// memory ends; dmpc::UsageError and our own errors as they are.
+/// Returns the result of act(). Foreign exceptions become a ProgramError that names the call, or core::CapacityError if memory is
+/// exhausted; dmpc::UsageError and our own errors are passed on.
 template <class Act>
 std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* what, const Act& act) {
   const CallUnderWay call(node, what);
@@ -54,8 +54,8 @@ std::invoke_result_t<const Act&> call_program(std::uint32_t node, const char* wh
   }
 }
 
-/// During its lifetime, an end without an exception is reported with its node, too: a crash, which still is one, and a call of
-/// std::exit(), which becomes an end with internal_status. One at a time. `name`: what stands before what is said.
+/// During its lifetime, an end without an exception is reported with its node, too: a crash, which remains a crash, and a call of
+/// std::exit(), whose status becomes internal_status. Only one object may exist at a time. `name` is the prefix of messages.
 class ProgramEnds {
  public:
   explicit ProgramEnds(const std::string& name);
@@ -63,12 +63,12 @@ class ProgramEnds {
   ProgramEnds(const ProgramEnds&) = delete;
   ProgramEnds& operator=(const ProgramEnds&) = delete;
 
-  /// For a thread that looks once a second: says of a call that has not returned for long, once.
+  /// Returns a function for a thread that polls once a second; it reports each call that has not returned for a long time, once.
   std::function<void()> look() const;
 
  private:
   struct Actions;
-  std::unique_ptr<Actions> before_;  ///< what signals did
+  std::unique_ptr<Actions> before_;  ///< the previous signal actions
 };
 
 }  // namespace dmpc::apps

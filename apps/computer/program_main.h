@@ -11,17 +11,17 @@
 
 namespace dmpc::apps {
 
-/// How a program was called.
+/// The command line of a program.
 struct ProgramCall {
-  std::string name;                ///< the file's
-  std::vector<std::string> words;  ///< behind it
+  std::string name;                ///< name of the executable
+  std::vector<std::string> words;  ///< the arguments
 };
 
 struct ProgramMain {
   std::string description;
-  std::function<void(OptionSet options)> declare;  ///< its options
-  const RunnerKind& runner;                        ///< as they say
-  /// What it does once they are read; returns the exit status.
+  std::function<void(OptionSet options)> declare;  ///< declares the program's options
+  const RunnerKind& runner;                        ///< as set by the options
+  /// Runs the program after the options are read; returns the exit status.
   std::function<int(const ProgramCall& call, Interrupt& interrupt)> act;
 };
 

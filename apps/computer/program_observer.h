@@ -1,4 +1,4 @@
-// Who looks on at a run of a program, as far as its options ask for it.
+// The observers of a program's run that its options request.
 #pragma once
 
 #include <cstdint>
@@ -20,34 +20,34 @@
 
 namespace dmpc::apps {
 
-/// What is looked on at: a run of tasks, if there are pages.
+/// The observed run; of tasks, if there are pages.
 struct WatchedRun {
   std::uint32_t node_count = 1;
   std::uint32_t page_count = 0, task_count = 0;
 };
 
-/// For one run. Thread safety: as an Observer.
+/// For one run. Thread-safe as an Observer.
 class ProgramObserver {
  public:
   ProgramObserver(const ProgramOptions& options, const Vocabulary& vocabulary, const WatchedRun& run);
   ProgramObserver(const ProgramObserver&) = delete;
   ProgramObserver& operator=(const ProgramObserver&) = delete;
 
-  /// For the run; nullptr if nobody looks on. Call it once.
+  /// Returns the run's observer, or nullptr if there is none. Call it once.
   nodes::Observer* observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
-  /// Reports of a run of tasks to the observers, on every rank; absent observers have null pointers. What ranks saw is
-  /// added up.
+  /// Reports a run of tasks to the observers, on every rank; absent observers have null pointers. Observations of ranks are added
+  /// up.
   svm::TaskWatching watching();
 
-  /// What was seen of nodes that are here, for add() on rank 0.
+  /// Serializes the observations of local nodes, for add() on rank 0.
   std::string seen() const;
-  /// Takes over what was seen on another rank.
+  /// Adds the observations of another rank.
   void add(std::string_view seen, const nodes::ClockDrift& clock);
-  /// Puts what was seen into the record, in place of what another run showed. Call it once, when the run is over.
+  /// Replaces the record's observations of an earlier run. Call it once, after the run.
   void take(ProgramRecord& record);
 
  private:
-  /// Makes a watch that looks on.
+  /// Creates an observer.
   template <class Watch, class... Arguments>
   void look_on(std::optional<Watch>& observer, Arguments&&... arguments);
   void watch_pages(const ProgramOptions& options, const WatchedRun& run);

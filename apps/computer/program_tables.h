@@ -1,4 +1,4 @@
-// What a program counted, as tables, and plots of them; of one of tasks in all its runs together.
+// Tables and plots of a program's counters; for a program of tasks summed over all runs.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,35 @@
 
 namespace dmpc::apps::html {
 
-/// What is shown of a task's heat.
+/// Quantities of a task's heat map.
 enum class TaskHeatKind : std::uint8_t { faults, references, computing };
-/// The kinds that say something of this run: computing only on a modelled machine, faults only if there are any.
+/// Returns the kinds that are informative for this run: computing only on a modelled machine, faults only if there are any.
 std::vector<TaskHeatKind> heat_kinds_of(const ProgramRecord& record);
-/// A row for each node, its tasks from left to right, as many together as it takes for each row to be full; each place is the
-/// mean of its tasks, of a node without tasks 0.
+/// Returns a row per node with its tasks from left to right, grouped so that each row is full. Each cell is the mean of its
+/// tasks; a node without tasks has 0.
 NumberMap heat_map(const ProgramRecord& record, TaskHeatKind kind);
-/// The share of the hottest tasks.
+/// Describes the share of the hottest tasks.
 std::string heat_conclusion(const ProgramRecord& record, TaskHeatKind kind);
-/// The tasks with the most computing or, on threads, look-ups.
+/// Returns the tasks with the most computing or, on threads, the most look-ups.
 Table hottest_tasks(const ProgramRecord& record);
 
 /// In virtual time by what a node waits for, else by the wall clock.
 Losses losses_of(const ProgramRecord& record);
 
-/// What all nodes together sent, in the order of the vocabulary.
+/// Returns what all nodes together sent, in the order of the vocabulary.
 std::vector<PacketKindTraffic> packets_of(const ProgramRecord& record);
 
-/// The program's, in the same order, and on a modelled machine what pages take.
+/// Returns the program's operations in the same order, and on a modelled machine those of pages.
 std::vector<OperationCount> operations_of(const ProgramRecord& record);
 
-/// A row for each node: what passed through it, or its look-ups, what became of them and its memory; and the operations that it
-/// was charged.
+/// Returns a row per node: its traffic, or its look-ups with their outcomes and its memory; and its charged operations.
 Table node_table(const ProgramRecord& record);
-/// A bar for each node: packets, or pages that it asked for.
+/// Returns a bar per node: packets, or requested pages.
 Plot node_plot(const ProgramRecord& record);
-/// One sentence on a program with packets.
+/// Returns one sentence on a program with packets.
 std::string node_conclusion(const ProgramRecord& record);
 
-/// A row for each node: what its program has allocated of what it declared, and what carries its packets.
+/// Returns a row per node: declared and allocated memory of its program, and memory for its packets.
 Table memory_table(const ProgramRecord& record);
 Plot memory_plot(const ProgramRecord& record);
 std::string memory_conclusion(const ProgramRecord& record);

@@ -1,4 +1,4 @@
-// What the nodes of a program are busy with, in its own words.
+// The kinds of work of a program's nodes, in the program's terms.
 #pragma once
 
 #include <string>
@@ -9,14 +9,15 @@
 
 namespace dmpc::apps {
 
-/// Kinds of work, of which a span is one.
+/// Kinds of work; a span has one of them.
 struct ProgramWork {
   std::vector<std::string> names;  ///< by number
   nodes::WorkOf work_of;
 };
 
-/// A program with packets has its first four operations, each where a call was charged it and none before it, what else its calls
-/// do, and messages. One of tasks has its first three, the rest, pages that are installed and served, and messages.
+/// A program with packets has its first four operations (each where a call charged it and none before it), the other work of its
+/// calls, and messages. A program of tasks has its first three operations, other work, installing and serving pages, and
+/// messages.
 ProgramWork program_work(const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What ranks that all run one program tell each other between its runs.
+// Coordinates ranks that execute one program, between its runs.
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,32 @@
 
 namespace dmpc::apps {
 
-/// All ranks call agree(), meet() and share() in the same order, unless agree() finds that they do not. On rank 0 an error of
-/// another rank is thrown; on the others nodes::Dismissed, if rank 0 has ended; on all nodes::LostRank. Thread safety: belongs to
-/// the communicating thread, except here().
+/// All ranks call agree(), meet() and share() in the same order, unless agree() finds a difference. Rank 0 throws an error of
+/// another rank; the others throw nodes::Dismissed if rank 0 has ended; all throw nodes::LostRank. Thread safety: only here() may
+/// be called outside of the communicating thread.
 class RankRounds {
  public:
-  /// `links` outlive this.
+  /// `links` outlive this object.
   explicit RankRounds(nodes::RankLinks& links);
 
   nodes::RankLinks& links() { return links_; }
   bool is_first() const { return links_.rank() == 0; }
 
-  /// What work() returns or throws, on a thread of its own: others know meanwhile that this rank lives.
+  /// Returns or throws the result of work(), which runs on its own thread; meanwhile other ranks still receive heartbeats.
   template <class Work>
   auto apart(const Work& work) {
     return call_forwarder_.while_working(
         work, [this] { look_after(); }, [this] { nodes::send_heartbeat(links_); });
   }
-  /// From work apart: what is to be done on the communicating thread. After one that fails none is done any more, and all fail
-  /// so: this rank and others would not know of each other where they are.
+  /// Called by the work of apart() to run a function on the communicating thread. After a failed call all further calls fail with
+  /// the same error, since ranks would no longer know each other's state.
   void here(const std::function<void()>& forwarded_call);
 
-  /// What comes next is the same on all ranks: throws ProgramError where it is not rank 0's.
+  /// Checks that the next operation is equal on all ranks: throws ProgramError where it differs from rank 0's.
   void agree(const std::string& next);
-  /// Waits until all have come here.
+  /// Waits until all ranks have arrived.
   void meet();
-  /// Rank 0's bytes, of which there are as many everywhere, are everybody's.
+  /// Copies rank 0's bytes to all ranks; their number is equal everywhere.
   void share(std::span<std::byte> bytes);
 
  private:

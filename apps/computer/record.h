@@ -1,4 +1,4 @@
-// What is known of a program once it is done: of its run or, where it has tasks over pages, of its runs together.
+// The results of a finished program: of its run or, for tasks over pages, of its runs together.
 #pragma once
 
 #include <cstdint>
@@ -24,28 +24,28 @@
 
 namespace dmpc::apps {
 
-/// A node when all is over.
+/// A node after the run.
 struct ProgramNode {
   nodes::NodeCounters counters;
   nodes::Charges charges;
   nodes::VirtualTimes times;            ///< modelled machine only
   svm::PageCounters pages;              ///< tasks only
-  nodes::MemoryPlan memory;             ///< in the run that took most
-  std::vector<std::size_t> used_bytes;  ///< per piece of memory that the program declares
+  nodes::MemoryPlan memory;             ///< of the run with the largest one
+  std::vector<std::size_t> used_bytes;  ///< per declared piece of memory
 
-  /// What there is to add of another run.
+  /// Adds the additive counters of another run.
   ProgramNode& operator+=(const ProgramNode& more);
 };
 
-/// What a program of tasks has run.
+/// The runs of a program of tasks.
 struct TaskRuns {
   std::uint32_t run_count = 0;
   std::uint64_t task_count = 0;
-  // The last run alone:
+  // Only of the last run:
   std::uint32_t page_count = 0, cache_pages = 0;
   svm::PageCounters last_pages;
-  std::vector<svm::ReferenceLog> references;  ///< by node, if they are asked for
-  svm::TaskHeat heat;                         ///< likewise, by task
+  std::vector<svm::ReferenceLog> references;  ///< by node, if requested
+  svm::TaskHeat heat;                         ///< by task, if requested
 };
 
 /// A view, as far as it has references.
@@ -54,38 +54,38 @@ struct ProgramRecord {
   const ProgramOptions& options;
   const Vocabulary& vocabulary;
   std::vector<ProgramNode> nodes;
-  std::vector<nodes::RankFigures> ranks;  ///< where there are any: traffic of all runs, the rest of the last one
+  std::vector<nodes::RankFigures> ranks;  ///< if there are ranks: traffic of all runs, other figures of the last run
   double wall_seconds = 0;
   std::optional<std::uint64_t> virtual_ns, run_hash;  ///< modelled machine only
   std::optional<nodes::VirtualReport> network;        ///< likewise, of a program with packets
-  std::string result;                                 ///< what it came to
+  std::string result;                                 ///< the program's result
   TaskRuns tasks;
-  std::optional<nodes::Trace> trace;  ///< the last run's, as the members below
+  std::optional<nodes::Trace> trace;  ///< of the last run, as the members below
   std::optional<RunView> view;        ///< for a report
   std::optional<PacketPairs> pairs;   ///< likewise, of a program with packets and few enough nodes
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(nodes.size()); }
   /// Adds a run of `task_count` tasks.
   void add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t task_count);
-  /// Adds the time of a run on a modelled machine to that of nodes that are there.
+  /// Adds the virtual time of a run to that of the existing nodes.
   void add(const nodes::VirtualReport& report);
-  /// All nodes as one; memory is the fullest one's.
+  /// Returns the sum of all nodes, with the memory of the fullest one.
   ProgramNode sum() const;
 };
 
-/// What nodes sent of the packets that the vocabulary names.
+/// Returns the traffic of the packets in the vocabulary.
 nodes::Traffic sent(const ProgramRecord& record);
 
-/// "8 nodes" or "8 nodes of ipsc2".
+/// Returns "8 nodes" or "8 nodes of ipsc2".
 std::string computer_text(const ProgramOptions& options);
 
-/// How long it took, what travelled and what a node takes, a line or two.
+/// Describes the run time, the traffic and a node's memory in one or two lines.
 std::string summary(const ProgramRecord& record);
 
-/// All counters as JSON, with a line end. The keys are an interface: names with units last.
+/// Returns all counters as JSON, with a final newline. The keys are an interface: names with units last.
 std::string stats_json(const ProgramRecord& record);
 
-/// Writes the trace in the format that its file's ending says.
+/// Writes the trace in the format of its file's extension.
 void write_program_trace(const ProgramRecord& record, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,5 +1,4 @@
-// What the nodes of a program send, are charged and allocate: its own names, and the numbers that the computer below has for
-// them.
+// The names of a program's packets, operations and memory, and the corresponding numbers of the underlying computer.
 #pragma once
 
 #include <string>
@@ -22,21 +21,21 @@ struct NamedOperation {
   double nanoseconds = 0;  ///< on a core of today
 };
 
-/// A program of tasks over pages is one whose packets ask for pages and bring them.
+/// The packets of a program of tasks over pages request and deliver pages.
 struct Vocabulary {
   std::vector<NamedPacket> packets;
   std::vector<NamedOperation> operations;  ///< the program's own
-  std::vector<NamedOperation> of_pages;    ///< operations whose price a machine knows by itself; none where there are no pages
-  std::vector<std::string> memory;         ///< names of its pieces
+  std::vector<NamedOperation> of_pages;    ///< operations with a price of the machine; empty without pages
+  std::vector<std::string> memory;         ///< names of the pieces of memory
 
   bool has_pages() const { return !of_pages.empty(); }
 };
 
 Vocabulary vocabulary_of(const Needs& needs);
-/// Throws core::UsageError for too many operations, or such as cannot be.
+/// Throws core::UsageError for too many or invalid operations.
 Vocabulary vocabulary_of_tasks(const std::vector<OperationNeed>& operations);
 
-/// What the computer below calls an operation of a program of tasks, between those of pages.
+/// Returns the underlying charge of an operation of a program of tasks, which comes between those of pages.
 core::Charge charge_of(Index operation);
 
 }  // namespace dmpc::apps

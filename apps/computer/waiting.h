@@ -1,4 +1,4 @@
-// Who waits for whom when all stand still, as far as the computer can tell: by packets that are not answered.
+// Finds which nodes wait for each other in a deadlock, from unanswered packets.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace dmpc::apps {
 
-/// Answers of one kind that are to come from a node, or that it is to get.
+/// Unanswered packets of one kind that a node expects or owes.
 struct Unanswered {
   std::uint32_t node = 0;
   std::string answer;
   std::uint32_t count = 0;
 };
 
-/// As they travel between ranks; there is always a byte.
+/// Serializes the list for other ranks; never empty.
 std::string flat_bytes(const std::vector<Unanswered>& list);
 std::vector<Unanswered> unanswered_from(const std::string& bytes);
 
-/// "; waits for 2 'taken' of node 3; owes 1 'taken' to node 1", of at most a few nodes each; empty if there is nothing.
+/// Returns "; waits for 2 'taken' of node 3; owes 1 'taken' to node 1", limited to a few nodes each; empty if there are none.
 std::string waiting_text(const std::vector<Unanswered>& awaited, const std::vector<Unanswered>& owed);
 
-/// `awaited` by node. A line on nodes that wait for each other in a circle, with a line's end before it; empty if there is none.
+/// Describes a cycle of nodes that wait for each other, after a newline; empty if there is none. `awaited` is indexed by node.
 std::string circle_text(const std::vector<std::vector<Unanswered>>& awaited);
 
 }  // namespace dmpc::apps

@@ -49,7 +49,7 @@ std::string system_names();
 /// Returns the system's strategy, and its database.
 StrategyOptions strategy_of(System system);
 DatabaseOptions database_of(System system);
-/// Also returns the database, with the system's original structure; voxels by core::article_voxels.
+/// Like database_of(), with the system's original structure; voxels by core::article_voxels.
 DatabaseOptions original_database_of(System system);
 
 void add_system_option(OptionSet options, std::optional<System>& system);

@@ -57,7 +57,7 @@ struct PictureOptions {
   core::Convention convention = core::Convention::haines;
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already applied to the fields above
-  core::Skips skips;               ///< optimizations that are switched off
+  core::Skips skips;               ///< the enabled skips (core/trace/skips.h)
   SceneSetup scene_setup;          ///< changes to the scene's own view and lights
   TransportOptions transport;
 };

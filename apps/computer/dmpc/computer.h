@@ -1,8 +1,8 @@
-// Programs for the emulated computer: what a program declares, what it can do on a node, and how it is run. The whole interface:
-// this header needs no other of dmpc's.
+// Programs for the emulated computer: what a program declares, what it can do on a node, and how it is run. This header is the
+// whole interface and needs no other header of dmpc.
 //
-// A computer has nodes 0 .. node_count - 1, each with a program of its own and a bounded memory, that share nothing and send each
-// other packets. What is called here is plain sequential code: calls of one node's program never overlap.
+// A computer has nodes 0 .. node_count - 1. Each runs its own program in a bounded memory; nodes share nothing and communicate by
+// packets. Programs are plain sequential code: calls of one node's program never overlap.
 #pragma once
 
 #include <algorithm>
@@ -21,87 +21,87 @@
 
 namespace dmpc {
 
-/// Where a packet, an operation or a piece of memory stands in its list of Needs. Programs name them by an enum.
+/// The index of a packet, an operation or a piece of memory in its list of Needs. Programs name indices by an enum.
 using Index = std::size_t;
 
-/// The payload of a packet that is small: several of them lie in the place of one that is longer.
+/// The maximum payload of a small packet; several small packets fit in the slot of a larger one.
 inline constexpr std::size_t small_bytes_max = 56;
-/// The most packets that a program declares.
+/// The maximum number of packets that a program declares.
 inline constexpr std::size_t packets_max = 24;
-/// The most operations that a program declares.
+/// The maximum number of operations that a program declares.
 inline constexpr std::size_t operations_max = 13;
 
-/// What `count` values take of a node's memory: for MemoryNeed::bytes. More than can be addressed is the most that can.
+/// Returns the bytes that `count` values take of a node's memory, for MemoryNeed::bytes; saturates at the largest size.
 template <class T>
 constexpr std::size_t bytes_of(std::size_t count) {
   constexpr std::size_t most = SIZE_MAX / 64 * 64;
   return count > most / sizeof(T) ? most : (count * sizeof(T) + 63) / 64 * 64;
 }
 
-/// How many packets of a kind `source` may have under way to `target`, of `node_count` nodes. Called before the start, for all
-/// pairs; a function of its arguments alone.
+/// Returns how many packets of a kind `source` may have in flight to `target`, of `node_count` nodes. Called before the start,
+/// for all pairs; must depend only on its arguments.
 using Senders = std::function<std::uint32_t(std::uint32_t source, std::uint32_t target, std::uint32_t node_count)>;
 
-/// Every node to every other.
+/// Every node sends to every other.
 Senders from_each_other(std::uint32_t count = 1);
-/// Every node to the next one round the ring of all nodes, itself if it is alone.
+/// Every node sends to the next one on the ring of all nodes, or to itself if it is alone.
 Senders from_previous(std::uint32_t count = 1);
-/// One node to every other.
+/// One node sends to every other.
 Senders from_node(std::uint32_t source, std::uint32_t count = 1);
-/// Every node to one, that one not to itself.
+/// Every other node sends to one.
 Senders to_node(std::uint32_t target, std::uint32_t count = 1);
 
-/// A kind of packet. Either it has senders, or it is the answer to one that has.
+/// A kind of packet. It either has senders, or is the answer to one that has.
 struct PacketNeed {
   std::string name;                         ///< for counters and traces
-  std::size_t bytes_max = small_bytes_max;  ///< payload's maximum
-  /// The packets that may be sent. If this packet has an answer, the right to send returns with each answer; otherwise this is
-  /// the number of packets that a node can send to another in a run.
+  std::size_t bytes_max = small_bytes_max;  ///< maximum payload
+  /// The maximum number of packets in flight. If this packet has an answer, each answer returns the right to send; otherwise this
+  /// is the number of packets that a node can send to another in a run.
   Senders senders = {};
-  /// The name of the packet that it answers: its place is kept from the moment when that is sent.
+  /// The name of the packet that it answers. Its slot is reserved when that packet is sent.
   std::string answers = {};
 };
 
-/// A class of work with a price, for modelled machines.
+/// A class of work with a cost, for modelled machines.
 struct OperationNeed {
   std::string name;
-  /// On one core of today. A modelled machine takes as many times as long as it does for the other arithmetic it has a price for.
+  /// On one core of today. A modelled machine scales it by its slowdown for the other arithmetic for which it has a price.
   double nanoseconds = 0;
 };
 
-/// What a node's program allocates under one name.
+/// Memory that a node's program allocates under one name.
 struct MemoryNeed {
   std::string name;
-  std::size_t bytes = 0;  ///< as bytes_of() says, for each array
+  std::size_t bytes = 0;  ///< the sum of bytes_of() of its arrays
 };
 
-/// What a program takes of the computer. Mailboxes, credits and the plan of every node's memory are derived from it.
+/// The resources that a program needs. Mailboxes, credits and the memory plan of every node are derived from it.
 struct Needs {
   std::vector<PacketNeed> packets = {};
   std::vector<OperationNeed> operations = {};
   std::vector<MemoryNeed> memory = {};  ///< per node
 };
 
-/// A received packet: valid only during the call of Program::receive().
+/// A received packet, which is valid only during the call of Program::receive().
 struct Packet {
   std::uint32_t source = 0;
   Index kind = 0;  ///< index in Needs::packets
   std::span<const std::byte> payload;
 
-  /// The payload as a value. Throws ProgramError if it has another size.
+  /// Returns the payload as a value. Throws ProgramError if the size differs.
   template <class T>
   T as() const;
-  /// The payload as the values of an array. Throws ProgramError if it does not consist of whole ones.
+  /// Returns the payload as an array. Throws ProgramError if its size is not a multiple of the element size.
   template <class T>
   void copy_to(std::span<T> target) const;
 };
 
-/// A program did what it may not, such as sending more than it declared. The run ends, and says it.
+/// A program violated the rules, for example by sending more than it declared. The run ends with this message.
 struct ProgramError : std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// All that a program can touch of the computer. Belongs to its program.
+/// A program's interface to the computer. It belongs to its program.
 class Node {
  public:
   virtual std::uint32_t id() const = 0;
@@ -109,27 +109,26 @@ class Node {
   std::uint32_t next() const { return (id() + 1) % node_count(); }
   std::uint32_t previous() const { return (id() + node_count() - 1) % node_count(); }
 
-  /// `count` zeros of the memory that is declared at `memory`. Only while the program is made. Throws ProgramError for more than
-  /// was declared.
+  /// Allocates `count` zeros from the declared memory. To be called only during construction of the program. Throws ProgramError
+  /// beyond the declared size.
   template <class T>
   std::span<T> allocate(Index memory, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
     return {reinterpret_cast<T*>(allocate_bytes(memory, bytes_of<T>(count))), count};
   }
 
-  /// How many packets of this kind may be sent to `target` now.
+  /// Returns how many packets of this kind may be sent to `target` now.
   virtual std::uint32_t sendable(std::uint32_t target, Index packet) const = 0;
-  /// Sends, if one more may be under way, else refuses: then go on with something else, and try again when an answer has come.
+  /// Sends if another packet may be in flight, else returns false; then do other work and retry after an answer has arrived.
   /// Throws ProgramError for an answer, or a payload that is too long.
   [[nodiscard]] virtual bool try_send(std::uint32_t target, Index packet, std::span<const std::byte> payload) = 0;
-  /// Sends values.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   [[nodiscard]] bool try_send(std::uint32_t target, Index packet, std::span<T> values) {
     return try_send(target, packet, std::span<const std::byte>(std::as_bytes(values)));
   }
-  /// Answers a packet that `target` sent and that is not answered yet: there is always room. Throws ProgramError if there is
-  /// none.
+  /// Answers a packet from `target` that is not answered yet, for which there is always space. Throws ProgramError if there is no
+  /// such packet.
   virtual void answer(std::uint32_t target, Index packet, std::span<const std::byte> payload = {}) = 0;
 
   /// Counts `count` operations, which take time on a modelled machine.
@@ -142,32 +141,32 @@ class Node {
   virtual std::byte* allocate_bytes(Index memory, std::size_t bytes) = 0;
 };
 
-/// What a node runs: never blocks, and touches nothing but its own state, its Node and what never changes.
+/// The code that a node runs. It never blocks, and accesses only its own state, its Node and immutable data.
 class Program {
  public:
   virtual ~Program() = default;
 
-  /// Takes a packet.
+  /// Processes a packet.
   virtual void receive(const Packet& packet) = 0;
-  /// One bounded piece of work. Whether there is more to do without a packet coming first.
+  /// Does one bounded piece of work. Returns whether there is more to do before another packet arrives.
   virtual bool work() = 0;
-  /// Whether it will neither work nor need a packet any more. The run ends when all have finished; if all stand still before, it
-  /// is refused with what each one says of itself.
+  /// Returns whether the program will neither work nor need another packet. The run ends when all programs have finished. In a
+  /// deadlock it fails with the description of each program.
   virtual bool finished() const = 0;
-  /// One line on where it is, for that.
+  /// Returns one line on the state, for deadlock messages.
   virtual std::string describe() const = 0;
 };
 
-/// An option of a program's own: a whole number.
+/// A program's own option: a whole number.
 struct NumberOption {
   std::string name;                ///< "--size"
-  std::uint32_t* value = nullptr;  ///< its default, and what is given
+  std::uint32_t* value = nullptr;  ///< the default, replaced by the given value
   std::uint32_t least = 0, most = 0;
   std::string description;
 };
 
-/// What programs leave behind in the end: P::outcome() const, a value, or a span of values, without pointers. Of a program
-/// without it: nothing. Asked for when other ranks wait: it is to be there, not to be worked out for long.
+/// The result of a node's program: P::outcome() const returns a value or a span of values, without pointers. Programs without it
+/// have none. It is called while other ranks wait, so it should return a stored result rather than compute for long.
 template <class T>
 struct OutcomeType {
   using Kept = T;
@@ -188,27 +187,27 @@ auto outcome_of(const P& program) {
 template <class P>
 using Outcome = typename OutcomeType<decltype(dmpc::outcome_of(std::declval<const P&>()))>::Kept;
 
-/// A program as its user meets it.
+/// A program and its user interface.
 template <class P>
 struct Application {
-  std::string description;  ///< what it does, a sentence
+  std::string description;  ///< one sentence on what it does
   std::vector<NumberOption> options = {};
-  /// The needs of `node_count` nodes. Called on every rank once the options are read. Throws UsageError for options that
-  /// contradict each other.
+  /// Returns the needs of a program on `node_count` nodes. Called on every rank after the options are read. Throws UsageError for
+  /// contradictory options.
   std::function<Needs(std::uint32_t node_count)> needs;
-  /// A node's program, on the rank where the node is.
+  /// Makes a node's program, on the node's rank.
   std::function<std::unique_ptr<P>(Node&)> make = [](Node& node) { return std::make_unique<P>(node); };
-  /// What the run came to, a line or several: printed, and a text in the file of --stats. What the nodes' programs left, in
-  /// order, wherever they were.
+  /// Returns the result of the run in one or more lines, which are printed and stored in the file of --stats. `outcomes` are
+  /// those of all nodes in order, on whatever rank they were.
   std::function<std::string(const std::vector<Outcome<P>>& outcomes)> result = {};
 };
 
-/// Options that do not go together, or not with the number of nodes.
+/// Options that are incompatible with each other or with the number of nodes.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An application with its programs' type erased; results are bytes.
+/// An application with type-erased programs; results are bytes.
 struct AnyApplication {
   std::string description;
   std::vector<NumberOption> options;
@@ -219,10 +218,10 @@ struct AnyApplication {
 };
 int run_any(int count, const char* const* words, const AnyApplication& application);
 
-/// Reads the command line, whose options --help lists (nodes, runner, machine, chaos, counters, trace, report and those of the
-/// program), runs the programs, prints what came of it, and returns the exit status of the process: 0 done, 1 bad input or an
-/// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 not enough memory, 130
-/// interrupted. Call it once, from main().
+/// Reads the command line (--help lists the options: nodes, runner, machine, chaos, counters, trace, report and those of the
+/// program), runs the programs, prints the result, and returns the exit status of the process: 0 done, 1 bad input or an output
+/// that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 not enough memory, 130 interrupted.
+/// Call it once, from main().
 template <class P>
 int run(int count, const char* const* words, const Application<P>& application);
 

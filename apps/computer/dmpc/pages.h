@@ -1,7 +1,8 @@
-// Tasks over pages, for the emulated computer: data that fit no node are spread over all of them in pages, and tasks read them
-// from wherever they run. The whole interface, beside the words of <dmpc/computer.h>.
+// Tasks over pages, for the emulated computer: data too large for one node are distributed over all nodes in pages, and tasks
+// read them from any node. This header and <dmpc/computer.h> are the whole interface.
 //
-// A task never waits: where its page is not at its node, it says so, others go on, and it is called again when the page has come.
+// A task never blocks: if a page is not at its node, it returns `absent`, other tasks run, and it is called again when the page
+// has arrived.
 #pragma once
 
 #include <dmpc/computer.h>
@@ -19,26 +20,26 @@
 
 namespace dmpc {
 
-/// The most operations that a program of tasks declares: look-ups of pages have prices of their own.
+/// The maximum number of operations that a program of tasks declares; page look-ups have their own prices.
 inline constexpr std::size_t task_operations_max = 8;
-/// What a place in the data is a multiple of, for Pages::find().
+/// The alignment of offsets for Pages::find().
 inline constexpr std::size_t find_alignment = 8;
 
-/// What came of a bounded step of a task.
+/// The result of a bounded step of a task.
 enum class Step : std::uint8_t {
   finished,
-  more,   ///< to be called again
-  absent  ///< the last page that it looked up is not here: to be called again when it is
+  more,   ///< call again
+  absent  ///< the last page looked up is not here: call again when it is
 };
 
-/// The data as a task sees them while it runs.
+/// A task's view of the data while it runs.
 class Pages {
  public:
-  /// The byte at `offset`, a multiple of find_alignment, and those behind it to the end of its page; nullptr if that is not
-  /// here. Until the next call.
+  /// Returns the bytes from `offset`, a multiple of find_alignment, to the end of its page; nullptr if the page is not here.
+  /// Valid until the next call.
   virtual const std::byte* find(std::uint64_t offset) = 0;
-  /// Whether the page of `offset` is here: then the value that lies there is put into `value`. Values lie at multiples of their
-  /// size, so that none lies in two pages.
+  /// Reads the value at `offset`; returns false if its page is not here. Values are aligned to their size, so that none crosses a
+  /// page boundary.
   template <class T>
   [[nodiscard]] bool read(std::uint64_t offset, T& value) {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 512 && (sizeof(T) & (sizeof(T) - 1)) == 0);
@@ -48,14 +49,14 @@ class Pages {
     }
     return place != nullptr;
   }
-  /// Counts `count` operations, which take time on a modelled machine. Look-ups are counted without it.
+  /// Counts `count` operations, which take time on a modelled machine. Look-ups are counted automatically.
   virtual void charge(Index operation, std::uint64_t count = 1) = 0;
 
  protected:
   ~Pages() = default;
 };
 
-/// A kind of task with its type erased: bytes in a node's memory.
+/// A type-erased kind of task: bytes in a node's memory.
 struct AnyTask {
   std::size_t task_bytes = 0, result_bytes = 0;
   std::function<void(std::byte* task, std::uint32_t number)> make;
@@ -63,20 +64,20 @@ struct AnyTask {
   std::function<void(const std::byte* task, std::byte* result)> put_result;
 };
 
-/// The computer that the command line asks for.
+/// The computer that the command line requests.
 class PagedComputer {
  public:
   virtual std::uint32_t node_count() const = 0;
   virtual std::size_t page_bytes() const = 0;
 
-  /// Runs tasks 0 .. count - 1 over `data`, of which every node gets its share of the pages, and each its part of the tasks in a
-  /// row. make(number) makes a task, a value without pointers of its own, which has
+  /// Runs tasks 0 .. count - 1 over `data`. Every node gets its share of the pages and a contiguous range of the tasks.
+  /// make(number) makes a task, a value without pointers that has
   ///
   ///   dmpc::Step run(dmpc::Pages& pages);   // one bounded step
   ///   Result result() const;                // asked for once, when it is finished
   ///
-  /// Nodes call it at the same time. Returns the results in order: the same on every computer, if they depend on the number and
-  /// the data alone. Caches are empty when a run begins.
+  /// Nodes call make() concurrently. Returns the results in order. They are identical on every computer if they
+  /// depend only on the number and the data. Caches are empty at the start of a run.
   template <class T, class Make>
   auto run(std::span<const T> data, std::uint32_t count, const Make& make);
 
@@ -89,18 +90,18 @@ class PagedComputer {
                        std::byte* results) = 0;
 };
 
-/// A program of tasks as its user meets it.
+/// A program of tasks and its user interface.
 struct PagedApplication {
-  std::string description;  ///< what it does, a sentence
+  std::string description;  ///< one sentence on what it does
   std::vector<NumberOption> options = {};
   std::vector<OperationNeed> operations = {};
-  /// All that it does, once the options are read: runs of tasks, one or several. Returns what they came to, a line or several.
-  /// Throws UsageError for options that do not go together.
+  /// Does the program's work after the options are read: one or more runs of tasks. Returns the result in one or more lines.
+  /// Throws UsageError for contradictory options.
   std::function<std::string(PagedComputer&)> act;
 };
 
 /// Reads the command line (nodes, runner, machine, chaos, pages, caches, counters, references, heat, trace, report, and the
-/// program's own options), acts, prints what came of it, and returns the exit status as dmpc::run() does. Call it once, from
+/// program's own options), calls `act`, prints the result, and returns the exit status as dmpc::run() does. Call it once, from
 /// main().
 int run_tasks(int count, const char* const* words, const PagedApplication& application);
 

@@ -1,6 +1,6 @@
-// A replacement policy of one's own for `dmpc study references` and `dmpc study cache`: a shared library, which they load by its
-// full path (--policy=/home/me/lib.so). A class derived from dmpc::Policy, and one line, DMPC_POLICY(Class, "name");, make it;
-// who writes in another language exports the table that this line makes, as the C symbol dmpc_policy. Needs no library of dmpc's.
+// A user-defined replacement policy for `dmpc study references` and `dmpc study cache`: a shared library that they load by its
+// full path (--policy=/home/me/lib.so). A class derived from dmpc::Policy and one line, DMPC_POLICY(Class, "name");, define it;
+// other languages export the table that this line defines, as the C symbol dmpc_policy. It needs no library of dmpc.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@ namespace dmpc {
 /// Version of this interface; dmpc refuses a library that was built for another one.
 inline constexpr std::uint32_t policy_version = 1;
 
-/// Decides which page leaves a full cache when another one arrives. Made anew for each cache, by Class(frame_count, node): a
-/// node's cache has frame_count > 0 frames, numbered from 0, which are filled in their order; no page leaves before all are.
-/// Pages are numbers that say nothing but which page it is. What is thrown ends the study with what it says.
+/// Decides which page leaves a full cache when another one arrives. One object is made for each cache, by Class(frame_count,
+/// node): a node's cache has frame_count > 0 frames, numbered from 0, which are filled in order; no page leaves before all are
+/// full. Page numbers are only identifiers. An exception ends the study with its message.
 class Policy {
  public:
   virtual ~Policy() = default;
-  /// The page in a frame is referenced again. References of one page in a row count as one, the first of a page that came is its
-  /// insert().
+  /// The page in a frame is referenced again. Consecutive references to one page count as one, and the first reference to an
+  /// arriving page is its insert().
   virtual void hit(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}
-  /// A page has come into a frame that was empty or is victim()'s.
+  /// A page has arrived in a frame that was empty or was returned by victim().
   virtual void insert(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}
-  /// The frame whose page leaves now for `incoming`, which insert() names next. Every frame has a page.
+  /// Returns the frame whose page is replaced by `incoming`, for which insert() is called next. Every frame has a page.
   virtual std::uint32_t victim(std::uint32_t incoming) = 0;
 };
 
-/// What a library exports. A function returns nullptr, or what went wrong, in words that last until the next call.
+/// The table that a library exports. Functions return nullptr, or an error message that is valid until the next call.
 struct PolicyTable {
   std::uint32_t version;  ///< policy_version
-  const char* name;       ///< column name: up to 32 letters, digits, "-", "_" or "."; no name of dmpc's own policies
+  const char* name;       ///< column name: up to 32 letters, digits, "-", "_" or "."; not the name of one of dmpc's own policies
   const char* (*make)(std::uint32_t frame_count, std::uint32_t node, void** policy);
   const char* (*hit)(void* policy, std::uint32_t page, std::uint32_t frame);
   const char* (*insert)(void* policy, std::uint32_t page, std::uint32_t frame);
@@ -40,7 +40,7 @@ struct PolicyTable {
 
 namespace policy_detail {
 
-/// What was thrown, in words.
+/// Returns the message of a thrown exception.
 template <class Call>
 const char* complaint_of(const Call& call) noexcept {
   static thread_local std::string said;
@@ -77,7 +77,7 @@ struct Calls {
 
 }  // namespace dmpc
 
-/// Once in a library, outside of any namespace.
+/// To be used once in a library, outside of any namespace.
 #define DMPC_POLICY(Class, name)                                                         \
   extern "C" __attribute__((visibility("default"))) const dmpc::PolicyTable dmpc_policy; \
   const dmpc::PolicyTable dmpc_policy = {dmpc::policy_version,                           \

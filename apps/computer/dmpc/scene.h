@@ -1,5 +1,5 @@
-// Scenes for programs that render in a way of their own: a database of records in pages, and pixels that look them up. Beside
-// <dmpc/pages.h>, whose words it uses, it needs no other header of dmpc's.
+// Scenes for programs that implement their own rendering strategy: a database of records in pages, and pixels that read it. This
+// header needs no other header of dmpc except <dmpc/pages.h>.
 #pragma once
 
 #include <dmpc/pages.h>
@@ -14,20 +14,21 @@
 
 namespace dmpc {
 
-/// A page from Pages::find() that is given to a pixel must be readable for this many bytes behind its end; their values do not
+/// A page from Pages::find() that is passed to a pixel must be readable for this many bytes past its end; their values do not
 /// matter.
 inline constexpr std::size_t overread_bytes = 32;
 
-/// A scene and a picture of it, one sample a pixel. Never changes: the programs of nodes may refer to it for what is no record.
+/// A scene and a picture of it with one sample per pixel. Immutable: nodes' programs may access everything except the records.
 class Scene {
  public:
-  /// A built-in one, such as "rings-3-t1", in pages of a power of two from 512 B to 64 KiB. Throws UsageError for anything else.
+  /// Loads a built-in scene, such as "rings-3-t1", with a page size that is a power of two from 512 B to 64 KiB. Throws
+  /// UsageError for anything else.
   Scene(const std::string& name, std::uint32_t width, std::uint32_t height, std::size_t page_bytes = 1024);
 
   std::uint32_t pixel_count() const;
   std::size_t page_bytes() const;
   std::uint32_t page_count() const;
-  /// All pages, one behind the other, and overread_bytes more that can be read.
+  /// Returns all pages consecutively, followed by overread_bytes more readable bytes.
   std::span<const std::byte> records() const;
 
   struct Data;
@@ -37,29 +38,29 @@ class Scene {
   std::shared_ptr<const Data> data_;
 };
 
-/// What a pixel's work is charged as, with prices on a core of today: the operations 0 .. scene_operation_count - 1 of a program
-/// that renders, which may have others behind them.
+/// Returns the operations charged for a pixel's work, with prices for a core of today: operations 0 .. scene_operation_count - 1
+/// of a program that renders, which may add its own after them.
 std::vector<OperationNeed> scene_operations();
 inline constexpr Index scene_operation_count = 8;
 
-/// What a pixel's rays bring, in units that can be added in any order.
+/// The contribution of a pixel's rays, in units that can be added in any order.
 struct Light {
   std::array<std::int64_t, 6> sums{};
 };
 
-/// Renders one pixel after the other, depth first.
+/// Renders one pixel at a time, depth first.
 class PixelTask {
  public:
-  /// Lies in `memory`, of memory_bytes(scene), as Node::allocate() gives it. The scene outlives it.
+  /// Uses `memory` of memory_bytes(scene) bytes, as returned by Node::allocate(). The scene outlives this object.
   PixelTask(const Scene& scene, std::span<std::byte> memory);
   static std::size_t memory_bytes(const Scene& scene);
-  /// In memory that is no node's, for what is done before the start.
+  /// Uses memory outside of the nodes, for work before the start.
   explicit PixelTask(const Scene& scene);
 
   void start(std::uint32_t pixel);
-  /// Traces one ray, or goes on with it. One page at a time is enough to come to the end.
+  /// Traces or continues one ray. The task completes even if only one page is available at a time.
   Step run(Pages& pages);
-  /// The light of the pixel that has finished.
+  /// Returns the light of the finished pixel.
   Light light() const;
 
  private:
@@ -67,11 +68,11 @@ class PixelTask {
   PixelTask(const Scene& scene, std::shared_ptr<std::byte[]> memory);
 
   const Scene* scene_;
-  std::shared_ptr<std::byte[]> own_;  ///< if it is no node's
+  std::shared_ptr<std::byte[]> own_;  ///< only if the memory is not a node's
   State* state_;
 };
 
-/// The picture that pixels add up to.
+/// The picture to which pixels are added.
 class Picture {
  public:
   explicit Picture(const Scene& scene);
@@ -80,7 +81,7 @@ class Picture {
   Picture& operator=(const Picture&) = delete;
 
   void put(std::uint32_t pixel, const Light& light);
-  /// 16 digits: the film_hash that `dmpc render --stats` has of the same picture.
+  /// Returns 16 digits: the film_hash in `dmpc render --stats` for the same picture.
   std::string hash() const;
 
  private:
