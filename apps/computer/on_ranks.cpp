@@ -17,7 +17,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The file that this process runs.
+/// Returns a digest of this process's executable.
 std::uint64_t program_digest() {
   std::ifstream file("/proc/self/exe", std::ios::binary);
   std::ostringstream bytes;

@@ -17,8 +17,8 @@ struct RankNeeds {
   Compatibility alike = {};           ///< what must be equal on all ranks, besides the program's words
 };
 
-/// Runs act() as one of the ranks, with as many nodes as there are processors for them where the options do not say it; returns
-/// the exit status, rank 0's. `needs` is called when the options say how many nodes there are. Throws as run_as_rank() does.
+/// Runs act() as one of the ranks. By default there are as many nodes as processors. Returns rank 0's exit status. `needs` is
+/// called once the number of nodes is known. Throws as run_as_rank() does.
 int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
                  const std::function<int(RankRounds&)>& act);
 

@@ -70,14 +70,14 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
   }
 }
 
-/// How many times as long as a core of today a machine takes for arithmetic, by the tests of a triangle: floating-point
-/// multiplications and additions for the most part.
+/// Returns the ratio of the machine's time for arithmetic to that of a core of today, measured by triangle tests, which are
+/// mostly floating-point multiplications and additions.
 double slowdown_of(const nodes::Machine& machine) {
   constexpr auto arithmetic = static_cast<std::size_t>(core::Charge::triangle_test);
   return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
 }
 
-/// With a renderer's prices.
+/// Returns the requested machine, with a renderer's prices.
 nodes::Machine asked_machine(const ProgramOptions& options) {
   nodes::Machine machine = load_machine(options.machine_name).machine;
   if (options.topology && *options.topology != machine.topology) {

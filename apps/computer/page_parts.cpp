@@ -15,7 +15,7 @@
 namespace dmpc::apps::html {
 namespace {
 
-/// What dmpc itself says of rays and pictures, in words for any program.
+/// Replaces dmpc's own explanations, which mention rays and pictures, for any program.
 constexpr std::array own_words = {
     GlossaryEntry{"chaos", "A seed disturbs the computer: packets are delayed, nodes pause, credits shrink."},
     GlossaryEntry{"computing", "Time in which a node's program works, by the operations that it charges."},
@@ -32,7 +32,7 @@ constexpr std::array own_words = {
     GlossaryEntry{"step", "One call of a task; if its page is absent, the task is called again when the page has arrived."},
 };
 
-/// What dmpc says of these, any program would.
+/// Terms whose explanations in dmpc apply to any program.
 constexpr std::array<std::string_view, 14> common_words = {
     "asleep", "cache", "eviction",           "fault",          "fetch",   "lru", "node", "idle at the end", "service while idle",
     "link",   "p95",   "service while busy", "stack distance", "topology"};

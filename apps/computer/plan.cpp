@@ -17,7 +17,7 @@ namespace {
 static_assert(small_bytes_max == nodes::small_payload_bytes && packets_max == nodes::packet_kind_count &&
               operations_max == nodes::charge_count);
 
-/// No computer has more for a node; sums of all that a run needs stay below 2^64.
+/// Limits above any real computer's; with them sums of all that a run needs stay below 2^64.
 constexpr std::size_t packet_bytes_max = std::size_t{1} << 30, memory_bytes_max = std::size_t{1} << 40,
                       node_bytes_max = std::size_t{1} << 44;
 
@@ -157,7 +157,7 @@ std::uint64_t ProgramPlan::digest() const {
   return digest.value();
 }
 
-/// What comes back with an answer may be fewer; what does not is all that there is.
+/// Chaos may reduce credits that return with answers, but not those that are a total.
 std::uint32_t ProgramPlan::credits(std::uint32_t source, std::uint32_t target, Index packet) const {
   const std::uint32_t count = requests_[packet] ? 0 : places(source, target, packet);
   return chaos_ && answers_[packet] ? nodes::shrunk_credits(*chaos_, count, static_cast<std::uint32_t>(packet)) : count;

@@ -20,13 +20,13 @@ namespace {
 
 /// Seconds after which a running call is reported.
 constexpr std::uint32_t timeout_seconds = 10;
-/// A fault so far below a call comes of its stack.
+/// A fault at an address this far below the start of a call is a stack overflow.
 constexpr std::size_t stack_bytes_max = std::size_t{64} << 20U, stack_bytes_min = std::size_t{4} << 10U;
 
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 struct Call {
-  const char* what = nullptr;  ///< nothing: none is under way
+  const char* what = nullptr;  ///< nullptr: no call is in progress
   std::uint32_t node = 0;
   const std::byte* stack = nullptr;  ///< where the call began
 };
@@ -35,10 +35,10 @@ thread_local Call call;
 
 nodes::CallBoard board(timeout_seconds);
 
-/// What is said before the program's name is known, or by a signal: the text has to be there.
+/// The prefix of messages before the program's name is known or from signal handlers, for which it must be static.
 std::array<char, 256> name_bytes{};
 
-/// By no stream, whose state is not known here.
+/// Uses no stream, whose state is unknown in a signal handler.
 void say(std::initializer_list<const char*> words) {
   for (const char* const word : words) {
     static_cast<void>(!::write(STDERR_FILENO, word, std::strlen(word)));
@@ -58,7 +58,7 @@ bool is_of_stack(int signal, const siginfo_t& info) {
          depth < static_cast<std::ptrdiff_t>(stack_bytes_max);
 }
 
-/// The signal then ends the process as it would have: SA_RESETHAND.
+/// The signal then ends the process as usual: SA_RESETHAND.
 void end_crash(int signal, siginfo_t* info, void* /*context*/) {
   remove_files_under_way();
   if (call.what != nullptr) {
@@ -112,7 +112,7 @@ ProgramEnds::ProgramEnds(const std::string& name) : before_(std::make_unique<Act
   [[maybe_unused]] struct sigaction action {};
   action.sa_sigaction = end_crash;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_SIGINFO | SA_ONSTACK;
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which tell more of a crash
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers report more about a crash
   for (std::size_t i = 0; i < crashes.size(); ++i) {
     ::sigaction(crashes[i], &action, &before_->action[i]);
   }

@@ -23,7 +23,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// What to do, from the line; nothing if help was printed.
+/// Parses the command line and runs the program; returns nothing if help was printed.
 int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt& interrupt) {
   CommandLine line(program.description, DMPC_VERSION, "", call.name);
   program.declare(line.own_options());
@@ -40,7 +40,8 @@ int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt&
 }
 
 int complain(const std::string& name, const std::string& message, int status) {
-  std::cerr << name + ": " + with_words_clipped(message) + "\n" << std::flush;  // whole, where several processes share it
+  std::cerr << name + ": " + with_words_clipped(message) + "\n"
+            << std::flush;  // in one piece, since several processes may share stderr
   return status;
 }
 
@@ -75,7 +76,7 @@ int status_of(const ProgramCall& call, const ProgramMain& program) {
 
 int run_main(int count, const char* const* words, const ProgramMain& program) {
   const std::string name = count > 0 ? std::filesystem::path(words[0]).filename().string() : "program";
-  const ShownOutput errors(std::cerr);  // programs' own words, too
+  const ShownOutput errors(std::cerr);  // also for the programs' own output
   std::optional<ShownOutput> output;
   if (::isatty(STDOUT_FILENO) == 1) {
     output.emplace(std::cout);

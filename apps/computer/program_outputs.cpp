@@ -105,7 +105,7 @@ void add_memory(Page& page, const ProgramRecord& record) {
   page.add_table(table);
 }
 
-/// Says which run was watched; nothing if there was only one.
+/// Returns which run was observed; nothing if there was only one.
 std::string remark_on_runs(const ProgramRecord& record) {
   return record.tasks.run_count <= 1 ? "" : "Of the last of " + counted(record.tasks.run_count, "run") + ".";
 }
@@ -168,8 +168,8 @@ void add_pages(Page& page, const ProgramRecord& record) {
 
 Facts results_of(const ProgramRecord& record) { return record.run_hash ? Facts{{"run", hash_text(*record.run_hash)}} : Facts(); }
 
-/// The whole document. Of tasks, counters are of all runs together, and what was watched is of the last one. Requires a record
-/// with a view. Throws core::InputError if no temporary file can be written.
+/// Writes the whole document. For tasks, counters cover all runs together, and observations the last one. Requires a record with
+/// a view. Throws core::InputError if no temporary file can be written.
 void write_program_page(const ProgramRecord& record, std::ostream& output) {
   core::expect(record.view.has_value(), "a page that is written was looked on for");
   const bool has_pages = record.vocabulary.has_pages();
@@ -220,7 +220,7 @@ void write_program_references(const ProgramRecord& record, std::ostream& output)
   write_references(output, record.tasks.references, record.options.tasks.page_size_bytes);
 }
 
-/// The files that a program reads.
+/// Returns the files that a program reads.
 std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
   const bool reads_file = options.is_modelled() && find_machine_preset(options.machine_name) == nullptr;
   return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();

@@ -18,12 +18,12 @@ namespace dmpc::apps::html {
 namespace {
 
 constexpr std::size_t tasks_listed = 20;
-/// A map of heat has as many columns for a node's tasks, at most.
+/// The maximum number of columns for a node's tasks in a heat map.
 constexpr std::size_t heat_columns_max = 128;
 
 const nodes::Machine* machine_of(const ProgramRecord& record) { return record.options.computer.model(); }
 
-/// Counts, or nanoseconds of computing.
+/// Returns counts, or nanoseconds of computing.
 double heat_of(const nodes::Machine* machine, const svm::TaskTaken& taken, TaskHeatKind kind) {
   switch (kind) {
     case TaskHeatKind::faults:
@@ -52,7 +52,7 @@ std::vector<double> heat_by_task(const ProgramRecord& record, TaskHeatKind kind)
   return heat;
 }
 
-/// Cuts the tasks that one node has in a row into `columns` parts as equal as can be, and appends the mean of each.
+/// Divides a node's consecutive tasks into `columns` parts of nearly equal size, and appends the mean of each.
 void append_means(std::vector<double>& means, std::span<const double> tasks, std::size_t columns) {
   for (std::size_t column = 0; column < columns; ++column) {
     const std::size_t first = tasks.size() * column / columns, end = tasks.size() * (column + 1) / columns;
@@ -61,7 +61,7 @@ void append_means(std::vector<double>& means, std::span<const double> tasks, std
   }
 }
 
-/// By the packets that a node waits for.
+/// Losses by the packets that a node waits for.
 Losses packet_losses(const ProgramRecord& record) {
   Losses losses{.parts = {"computing"}, .is_virtual = true};
   for (const NamedPacket& packet : record.vocabulary.packets) {
@@ -78,7 +78,7 @@ Losses packet_losses(const ProgramRecord& record) {
   return without_empty_parts(losses);
 }
 
-/// What the program's own pieces of memory take.
+/// Returns the bytes of the program's own pieces of memory.
 std::size_t used_bytes(const ProgramNode& node) {
   return std::accumulate(node.used_bytes.begin(), node.used_bytes.end(), std::size_t{0});
 }

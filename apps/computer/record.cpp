@@ -16,13 +16,13 @@ namespace {
 
 using ActivityNames = std::array<const char*, span_names.size()>;
 
-/// What a program does without an operation of its own.
+/// Names of activities that are not operations of the program.
 constexpr ActivityNames activity_names = {"compute", "compute", "compute",      "compute",    "compute",
                                           "compute", "serve",   "send packets", "take packet"};
 constexpr ActivityNames task_activity_names = {"compute", "compute",    "install page", "compute",    "compute",
                                                "compute", "serve page", "send packets", "take packet"};
 
-/// Links count frames and their bytes from the beginning, runners the rest in each run.
+/// Links count frames and their bytes cumulatively, runners count the rest per run.
 void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::RankFigures>& more) {
   for (std::size_t rank = 0; rank < more.size(); ++rank) {
     const nodes::RankTraffic before = rank < sums.size() ? sums[rank].traffic : nodes::RankTraffic{};
@@ -34,7 +34,7 @@ void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::R
   }
 }
 
-/// "; 1,200 packets between 3 ranks"; empty where there are none.
+/// Returns "; 1,200 packets between 3 ranks"; empty without ranks.
 std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
   std::uint64_t packets = 0;
   for (const nodes::RankFigures& rank : ranks) {
@@ -43,7 +43,7 @@ std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
   return ranks.empty() ? "" : "; " + counted(packets, "packet") + " between " + counted(ranks.size(), "rank");
 }
 
-/// "83.5 us of virtual time, 12.0 % of it computing", or by the wall clock.
+/// Returns "83.5 us of virtual time, 12.0 % of it computing", or the same by the wall clock.
 std::string time_text(const ProgramRecord& record, const ProgramNode& sum) {
   if (!record.virtual_ns) {
     return seconds_text(record.wall_seconds);

@@ -1,4 +1,4 @@
-// Runs a program that declares its packets: from its options to what came of it.
+// Runs a program that declares its packets, from its options to its results.
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,7 +48,7 @@ const HostedProgram& hosted(nodes::Runner& runner, std::size_t index) {
   return static_cast<const HostedProgram&>(runner.program(index));
 }
 
-/// Each node's program is made, on ranks everybody's.
+/// Makes the runner and each node's program; with ranks it waits for all of them.
 std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecification>& all, const ProgramOptions& options,
                                            ProgramObserver& observer, RankRounds* rounds) {
   const nodes::RankLinks* const links = options.computer.ranks;
@@ -62,7 +62,7 @@ std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecific
   return runner;
 }
 
-/// Who waits for whom, if all nodes stand still. To be called on all ranks.
+/// Returns which nodes wait for each other in a deadlock. To be called on all ranks.
 std::vector<std::vector<Unanswered>> awaited_of_all(nodes::Runner& runner, const ProgramPlan& plan) {
   const auto reported = runner.gather([&](std::size_t index) {
     return index == plan.node_count() ? std::string() : flat_bytes(hosted(runner, index).node().awaited());
@@ -74,8 +74,8 @@ std::vector<std::vector<Unanswered>> awaited_of_all(nodes::Runner& runner, const
   return awaited;
 }
 
-/// Whether it came to its end. If all stand still, throws what each node says, and who waits for whom; on other ranks than the
-/// first, which says it, that is no end.
+/// Returns whether the run completed. In a deadlock rank 0 throws each node's description and the cycle of waiting nodes; other
+/// ranks return false.
 bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt, bool is_first) {
   try {
     if (runner.run(interrupt.token()) == nodes::RunEnd::interrupted) {
@@ -88,7 +88,7 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
   }
 }
 
-/// What the programs leave, on rank 0. To be called on all ranks.
+/// Returns the programs' outcomes on rank 0. To be called on all ranks.
 std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& runner, const ProgramPlan& plan,
                                          const AnyApplication& application) {
   std::vector<std::string> outcomes;
@@ -112,7 +112,7 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
   return outcomes;
 }
 
-/// Each packet that has an answer was answered, by the end.
+/// Checks that every packet that has an answer was answered by the end.
 void check_answers(const ProgramRecord& record, const ProgramPlan& plan) {
   const std::vector<PacketNeed>& packets = plan.needs().packets;
   const nodes::TrafficByKind sent = record.sum().counters.sent;
@@ -127,7 +127,7 @@ void check_answers(const ProgramRecord& record, const ProgramPlan& plan) {
   }
 }
 
-/// On ranks, this one's part.
+/// Runs the plan; with ranks, this rank's part.
 int run_plan(const ProgramCall& call, const ProgramOptions& options, const ProgramPlan& plan, const AnyApplication& application,
              const Interrupt& interrupt, RankRounds* rounds) {
   const ProgramOutputs outputs = outputs_of(options);

@@ -1,4 +1,4 @@
-// Runs a program of tasks over pages: from its options to what came of it.
+// Runs a program of tasks over pages, from its options to its results.
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -61,7 +61,7 @@ void check_references(const OptionSet& options, const ProgramOptions& program) {
   }
 }
 
-/// Declares all that such a program has, and which go together.
+/// Declares all options of such a program and their compatibility checks.
 void add_task_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own) {
   add_computer_options(options, program, own);
   add_page_group(options, program.tasks);
@@ -78,13 +78,13 @@ void add_task_options(OptionSet options, ProgramOptions& program, const std::vec
   });
 }
 
-/// What a task can name.
+/// The offsets that a task may access.
 struct PagesBounds {
-  std::size_t data_bytes = 0;  ///< to the end of the last page
+  std::size_t data_bytes = 0;  ///< up to the end of the last page
   std::size_t operation_count = 0;
 };
 
-/// A node's pager as a task sees it, for the time of a step.
+/// A task's view of a node's pager, for the duration of a step.
 template <class Records>
 class PagesOf final : public Pages {
  public:
@@ -108,7 +108,7 @@ class PagesOf final : public Pages {
     }
     charge_within_bounds(charges_[charge_of(operation)], count, std::to_string(operation));
   }
-  /// The last place that was not here.
+  /// Returns the last address that was absent.
   core::Address absent() const {
     if (absent_ == core::no_address) {
       throw ProgramError("a task says that a page is absent, but all that it looked up was there");
@@ -144,7 +144,7 @@ svm::TaskKind<Records> kind_of(const AnyTask& task, const PagesBounds& bounds) {
           .put_result = task.put_result};
 }
 
-/// What all ranks must agree on before they run tasks.
+/// Describes what all ranks must agree on before they run tasks.
 std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::TaskKinds& kinds, std::span<const std::byte> data,
                          bool has_unique_bytes) {
   const std::string words = "run " + std::to_string(number) + " of " + counted(count, "task") + " of " +
@@ -159,13 +159,13 @@ std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::T
 
 class AskedComputer final : public PagedComputer {
  public:
-  /// `rounds`: where there are ranks, this one's.
+  /// `rounds` coordinates the ranks, if there are any.
   AskedComputer(const ProgramOptions& options, ProgramRecord& record, const Interrupt& interrupt, RankRounds* rounds)
       : options_(options), record_(record), interrupt_(interrupt), rounds_(rounds) {}
 
   std::uint32_t node_count() const override { return options_.computer.node_count; }
   std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
-  /// Puts what was seen of the last run into the record. Call it once, in the end.
+  /// Puts the observations of the last run into the record. Call it once, at the end.
   void take_run_profile() {
     if (last_observer_) {
       last_observer_->take(record_);
@@ -194,7 +194,7 @@ class AskedComputer final : public PagedComputer {
     return whole_pages;
   }
 
-  /// On ranks rank 0 alone gets all results.
+  /// With ranks only rank 0 gets all results.
   void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count,
                  std::span<std::byte> results) {
     const auto plan =
@@ -246,7 +246,7 @@ int end_tasks(AskedComputer& computer, ProgramRecord& record, const ProgramOutpu
   return end_program(record, outputs);
 }
 
-/// On ranks, this one's part.
+/// Runs the tasks; with ranks, this rank's part.
 int act_on_pages(const ProgramCall& call, ProgramOptions& options, const Vocabulary& vocabulary,
                  const PagedApplication& application, const Interrupt& interrupt, RankRounds* rounds) {
   const ProgramOutputs outputs = outputs_of(options);

@@ -29,8 +29,8 @@ Json operations_json(const ProgramRecord& record, const nodes::Charges& charges)
 
 Json pages_json(const svm::PageCounters& pages) {
   Json all = json_of(pages);
-  all.erase("hits");      // which follow
-  all.erase("distinct");  // which tasks do not count
+  all.erase("hits");      // added below
+  all.erase("distinct");  // not counted for tasks
   return all;
 }
 
@@ -57,7 +57,7 @@ Json times_json(const ProgramRecord& record, const nodes::VirtualTimes& times) {
           {"end_ns", times.end_ns}};
 }
 
-/// What one node of a program of tasks did, or all of them.
+/// Returns the counters of one node of a program of tasks, or of all nodes.
 Json task_node_json(const ProgramRecord& record, const ProgramNode& node) {
   return {{"pages", pages_json(node.pages)},
           {"packets", traffic_json(record, node.counters.sent)},

@@ -8,7 +8,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// More are counted, not named.
+/// Further entries are counted, not named.
 constexpr std::size_t waiting_named_max = 3;
 constexpr std::size_t circle_named_max = 16;
 
@@ -25,13 +25,13 @@ std::string list_text(const std::vector<Unanswered>& list, const std::string& ve
   return list.size() > waiting_named_max ? text + " and " + std::to_string(list.size() - waiting_named_max) + " more" : text;
 }
 
-/// From a node to one that it waits for.
+/// An edge from a node to one that it waits for.
 struct Step {
   std::uint32_t node = 0;
-  std::size_t place = 0;  ///< index of what it waits for
+  std::size_t place = 0;  ///< index of the awaited entry
 };
 
-/// Goes from node to node, deeper wherever nobody has been yet, until it comes to one on its way.
+/// Depth-first search for a cycle among unvisited nodes.
 class CircleSearch {
  public:
   explicit CircleSearch(const std::vector<std::vector<Unanswered>>& awaited) : awaited_(awaited), visits_(awaited.size()) {}
@@ -83,7 +83,7 @@ class CircleSearch {
   const std::vector<std::vector<Unanswered>>& awaited_;
   std::vector<Visit> visits_;
   std::vector<Step> way_;
-  std::vector<Step> circle_;  ///< from its least node on, each step to the next one's node
+  std::vector<Step> circle_;  ///< from its lowest node on; each step leads to the next one's node
 };
 
 }  // namespace

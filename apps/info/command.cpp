@@ -23,14 +23,13 @@ namespace dmpc::apps {
 
 namespace {
 
-/// The most memory that this process has held so far.
 std::uint64_t peak_bytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// Sets the options of a system that a forecast knows.
+/// Sets the options of a system that affect a forecast.
 void settle(const OptionSet& options, InfoOptions& info) {
   StrategyOptions run;
   run.pages = info.pages;
@@ -41,7 +40,7 @@ void settle(const OptionSet& options, InfoOptions& info) {
   info.balance = run.strategy == Strategy::dataflow ? run.rays.balance : info.balance;
 }
 
-/// A forecast of what needs the subject alone, with progress on a terminal.
+/// Forecasts from the subject alone, with progress on a terminal.
 Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
   Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Cutting space:", "computers");
   return forecast(

@@ -18,11 +18,11 @@ using core::PrimitiveKind;
 constexpr std::array<const char*, core::primitive_kind_count> leaf_names = {"leaves of triangles", "leaves of spheres",
                                                                             "leaves of cones"};
 constexpr const char* place_leaf_name = "leaves of places";
-/// What grows with triangles and places, beside leaves.
+/// Records besides leaves whose bytes grow with triangles and instances.
 constexpr std::array<const char*, 5> geometry_names = {"bvh_nodes", place_leaf_name, "places of meshes", "normals",
                                                        "textured triangles"};
 
-/// Goes through the trees below all macro cells.
+/// Traverses the trees below all macro cells.
 class TreeTraversal {
  public:
   explicit TreeTraversal(const core::Database& database) : records_(database.bytes()) {
@@ -55,7 +55,7 @@ class TreeTraversal {
     }
   }
 
-  /// Below a leaf of places are the meshes that stand there, each looked at once.
+  /// Visits the base meshes below a leaf of instances, each once.
   void visit_leaf(core::Address address, std::uint64_t level) {
     const std::byte* const leaf = records_.find(address);
     const auto header = core::read<core::LeafHeader>(leaf);
@@ -89,7 +89,7 @@ class TreeTraversal {
   }
 
   core::LocalRecords records_;
-  core::AddressMap listed_;  ///< leaves of voxels, roots of meshes
+  core::AddressMap listed_;  ///< leaves of voxels, roots of base meshes
 };
 
 template <class Record>

@@ -46,7 +46,7 @@ class Forecaster {
     }
   }
 
-  /// Results of all computers together. All primary rays are assigned at once.
+  /// Returns the results of all computers. All primary rays are assigned at once.
   Forecast result() {
     stopwatch_.lap();
     const auto shares = dataflow::measure_shares(settings_, partitions_, parts_, {}, true, request_for({}).pixel_order());
@@ -82,7 +82,7 @@ class Forecaster {
   }
 
   bool can_share_out(std::uint32_t node_count) const { return dataflow::can_share_out(loads_.lattice, node_count, balance_); }
-  /// From the loads known already; on their nodes, since some primary rays are assigned to nodes by number.
+  /// Returns the regions for the known loads, on their nodes, since some primary rays are assigned to nodes by number.
   dataflow::Regions regions(std::uint32_t node_count) const {
     dataflow::Regions regions = dataflow::share_out(loads_, node_count, balance_).regions;
     if (dataflow::Bsp* const bsp = regions.bsp()) {

@@ -74,7 +74,7 @@ Json textures_json(const SceneFigures& scene) {
   return result;
 }
 
-/// Null where no mesh stands in several places.
+/// Returns null if no mesh has several instances.
 Json meshes_json(const InfoRecord& record) {
   const MeshFigures& meshes = record.scene.meshes;
   if (meshes.places == 0) {
@@ -164,7 +164,7 @@ std::string info_json(const InfoRecord& record) {
       {"homes", svm::name_of(record.forecast.homes)},
       {"computers", computers_json(record.forecast)},
       {"seconds", {{"load", record.load_seconds}, {"build", record.build_seconds}, {"regions", record.forecast.region_seconds}}}};
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names may not be valid UTF-8
 }
 
 }  // namespace dmpc::apps

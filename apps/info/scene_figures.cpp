@@ -25,7 +25,7 @@ ObjectCounts count_own(const core::Scene& scene) {
   return counts;
 }
 
-/// With all copies of base meshes, whether the scene has them or not.
+/// Counts all copies of base meshes, whether the scene stores them or not.
 ObjectCounts count_objects(const core::Scene& scene) {
   ObjectCounts counts = count_own(scene);
   if (leaves_copies_out(scene)) {

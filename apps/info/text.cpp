@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t lights_shown_max = 8;
 
-/// "7,381 spheres, 1 polygon".
+/// Returns "7,381 spheres, 1 polygon".
 std::string objects_text(const SceneFigures& scene) {
   constexpr std::array<const char*, object_kind_count> names = {"polygon", "patch with normals", "textured patch", "sphere",
                                                                 "cone"};
@@ -37,7 +37,7 @@ std::string primitives_text(const DatabaseFigures& database) {
          (duplicates.empty() ? "" : "; " + duplicates);
 }
 
-/// Only where there is something to say.
+/// Empty if rounding has no effect.
 std::string rounding_line(const core::RoundingLoss& loss) {
   const std::string text = loss_text(loss);
   return text.empty() ? "" : "\nrounding   " + text;
@@ -78,7 +78,7 @@ std::string database_text(const DatabaseFigures& database) {
          fixed(database.copies_each(), 2) + " copies of each";
 }
 
-/// Only where a mesh stands in several places.
+/// Empty if no mesh has several instances.
 std::string meshes_line(const InfoRecord& record) {
   const MeshFigures& meshes = record.scene.meshes;
   if (meshes.places == 0) {
@@ -116,7 +116,7 @@ std::string process_text(const InfoRecord& record) {
          " used until the database was built; a render uses more than this, and more than its nodes take";
 }
 
-/// With the computers that a render would refuse.
+/// Includes the computers on which a render would be refused.
 std::string room_text(const InfoRecord& record) {
   std::string too_large;
   for (const ComputerForecast& computer : record.forecast.computers) {
@@ -137,7 +137,7 @@ std::string time_text(const InfoRecord& record) {
          seconds_text(record.forecast.region_seconds);
 }
 
-/// Only where one was asked about.
+/// Empty if no system is requested.
 std::string system_line(const InfoRecord& record) {
   if (!record.system) {
     return "";
@@ -169,7 +169,7 @@ Table textures_table(const SceneFigures& scene) {
   return table;
 }
 
-/// The least memory of a node, and what all take together by default; nothing if there is no such computer.
+/// Adds the minimum memory of a node, and the default total; nothing for an impossible computer.
 void add_cells(std::vector<Cell>& row, const std::optional<MemoryForecast>& memory) {
   if (!memory) {
     row.resize(row.size() + 2);

@@ -21,7 +21,7 @@
 
 namespace dmpc::apps {
 
-/// apps/python/dmpc/policies.py, which python3 is started with: made a text when dmpc is built.
+/// The text of apps/python/dmpc/policies.py, embedded when dmpc is built, with which python3 is started.
 extern const char* const policy_driver;
 
 namespace {
@@ -76,7 +76,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What the process has said last, or how it ended.
+/// Returns the last message of the process, or how it ended.
 std::string complaint_of(const ChildProcess& process, int status) {
   std::string said = process.errors();
   said.resize(std::min(said.find_last_not_of(" \n") + 1, said.size()));
@@ -96,7 +96,7 @@ std::uint64_t number_in(const std::string& line) {
   return std::stoull(line);
 }
 
-/// Every error of a policy is reported with its name.
+/// Reports every error of a policy with its name.
 template <class Do>
 auto reported_of(const std::string& place, const Do& made) {
   try {
@@ -139,7 +139,7 @@ std::vector<std::uint64_t> ForeignPolicy::misses(std::span<const svm::PageId> re
   });
 }
 
-/// Messages go through files in memory, so that neither side ever waits for the other to read them.
+/// Messages are exchanged through memory files, so that neither side ever waits for the other to read them.
 std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> references,
                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
                                                 const std::function<void()>& check, const std::function<void()>& fed) const {

@@ -1,5 +1,5 @@
-// The program dmpc_policy_host: feeds caches by a replacement policy from a shared library, which may crash, for dmpc, which
-// starts it.
+// The program dmpc_policy_host, which dmpc starts: simulates caches with a replacement policy from a shared library, which may
+// crash.
 
 #include <dmpc/policy.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The current call, for the report of a crash.
+/// The current call, for crash reports.
 struct UnderWay {
   const char* call = "";
   bool has_page = false;
@@ -39,7 +39,7 @@ UnderWay under_way;
 
 const PolicyTable* table = nullptr;
 
-/// Puts words and numbers one after the other, without memory of its own.
+/// Concatenates words and numbers without allocating memory.
 class Phrase {
  public:
   Phrase& operator<<(std::string_view words) {
@@ -63,8 +63,8 @@ class Phrase {
   char* at_ = text_.data();
 };
 
-/// In which call of the policy the process is, "victim(page 7) of fault 12, with 3 frames of node 0", or "". For who tells of a
-/// crash: takes no memory. Until the next call.
+/// Returns the policy's current call, "victim(page 7) of fault 12, with 3 frames of node 0", or "". Crash handlers may call it,
+/// since it allocates no memory. The result is valid until the next call.
 const char* policy_call_under_way() {
   static Phrase phrase;
   phrase.begin();
@@ -78,7 +78,7 @@ const char* policy_call_under_way() {
   return *under_way.call == '\0' ? "" : phrase.text();
 }
 
-/// Throws what the policy complains of, or lets pass what it throws though it should not.
+/// Throws the policy's error message; passes on exceptions that it should not throw.
 template <class Call>
 void call(const char* name, const Call& made) {
   under_way.call = name;
@@ -86,7 +86,7 @@ void call(const char* name, const Call& made) {
   std::string thrown;
   try {
     complaint = made();
-  } catch (const std::exception& error) {  // it was not made by DMPC_POLICY
+  } catch (const std::exception& error) {  // the library does not use DMPC_POLICY
     thrown = error.what();
     complaint = thrown.c_str();
   } catch (...) {
@@ -142,7 +142,7 @@ class LibraryPolicy final : public svm::ReplacementPolicy {
   void* policy_ = nullptr;
 };
 
-/// Throws core::InputError unless it is a policy of this version.
+/// Throws core::InputError unless the library exports a policy of this version.
 const PolicyTable* table_in(const std::string& path) {
   const Descriptor file = open_trusted(path);
   under_way.call = "the library's start";
@@ -173,9 +173,9 @@ nodes::MemoryPlan nothing(std::uint32_t /*frame_count*/) { return {}; }
 
 std::unique_ptr<svm::ReplacementPolicy> made(const svm::PolicySite& site) { return std::make_unique<LibraryPolicy>(site); }
 
-/// Opens the library at `path` and tells `answer` its policy's name, then the faults of each cache. Once in a process. Throws
-/// core::InputError: the file may not be opened (apps/frontend/system/trusted_path.h), is no library, has no policy or that of
-/// another version, or the policy complains, throws, or names a frame that there is not.
+/// Opens the library at `path` and passes to `answer` the policy's name, then the faults of each cache. Call it once in a
+/// process. Throws core::InputError if the file may not be opened (apps/frontend/system/trusted_path.h), is not a library, has no
+/// policy or one of another version, or if the policy reports an error, throws, or returns an invalid frame.
 void answer_by_library(const std::string& path, const PolicyRequest& request,
                        const std::function<void(const std::string& line)>& answer) {
   table = table_in(path);
@@ -190,7 +190,7 @@ bool is_done = false;
 
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
-/// Without memory, and perhaps on another stack.
+/// Allocates no memory, since it may run on a signal stack.
 void report_of_end(const char* how) {
   const char* const call = policy_call_under_way();
   say(*call == '\0' ? "its library" : call);
@@ -229,7 +229,7 @@ void watch_over_crashes() {
   static_cast<void>(std::atexit(report_of_exit));
 }
 
-/// Answers go where stdout went; what the library prints there goes to stderr.
+/// Answers go to the original stdout; the library's own stdout goes to stderr.
 void answer_to(int output, const std::string& path) {
   const PolicyRequest request = take_request(STDIN_FILENO);
   answer_by_library(path, request, [output](const std::string& line) {
@@ -257,5 +257,5 @@ int main(int count, char** values) {
     status = 1;
   }
   dmpc::apps::is_done = true;
-  ::_exit(status);  // whatever the library would do in the end
+  ::_exit(status);  // skips the library's exit handlers
 }

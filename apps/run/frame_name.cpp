@@ -8,12 +8,12 @@
 namespace dmpc::apps {
 namespace {
 
-/// Where in a name a number stands, and how many digits it has at least.
+/// The position of the number in a name, and its minimum number of digits.
 struct Place {
   std::size_t begin = 0, length = 0, digits = 0;
 };
 
-/// "%d" or "%04d" at `begin`.
+/// Parses "%d" or "%04d" at `begin`.
 std::optional<Place> printed_place(const std::string& name, std::size_t begin) {
   const std::size_t letter = name.find_first_not_of("0123456789", begin + 1);
   if (letter == std::string::npos || name[letter] != 'd') {

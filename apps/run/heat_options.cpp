@@ -16,7 +16,7 @@ using core::UsageError;
 
 std::string all_kinds() { return joined(core::heat_kind_names, "|"); }
 
-/// " Did you mean faults?"; empty if no kind is near.
+/// Returns " Did you mean faults?"; empty if no kind is similar.
 std::string kind_meant(const std::string& typed) {
   const std::vector<std::string> names(core::heat_kind_names.begin(), core::heat_kind_names.end());
   return core::did_you_mean(typed, names);

@@ -8,7 +8,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// An option, and why no mesh can be kept with it.
+/// An option that prevents keeping base meshes, and the reason.
 struct Hindrance {
   std::string option, reason;
 };

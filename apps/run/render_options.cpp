@@ -78,7 +78,7 @@ void check_tracer(const RenderOptions& render) {
   }
 }
 
-/// An option that does not go with one of the runners, and why.
+/// An option that is incompatible with a runner, and the reason.
 struct Conflict {
   const char* option;
   RunnerKind runner;
@@ -105,7 +105,7 @@ void check_tracer_and_runner(const RenderOptions& render) {
   }
 }
 
-/// Pages are referenced by svm's pagers alone, and by those that note references, not those that count pages.
+/// Only svm's pagers reference pages, and only those that record references rather than count pages.
 void check_references(const RenderOptions& render) {
   if (!render.references) {
     return;
@@ -124,7 +124,7 @@ void check_references(const RenderOptions& render) {
   }
 }
 
-/// What sees one run, or keeps it from being gone on with.
+/// Refuses options that observe a single run, or prevent continuing it.
 void check_frames(const OptionSet& options, const RenderOptions& render) {
   if (!render.frames.are_several()) {
     return;

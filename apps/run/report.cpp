@@ -10,7 +10,7 @@ namespace dmpc::apps {
 
 namespace {
 
-// Where the strategies call one thing by different names.
+// Maps the strategies' different names.
 std::uint64_t deposits_saturated(const svm::Report& report) { return report.host_deposits_saturated; }
 std::uint64_t deposits_saturated(const dataflow::Report& report) { return report.host_rays.deposits_saturated; }
 std::span<const char* const> kind_names(const svm::Report&) { return svm::kind_names; }

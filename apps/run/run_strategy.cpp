@@ -20,8 +20,8 @@ namespace dmpc::apps {
 
 namespace {
 
-/// A node of a modelled machine has one pixel, or bundle, under way and waits for its page, as those of the 1994 paper did;
-/// questions go by many.
+/// A node of a modelled machine has one pixel, or bundle, in flight and waits for its page, as in the 1994 paper; forest
+/// has many queries in flight.
 std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
   if (!options.computer.machine || options.strategy == Strategy::forest || options.pages.in_flight) {
     return options.pages.in_flight;
@@ -38,13 +38,13 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
   });
 }
 
-/// Here, which is rank 0 if there are several: the others look for themselves.
+/// On rank 0 if there are several; the other ranks check for themselves.
 template <class Plan>
 void check_room_for(const Plan& plan) {
   check_room(nodes::rank_memory(nodes::peers_of(plan), plan.request.computer.ranks, 0));
 }
 
-/// The network memory of the rank that has most.
+/// Returns the largest network memory of a rank.
 template <class Plan>
 nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks& links) {
   nodes::NetworkMemory most;
@@ -55,7 +55,7 @@ nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks
   return most;
 }
 
-/// The plan's, and what each rank sets aside beside it.
+/// Returns the plan's memory plus each rank's own.
 template <class Plan>
 std::vector<std::string> notes_of(const Plan& plan) {
   std::vector<std::string> notes = plan.notes;
@@ -67,7 +67,7 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
-/// svm, replicated and forest.
+/// For svm, replicated and forest.
 ReadyRun ready_with_pages(const svm::Strategy& strategy, const StrategyOptions& options, const core::Database& database,
                           const core::RenderSettings& settings, const nodes::Watching& watching,
                           const core::Continuation& continuation) {

@@ -21,7 +21,7 @@ using core::UsageError;
 struct StrategyKind {
   Strategy strategy;
   const char* name;
-  const svm::Strategy* (*with_pages)();  ///< what svm's library has for it
+  const svm::Strategy* (*with_pages)();  ///< the strategy of the svm library
 };
 constexpr StrategyKind strategy_kinds[] = {
     {Strategy::svm, "svm", svm::svm_strategy},
@@ -164,7 +164,7 @@ DatabaseOptions usual_database(Strategy strategy) {
 void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database) {
   const core::BuildOptions usual = usual_database(strategy).build;
   core::BuildOptions& build = database.build;
-  if (!options.is_given("--structure") && !options.is_given("--system")) {  // a system has one
+  if (!options.is_given("--structure") && !options.is_given("--system")) {  // a system sets the structure itself
     build.structure = usual.structure;
   }
   if (!options.is_given("--page-size")) {

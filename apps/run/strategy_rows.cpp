@@ -26,7 +26,7 @@ constexpr const char* works_on_region = "a node of dataflow works on the rays th
 constexpr const char* share_out_pixels = "the other strategies divide pixels, not space";
 constexpr const char* rays_stay = "rays of the other strategies do not travel";
 
-/// As many as there are when an option is declared.
+/// The policies that exist when the option is declared.
 OptionSet::Choices<svm::Replacement> policy_choices() {
   OptionSet::Choices<svm::Replacement> all;
   for (const svm::PolicyKind& kind : svm::policy_kinds()) {
@@ -57,7 +57,7 @@ std::vector<Row> joined(std::vector<Row> rows, const std::vector<Row>& more) {
   return rows;
 }
 
-/// Where pages are.
+/// Rows about page placement.
 std::vector<PageRow> rows_of_pages() {
   using svm::PageHomes;
   return {
@@ -93,7 +93,7 @@ std::vector<PageRow> rows_of_pages() {
   };
 }
 
-/// Who renders what.
+/// Rows about the assignment of pixels.
 std::vector<PageRow> rows_of_pixels() {
   using svm::PixelShares, svm::WorkDonor;
   return {
@@ -181,7 +181,7 @@ std::vector<BalanceRow> make_balance_rows() {
   };
 }
 
-/// Packets of rays, and space for them.
+/// Rows about packets of rays and their memory.
 std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
@@ -209,7 +209,7 @@ std::vector<RayRow> rows_of_packets() {
   };
 }
 
-/// What a node does with rays.
+/// Rows about the processing of rays at a node.
 std::vector<RayRow> rows_of_rays() {
   return {
       {.name = "--ray-queue",
@@ -237,7 +237,7 @@ std::vector<RayRow> rows_of_rays() {
   };
 }
 
-/// A row's value in a plan; a flag that its strategy does not have is off.
+/// Returns a row's value in a plan; a flag that the strategy does not have is off.
 template <class Options, class Plan, class OtherPlan>
 OptionValue reported_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
   if constexpr (std::is_same_v<Plan, OtherPlan>) {
@@ -248,13 +248,13 @@ OptionValue reported_of(const OptionRow<Options, Plan>& row, Strategy strategy, 
   }
 }
 
-/// No option has it: the wiring is the machine's.
+/// It has no option: the topology is the machine's.
 constexpr std::string_view topology_key = "topology";
 
 OptionValue topology_of(const svm::Plan&) { return {}; }
 OptionValue topology_of(const dataflow::Plan& plan) { return name_of(*plan.request.rays.topology); }
 
-/// The keys are an interface, and their order has always been this.
+/// The keys and their order are an interface.
 template <class Reported>
 std::vector<Reported> in_order(std::vector<Reported> reported) {
   const auto policy =

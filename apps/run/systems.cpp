@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 namespace {
 
-// Who shared out space had plain cells with lists of what lies in them.
+// Systems that partitioned space had plain cells with lists of their contents.
 constexpr core::Structure cells = core::Structure::voxels, boxes = core::Structure::extents;
 constexpr std::array<SystemDescription, 13> descriptions = {{
     {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture", cells,
@@ -61,7 +61,7 @@ std::string text_of_value(const T& value) {
   return std::string(name_of(value));
 }
 
-/// What a system is made of. What it does not say is as `render` has it.
+/// The settings of a system; others have render's defaults.
 struct SystemSettings {
   Strategy strategy = Strategy::svm;
   core::Structure structure = core::Structure::grid;
@@ -113,7 +113,7 @@ constexpr SystemSettings settings_of(System system) {
   return {.strategy = Strategy::dataflow, .balance = Balance::moving, .regions_a_node = 16};
 }
 
-/// Calls visit(option, field, value) for all that the system is made of.
+/// Calls visit(option, field, value) for each setting of the system.
 template <class Visit>
 void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& database, const Visit& visit) {
   const SystemSettings settings = settings_of(system);
@@ -140,7 +140,7 @@ const SystemDescription& description_of(System system) {
   return *found;
 }
 
-/// Whether a structure that is asked for may stand in place of the system's own of today: that which it had, and for a grid
+/// Returns whether a requested structure may replace the system's present one: its original structure, and for a grid also
 /// voxels, which are one.
 bool may_have(System system, core::Structure structure) {
   return structure == description_of(system).had ||

@@ -30,7 +30,7 @@ TraceWindow parse_trace_window(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, ',');
   TraceWindow window;
   if (parts.size() != 2 || text == ",") {
-    parse_time_ns("", text);  // says what is expected
+    parse_time_ns("", text);  // throws with the expected format
   }
   if (!parts[0].empty()) {
     window.from_ns = parse_time_ns(parts[0], text);

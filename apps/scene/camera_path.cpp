@@ -19,15 +19,15 @@ namespace {
 using core::Vec3d;
 using core::View;
 
-/// Lines of a path are some hundred bytes at most.
+/// Lines of a path have a few hundred bytes at most.
 constexpr std::size_t line_bytes_max = 4096;
 
-/// About the axis of unit length (O. Rodrigues, 1840).
+/// Rotates about an axis of unit length (O. Rodrigues, 1840).
 Vec3d turned_about(const Vec3d& axis, const Vec3d& v, double sine, double cosine) {
   return v * cosine + cross(axis, v) * sine + axis * (dot(axis, v) * (1 - cosine));
 }
 
-/// The weights of Hermite's cubic at `u`, from 0 to 1: of both ends and of the slopes there.
+/// Weights of cubic Hermite interpolation at `u`, from 0 to 1: of both ends and their slopes.
 struct Weights {
   double begin, begin_slope, end, end_slope;
 
@@ -38,14 +38,14 @@ struct Weights {
         end_slope(u * u * (u - 1)) {}
 };
 
-/// Four keyframes about a frame: the two between which it lies, and their neighbours, or themselves where there are none.
+/// The two keyframes around a frame, and their neighbours; a missing neighbour is replaced by the keyframe itself.
 struct Around {
   std::array<const Keyframe*, 4> keys;
 
   double span(std::size_t from, std::size_t to) const {
     return static_cast<double>(keys[to]->frame) - static_cast<double>(keys[from]->frame);
   }
-  /// `of(view)` at the frame.
+  /// Interpolates `of(view)` at the frame.
   template <class Of>
   auto at(double u, const View& own, const Of& of) const {
     const auto value = [&](std::size_t i) { return of(view_at(keys[i]->camera, own)); };
@@ -75,7 +75,7 @@ Keyframe keyframe_in(const std::string& line, const std::string& place) {
   }
 }
 
-/// Without a remark, and blanks around it.
+/// Removes the comment and surrounding blanks.
 std::string bare(std::string line) {
   line = line.substr(0, line.find('#'));
   constexpr const char* blanks = " \t\r\v\f";
@@ -132,7 +132,7 @@ void CameraPath::set_scene(const View& own, const core::Box& bounds) {
   pivot_ = pivot_of(own, bounds);
 }
 
-/// Round the pivot.
+/// Rotates around the pivot.
 View CameraPath::turned(std::uint64_t frame) const {
   View view = own_;
   // Exact: whole turns leave no remainder.

@@ -23,7 +23,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Benchmarks load a scene again and again; one saying is enough.
+/// Benchmarks load a scene repeatedly; one message is enough.
 void say_once(const std::vector<std::string>& notes) {
   static std::set<std::string> said;
   for (const std::string& note : notes) {
@@ -33,7 +33,7 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
-/// Whether the sky is not black in some direction.
+/// Returns whether the sky is not black in some direction.
 bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
   constexpr core::Vec3d black;
   return sky.is_picture() ? scene.sky.brightest > 0 || scene.background != black
@@ -42,13 +42,13 @@ bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
 
 bool has_what_shines(const core::Scene& scene) { return std::ranges::any_of(scene.materials, &core::Material::shines); }
 
-/// With path tracing a sky and emitters light the scene, too.
+/// With path tracing a sky and emitters also light the scene.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
   return !scene.lights.empty() || scene.ambient != core::Vec3d{} || (transport.sky && is_below_light(scene, *transport.sky)) ||
          (transport.is_by_paths() && has_what_shines(scene));
 }
 
-/// Note about a scene that is not lit, and may have a sky of its own.
+/// Returns a note about a scene that is not lit, and may have a sky of its own.
 std::string dark_text(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (has_what_shines(scene)) {
     return "its only lights are emissive surfaces, which light other things with --transport=paths only";
@@ -59,7 +59,7 @@ std::string dark_text(const core::Scene& scene, const TransportOptions& transpor
                                   : "");
 }
 
-/// Warns of pictures that are black, or nothing but background, because the scene is.
+/// Warns of pictures that are black, or show only background.
 void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport, bool has_sky) {
   if (object_count(scene) == 0) {
     say_once({scene.name + ": the scene is empty: the picture shows the background only"});
@@ -68,10 +68,10 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
   }
 }
 
-/// What comes of a mesh file beside its scene.
+/// The data of a mesh file besides its scene.
 struct Surroundings {
   std::vector<MeshSky> skies;
-  StillScene still;  ///< without its view, if an animation is asked for
+  StillScene still;  ///< without its view, if an animation is requested
 };
 
 core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened,
@@ -86,7 +86,7 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   return std::move(file.scene);
 }
 
-/// Note about lights that --light-radius leaves unchanged.
+/// Returns a note about lights that --light-radius leaves unchanged.
 std::string points_text(std::uint64_t count) {
   return count == 0
              ? ""
@@ -94,7 +94,7 @@ std::string points_text(std::uint64_t count) {
                    ": as spheres of --light-radius they would contain the camera, or be too small or too far away to be seen";
 }
 
-/// Note about the bounces of the file, where no option sets others.
+/// Returns a note about the bounces in the file, if no option sets others.
 std::string bounces_text(const core::Scene& scene, const PictureOptions& picture) {
   const int bounces = depth_of(picture, scene) - 1;
   return bounces == picture.depth - 1 || !scene.bounces
@@ -107,7 +107,7 @@ constexpr const char* one_path_note = "one path per pixel gives mostly noise; mo
 
 constexpr const char* no_points_note = "--light-radius has no effect: there is no point light in the scene";
 
-/// What is to be done about a file that no reader reads.
+/// Returns advice about a file that no reader supports.
 std::string advice_on(const std::string& path, const std::string& ending) {
   constexpr std::array packed{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z", ".tgz"};
   constexpr std::array foreign{".wrl",  ".vrml", ".x3dv", ".blend", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".3dm", ".dxf",
@@ -141,12 +141,12 @@ core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int
       Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Making " + scene + ":", "rows");
       return landscape_scene(scene, mesh.copies, [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
     }
-    return core::built_in_scene(core::parse_scene_name(scene, landscape_families));  // throws, listing what there is
+    return core::built_in_scene(core::parse_scene_name(scene, landscape_families));  // throws, with a list of the names
   }
   return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, around) : load_nff(scene, pixels_max, notes, opened);
 }
 
-/// The sky stays where it is, whatever view is put in place of the scene's own.
+/// The sky stays where it is, whatever view replaces the scene's own.
 core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
                      OpenedFiles& opened, Surroundings& around) {
   core::Scene read = read_any(scene, mesh, pixels_max, notes, opened, around);
@@ -154,7 +154,7 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
   return read;
 }
 
-/// What surprises who gives a mesh a light of their own.
+/// Returns a note about unexpected shadows when a light is added to a mesh.
 std::string shadow_note(const SceneSetup& scene_setup) {
   const bool is_alone = !scene_setup.lights.empty() && !scene_setup.fill && !scene_setup.ambient;
   return is_alone

@@ -52,17 +52,17 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// What says how a picture is lit, in words that are not those of paths alone. Who says any of it gets that; how well it is
-/// rendered, and what is seen behind it, are other questions.
+/// Options that determine the lighting, except those of path tracing alone. Any of them overrides the default lighting; rendering
+/// quality and background do not.
 constexpr std::array said_of_light{"--transport", "--light", "--fill", "--ambient", "--convention"};
 
-/// The first of these words that is given, or nothing.
+/// Returns the first of these options that is given, or nothing.
 const char* light_said(const OptionSet& options) {
   const auto* const said = std::ranges::find_if(said_of_light, [&](const char* name) { return options.is_given(name); });
   return said == said_of_light.end() ? nullptr : *said;
 }
 
-/// A whole scene's own is what it is shown by, unless another is asked for.
+/// A complete scene's own sky is the default.
 std::optional<SkyChoice> sky_of(const PictureOptions& picture) {
   return picture.transport.sky ? picture.transport.sky : is_below_own_sky(picture.scene) ? own_sky(picture.scene) : mesh_sky();
 }
@@ -84,7 +84,7 @@ void present_mesh(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// What a quality says of cutoffs is for rays that are not chosen by chance.
+/// The cutoff of a quality applies only to transports without random choices.
 void refine_paths(PictureOptions& picture) {
   picture.cutoff = 0;
   if (picture.is_refined) {
@@ -98,7 +98,7 @@ void refine_paths(PictureOptions& picture) {
   }
 }
 
-/// A mesh that is shown by paths unless other light is asked for, below a sky that is asked for: what asks for it is named.
+/// Refuses --sky for a mesh if an option overrides the default lighting by paths; the error names that option.
 void check_presented(const OptionSet& options, const PictureOptions& picture) {
   if (!picture.presents_meshes || !is_mesh(picture.scene) || !picture.transport.sky || picture.transport.is_by_paths() ||
       options.is_given("--transport") || options.is_given("--background")) {
@@ -139,11 +139,11 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// A sample of a picture that is refined stands for half of the sides of what is its: its estimate of the error sees how samples
-/// differ, but not what all of them blur alike.
+/// A sample of a refined picture covers half of the pixel's sides, since the error estimate detects differences between samples,
+/// but not the blur that all of them share.
 double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
 
-/// What bounds of light ask of the transport, of whatever grid.
+/// Returns the transport for bounds of radiance, for which any grid will do.
 core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {0, 0, 1}); }
 
 }  // namespace
@@ -233,7 +233,7 @@ core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& 
 }
 
 double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
-  // A ray from the eye is like one that is reflected, one hit earlier.
+  // A ray from the eye corresponds to a reflected ray one hit earlier.
   return core::radiance_bound(scene, depth_of(options, scene) + 1, light_of(options));
 }
 

@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// What would not be read by its ending as what it is.
+/// Refuses a file extension for which the scene would be read back as another format.
 void check_ending(const core::SceneName& name, const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
@@ -38,7 +38,7 @@ void write_file(const core::SceneName& name, const std::filesystem::path& path, 
 void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostream& output) {
   interrupt.set_consequence("the output is incomplete");
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  output.exceptions(std::ostream::badbit);  // so that nothing is made that nobody reads any more
+  output.exceptions(std::ostream::badbit);  // so that generation stops once nobody reads the output
   try {
     NffWriter writer(output);
     core::generate_scene(name, writer);

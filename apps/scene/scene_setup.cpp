@@ -34,7 +34,7 @@ std::optional<Vec3d> parse_vector(const std::string& text) {
   return is_finite(vector) ? std::optional(vector) : std::nullopt;
 }
 
-/// With an up that goes with every direction if none is given.
+/// If no up vector is given, one that is valid for the direction is used.
 core::View view_of(const CameraChoice& camera) {
   const Vec3d direction = camera.at - camera.from;
   const bool is_upright = std::abs(direction.y) >= std::max(std::abs(direction.x), std::abs(direction.z));
@@ -59,7 +59,7 @@ const char* expected_instead(ViewFault fault) {
   return "";
 }
 
-/// Lights without a colour, which share what one would have, keep what they have without the fill.
+/// Lights without a colour, which share one total, keep the intensity that they have without the fill.
 void add_fill(double intensity, core::Scene& scene) {
   std::vector<core::PointLight> lights;
   for (const core::PointLight& light : scene.lights) {
@@ -71,7 +71,7 @@ void add_fill(double intensity, core::Scene& scene) {
   scene.lights = std::move(lights);
 }
 
-/// Nothing is to be said.
+/// Returns an empty note.
 std::string look(const CameraChoice& camera, core::View& view) {
   view = view_at(camera, view);
   if (fault_of(view)) {
@@ -80,13 +80,13 @@ std::string look(const CameraChoice& camera, core::View& view) {
   return "";
 }
 
-/// Up axis of a view of the whole scene, which is the file's.
+/// Returns the up axis of a view of the whole scene, which is the file's.
 UpAxis axis_of(const Vec3d& up) {
   const std::size_t axis = std::abs(up.x) > 0.5 ? 0 : std::abs(up.y) > 0.5 ? 1 : 2;
   return {axis, up[axis] < 0};
 }
 
-/// The file's own camera has no share in it: `view` is of the whole.
+/// Ignores the file's own camera: `view` shows the whole scene.
 std::string look_at_mesh(const SceneSetup& scene_setup, core::View& view) {
   const CameraChoice& camera = *scene_setup.camera;
   const SceneAxes axes = axes_of(scene_setup.mesh.up.value_or(axis_of(view.up)));
@@ -97,7 +97,7 @@ std::string look_at_mesh(const SceneSetup& scene_setup, core::View& view) {
   if (fault_of(view) != ViewFault::up) {
     return "";
   }
-  view.up = dot(direction, axes.up) > 0 ? axes.front : Vec3d{} - axes.front;  // in which no zero is negative
+  view.up = dot(direction, axes.up) > 0 ? axes.front : Vec3d{} - axes.front;  // avoids negative zeros
   return "--camera looks along the axis that points up: upwards in the picture is " + text_of(view.up) +
          ", as by --camera=" + text_of(camera.from) + "/" + text_of(camera.at) + "/" + text_of(view.up);
 }

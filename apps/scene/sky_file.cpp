@@ -17,10 +17,10 @@
 namespace dmpc::apps {
 namespace {
 
-/// As --sky takes numbers of colours.
+/// The range of colours in --sky.
 constexpr float light_max = 1e30F;
 
-/// Some programs leave less than nothing beside what is bright, as by sharp filters: that is black.
+/// Negative values, which some programs produce next to bright areas, for example by sharpening, count as black.
 bool is_light(float number) { return number >= -light_max && number <= light_max; }
 
 std::string size_text(const Image& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
@@ -54,7 +54,7 @@ void check_shape(const Image& image) {
   }
 }
 
-/// Makes black what is below 0; returns a line about it, or nothing.
+/// Sets negative values to 0; returns a note about them, or nothing.
 std::string blacken(Image& image, const std::string& path) {
   const auto is_below = [](float number) { return number < 0; };
   const auto first = std::ranges::find_if(image.rgb, is_below);

@@ -17,7 +17,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// `chose_copies`: --instances=auto did.
+/// `chose_copies`: --instances=auto chose copies.
 core::CopyLimits copy_limits(const PictureOptions& picture, bool chose_copies) {
   core::CopyLimits limits{.bytes_max = reader_memory_bytes_max()};
   if (chose_copies) {

@@ -17,12 +17,12 @@ namespace {
 using core::TransportKind;
 using core::UsageError;
 
-/// One fewer than below other skies.
+/// One less than under other skies.
 constexpr int bounces_below_picture_max = 253;
 constexpr const char* beside_sky =
     " does not go with --sky, nor with the default sky of a mesh without other light, since a sky is the background: give --sky "
     "alone, or --transport=whitted";
-/// Shares of light that are 1 but for rounding.
+/// The threshold for a gain above 1, with tolerance for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
 double parse_light_radius(const std::string& text) {
@@ -54,7 +54,7 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
   }
 }
 
-/// Whether it can be nothing but colours, well written or not: so what else there is is a file.
+/// Returns whether the text can only be colours, valid or not; other text is a file name.
 bool is_of_numbers(const std::string& text) {
   std::string rest = text;
   for (const std::string_view word : {"nan", "inf"}) {
@@ -65,7 +65,7 @@ bool is_of_numbers(const std::string& text) {
   return rest.find_first_not_of("0123456789+-.,/eE") == std::string::npos;
 }
 
-/// In the brightest channel of each way in which it sends light on.
+/// Returns the sum over all ways in which the material sends light on, each in its brightest channel.
 double share_sent_on(const core::Material& material) {
   if (material.microfacets.are_there()) {
     return core::sent_on_straight(material);
@@ -92,7 +92,7 @@ SkyChoice parse_sky(const std::string& text) {
     if (parts.size() <= 2) {
       return sky;
     }
-  } catch (const UsageError&) {  // it names a part alone
+  } catch (const UsageError&) {  // its message names only a part
   }
   throw UsageError(
       "--sky=" + text +

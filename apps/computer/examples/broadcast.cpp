@@ -1,12 +1,12 @@
-// Node 0 has data that all are to have: a broadcast, down a tree of any shape, in one piece or in many.
+// Node 0 has data that all nodes need: a broadcast down a tree of any shape, in one or more pieces.
 //
 //   broadcast --bytes=1000000 --runner=virtual --machine=hdr --nodes=16
 //
-// takes 173 us of virtual time down a binomial tree, in which who has the data gives them to one that has not, round after
-// round. With --children=1 the tree is a chain, and takes 648 us; with --pieces=64, too, 75.3 us. What one learns: a short
-// message takes what its tree is deep, a long one what each node has to send, and --pieces=N makes a chain the best tree for
-// the longest, since a node passes a piece on while the next one comes (R. Thakur, R. Rabenseifner, W. Gropp, "Optimization of
-// Collective Communication Operations in MPICH", 2005). On two nodes it measures what a message takes.
+// takes 173 us of virtual time down a binomial tree, in which each node with the data sends them to one without them, round after
+// round. With --children=1 the tree is a chain, and takes 648 us; with --pieces=64 as well, 75.3 us. Result: the time of a short
+// message depends on the depth of the tree, that of a long one on what each node has to send, and --pieces=N makes a chain the
+// best tree for the longest messages, since a node forwards a piece while the next one arrives (R. Thakur, R. Rabenseifner, W.
+// Gropp, "Optimization of Collective Communication Operations in MPICH", 2005). On two nodes it measures the time of a message.
 #include <dmpc/computer.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@ enum Memory : dmpc::Index { pieces, order };
 struct Tree {
   std::uint32_t bytes = 65536, children = 0, pieces = 1;
 
-  /// Size of a piece with its number in front.
+  /// Returns the size of a piece with its number in front.
   std::size_t piece_bytes() const { return sizeof(std::uint32_t) + (bytes + pieces - 1) / pieces; }
 
-  /// The `i`-th to whom `node` sends, if that is below the number of nodes. In a binomial tree all nodes below 2^r send to the
-  /// one 2^r further in round r.
+  /// Returns the `i`-th child of `node`, if that is below the number of nodes. In a binomial tree all nodes below 2^r send to the
+  /// node at distance 2^r in round r.
   std::uint64_t child(std::uint32_t node, std::uint32_t i) const {
     return children > 0 ? std::uint64_t{node} * children + i + 1 : node + (std::uint64_t{1} << (std::bit_width(node) + i));
   }
@@ -36,7 +36,7 @@ struct Tree {
   }
 };
 
-/// What the data are: byte `i` of a piece.
+/// Returns byte `i` of a piece's data.
 std::byte byte_of(std::uint32_t number, std::size_t i) { return static_cast<std::byte>((7 * std::size_t{number} + i) % 251); }
 
 class Broadcast final : public dmpc::Program {
@@ -61,7 +61,7 @@ class Broadcast final : public dmpc::Program {
     order_[here_++] = number;
   }
 
-  /// Sends one piece to one child; all children get a piece before the next one.
+  /// Sends one piece to one child; all children get a piece before the next one is sent.
   bool work() override {
     if (sent_ == here_ * child_count_) {
       return false;
@@ -81,7 +81,7 @@ class Broadcast final : public dmpc::Program {
            " children";
   }
 
-  /// Whether all that is here is as node 0 had it.
+  /// Returns whether all received data equal node 0's.
   std::uint32_t outcome() const {
     for (std::uint32_t number = 0; number < tree_.pieces; ++number) {
       for (std::size_t i = sizeof(number); i < tree_.piece_bytes(); ++i) {
@@ -110,8 +110,8 @@ class Broadcast final : public dmpc::Program {
   dmpc::Node& node_;
   Tree tree_;
   std::uint32_t child_count_, here_ = 0, sent_ = 0;
-  std::span<std::byte> pieces_;     ///< each behind its number
-  std::span<std::uint32_t> order_;  ///< in which they came
+  std::span<std::byte> pieces_;     ///< each after its number
+  std::span<std::uint32_t> order_;  ///< order of arrival
 };
 
 int main(int count, char** words) {

@@ -1,10 +1,9 @@
-// The clock as a replacement policy of one's own: a hand goes round the frames and takes the mark of a reference from each that
-// has one, until it finds one without (F. J. Corbato, "A Paging Experiment with the Multics System", 1968). A page that has just
-// come has a mark.
+// The clock as a user-defined replacement policy: a hand moves around the frames and clears the reference mark of each until it
+// finds one without a mark (F. J. Corbato, "A Paging Experiment with the Multics System", 1968). A newly arrived page has a mark.
 //
 //   dmpc study references trace.csv --policy=$PWD/build/libclock_policy.so
 //
-// has a column beside dmpc's own clock, with the same faults. What one learns: another rule is another victim().
+// adds a column beside dmpc's own clock, with the same faults. Result: another rule is another victim().
 #include <dmpc/policy.h>
 
 #include <cstdint>

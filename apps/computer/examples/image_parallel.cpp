@@ -1,14 +1,14 @@
-// A strategy of its own to render a scene that fits no node: each has a part of the picture and, before the start, the pages that
-// it will use most, estimated from a small picture of its part. What it keeps it keeps for good; any other page it asks its home
-// for, uses it until it needs the next one, and forgets it.
+// A custom strategy for rendering a scene that does not fit a node: before the start each node gets a part of the picture and the
+// pages that it will use most, estimated from a small picture of its part. These pages are permanent. Any other page is requested
+// from its home, used until the next one is needed, and discarded.
 //
 //   image_parallel --runner=virtual --machine=hdr --kept=64
 //
-// asks for 31,789 pages and takes 19.0 ms of virtual time; with 4 pages kept 113,668 and 61.1 ms, with 256 6,066 and 5.03 ms.
-// Caches of as many pages (dmpc render rings-3-t1 --resolution=64x64 --work-item=0 --in-flight=1 --cache-pages=64 and so on) take
-// 13,089, 142,693 and 3,068. What one learns: rays move through the scene, so what a part of the picture needs at a time is less
-// than what it needs in all, and a cache, which follows them, asks half as often; where there is hardly any room a page that is
-// kept is at least not pushed out before it serves again. The film has the same bits.
+// requests 31,789 pages and takes 19.0 ms of virtual time; with 4 pages kept 113,668 and 61.1 ms, with 256 6,066 and 5.03 ms.
+// Caches with as many pages (dmpc render rings-3-t1 --resolution=64x64 --work-item=0 --in-flight=1 --cache-pages=64 and so on)
+// request 13,089, 142,693 and 3,068. Result: rays move through the scene, so a part of the picture needs fewer pages at a time
+// than in total, and a cache, which follows the rays, requests half as many; with hardly any memory a permanent page is at least
+// not evicted before its next use. The film has the same bits.
 #include <dmpc/computer.h>
 #include <dmpc/scene.h>
 
@@ -18,7 +18,7 @@
 #include <string>
 
 enum Packets : dmpc::Index { page_request, page };
-enum Operations : dmpc::Index { look_up = dmpc::scene_operation_count };  // behind those of rays
+enum Operations : dmpc::Index { look_up = dmpc::scene_operation_count };  // after those of rays
 enum Memory : dmpc::Index { pages_here, slots, pixel, light };
 
 using PageNumber = std::uint32_t;
@@ -28,7 +28,7 @@ struct Choice {
   std::uint32_t size = 3, width = 64, kept = 64, every = 8;
 };
 
-/// Counts which pages pixels look up: all are here.
+/// Counts which pages pixels look up; all pages are present.
 class Profile final : public dmpc::Pages {
  public:
   explicit Profile(const dmpc::Scene& scene) : scene_(scene), counts_(scene.page_count()) {}
@@ -45,7 +45,7 @@ class Profile final : public dmpc::Pages {
   std::vector<std::uint64_t> counts_;
 };
 
-/// What is fixed before the start: who renders what, and who keeps which pages. Never changes afterwards.
+/// The assignment of pixels and pages to nodes, which is fixed before the start. Immutable.
 class StaticMap {
  public:
   StaticMap(const Choice& choice, std::uint32_t node_count)
@@ -58,14 +58,14 @@ class StaticMap {
 
   const dmpc::Scene& scene() const { return scene_; }
   std::uint32_t home(PageNumber number) const { return number % node_count_; }
-  /// The first pixel of a node's part, which goes on to that of the next.
+  /// Returns the first pixel of a node's part, which extends to that of the next node.
   std::uint32_t first_pixel(std::uint32_t node) const {
     return static_cast<std::uint32_t>(std::uint64_t{scene_.pixel_count()} * node / node_count_);
   }
-  /// The pages that have their home at the node, and those that it keeps.
+  /// Returns the pages whose home is the node, and its permanent copies.
   const std::vector<PageNumber>& pages(std::uint32_t node) const { return pages_[node]; }
 
-  /// The bytes of the node with the most; the last place is for a page that is asked for.
+  /// Returns the bytes of the node with the most pages; the last slot is for a requested page.
   std::size_t page_bytes_here() const { return (most_pages_ + 1) * scene_.page_bytes() + dmpc::overread_bytes; }
   std::uint32_t most_pixels() const { return (scene_.pixel_count() + node_count_ - 1) / node_count_; }
 
@@ -177,7 +177,7 @@ class ImageParallel final : public dmpc::Program, private dmpc::Pages {
   std::span<std::byte> bytes_;
   std::span<std::uint32_t> slot_of_;  ///< by page
   dmpc::PixelTask task_;
-  std::span<dmpc::Light> light_;  ///< results of the pixels done
+  std::span<dmpc::Light> light_;  ///< results of finished pixels
   std::uint32_t slot_count_ = 0, done_ = 0;
   PageNumber wanted_ = 0;
   std::optional<PageNumber> passing_page_;  ///< in the last slot

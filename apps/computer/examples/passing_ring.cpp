@@ -1,13 +1,13 @@
-// Items go round a ring, from each node to the one half way round, by way of all between: a node keeps an item that passes until
-// the next one has a place for it. There are two lanes, and an item that comes past node 0 changes from the first to the second
-// (W. J. Dally, C. L. Seitz, "Deadlock-Free Message Routing in Multiprocessor Interconnection Networks", 1987).
+// Items travel around a ring, from each node to the opposite one, through all nodes between: a node keeps a passing item until
+// the next one has space for it. There are two lanes; an item changes from the first to the second when it passes node 0 (W. J.
+// Dally, C. L. Seitz, "Deadlock-Free Message Routing in Multiprocessor Interconnection Networks", 1987).
 //
 //   passing_ring --runner=virtual --machine=hdr --nodes=16
 //
-// takes 436 us of virtual time, and with two places at each node and lane 235 us. What one learns: with --lanes=1 --places=2,
-// places as many, nothing moves any more as soon as all are taken by items that pass, since each waits for a place that only the
-// next one's wait could free. The computer says who waits for whom. With two lanes no circle can close: the items of the second
-// go no further than to node 0's previous one, so the last of them can always go, and after it those of the first.
+// takes 436 us of virtual time, and with two places at each node and lane 235 us. Result: with --lanes=1 --places=2, the same
+// number of places, the ring deadlocks as soon as passing items take all places, since each waits for a place that only the next
+// node can free. The computer reports which nodes wait for each other. With two lanes no cycle can form: items of the second lane
+// go no further than to the node before node 0, so the last of them can always proceed, and then those of the first lane.
 #include <dmpc/computer.h>
 
 #include <array>
@@ -18,14 +18,14 @@
 enum Packets : dmpc::Index { item, taken, packets_a_lane };
 enum Memory : dmpc::Index { passing };
 
-/// Who is to get it.
+/// The node to which the item goes.
 using Item = std::uint32_t;
 
 struct RingOptions {
   std::uint32_t items = 16, places = 1, lanes = 2;
 };
 
-/// Items that pass, first in, first out.
+/// A first-in, first-out queue of passing items.
 struct Lane {
   std::span<Item> items;
   std::uint32_t first = 0, count = 0;
@@ -47,7 +47,7 @@ class PassingRing final : public dmpc::Program {
 
   void receive(const dmpc::Packet& packet) override {
     if (packet.kind % packets_a_lane == taken) {
-      return;  // the computer counts what may be sent
+      return;  // the computer counts the free places
     }
     const std::size_t lane = packet.kind / packets_a_lane;
     const Item arrived = packet.as<Item>();
@@ -85,7 +85,7 @@ class PassingRing final : public dmpc::Program {
   std::uint32_t outcome() const { return arrived_; }
 
  private:
-  /// To the next node, by the last lane if that is node 0.
+  /// Sends to the next node, on the last lane if that is node 0.
   bool send(std::size_t lane, Item value) {
     const std::size_t next_lane = node_.next() == 0 ? options_.lanes - 1 : lane;
     return node_.try_send(node_.next(), next_lane * packets_a_lane + item, std::span<const Item>(&value, 1));

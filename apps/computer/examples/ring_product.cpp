@@ -1,11 +1,11 @@
-// C = A B on a ring: every node keeps its rows of A and C, and blocks of rows of B go round. While a node multiplies, its next
-// block is on its way already.
+// C = A B on a ring: every node keeps its rows of A and C, and blocks of rows of B move around the ring. While a node multiplies,
+// its next block is already on its way.
 //
 //   ring_product --size=128 --runner=virtual --machine=hdr --nodes=16
 //
-// takes 83.5 us of virtual time, where one node takes 1.05 ms, and 64 nodes take 219 us: a step's multiplications become fewer
-// with the square of the nodes, but what a message costs does not, and there are more steps. What one learns: a ring pays as long
-// as a step is multiplied longer than a message takes, and a larger matrix moves that point.
+// takes 83.5 us of virtual time, while one node takes 1.05 ms, and 64 nodes take 219 us: the multiplications of a step decrease
+// with the square of the nodes, but the cost of a message does not, and there are more steps. Result: a ring pays as long as a
+// step's multiplications take longer than a message, and a larger matrix moves that limit.
 #include <dmpc/computer.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ enum Packets : dmpc::Index { block, taken };
 enum Operations : dmpc::Index { multiply_add };
 enum Memory : dmpc::Index { matrices };
 
-/// Small whole numbers, so that sums have no rounding.
+/// Small integers, so that sums have no rounding.
 double a_at(std::size_t row, std::size_t column) { return static_cast<double>((row + column) % 7); }
 double b_at(std::size_t row, std::size_t column) { return static_cast<double>((3 * row + column) % 5); }
 
@@ -90,12 +90,12 @@ class RingProduct final : public dmpc::Program {
 
   dmpc::Node& node_;
   std::size_t size_, rows_, row_ = 0;
-  std::uint32_t owner_, step_ = 0;  ///< owner_: whose rows of B are here
+  std::uint32_t owner_, step_ = 0;  ///< owner_: the node whose rows of B are here
   bool is_sent_ = false, has_next_ = false, is_done_ = false;
   std::span<double> a_, b_, c_, next_b_;
 };
 
-/// The sum over C, without multiplying matrices.
+/// Returns the sum over C, without multiplying matrices.
 double expected_sum(std::size_t size) {
   double sum = 0;
   for (std::size_t k = 0; k < size; ++k) {

@@ -1,11 +1,11 @@
 // Sorting by regular samples (H. Shi, J. Schaeffer, "Parallel Sorting by Regular Sampling", 1992): every node sorts its keys and
-// sends samples of them to node 0, which says who gets which range; keys travel from everybody to everybody, in parts.
+// sends samples to node 0, which assigns a range to each node; then all nodes exchange their keys, in parts.
 //
 //   sample_sort --keys=4096 --runner=virtual --machine=gigabit --nodes=16
 //
-// sorts 65,536 keys in 1.06 ms of virtual time, where one node takes 4.46 ms, and 64 nodes with 1,024 keys each take 2.16 ms.
-// What one learns: no node gets more than twice its share, as the article proves, and a few percent more as a rule; and packets
-// from all to all, whose number grows with the square of the nodes, are what ends the gain.
+// sorts 65,536 keys in 1.06 ms of virtual time, while one node takes 4.46 ms, and 64 nodes with 1,024 keys each take 2.16 ms.
+// Result: no node gets more than twice its share, as the article proves, and usually a few percent more; the packets between all
+// pairs of nodes, whose number grows with the square of the nodes, limit the speedup.
 #include <dmpc/computer.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ enum Memory : dmpc::Index { keys_here, keys_sorted, sampled };
 
 constexpr std::size_t part_keys = 255;
 
-/// Keys for one node; the last for it says so.
+/// Keys for one node; the last part for a node is marked.
 struct Part {
   std::uint32_t is_last = 0;
   Key keys[part_keys];
 };
 
-/// No two are equal: each step can be undone.
+/// All keys differ, since each step is invertible.
 Key key_at(std::uint32_t place) {
   Key key = place * 2654435769U;
   key ^= key >> 15U;
@@ -98,7 +98,7 @@ class SampleSort final : public dmpc::Program {
       bounds_[i] = keys_[i * keys_.size() / nodes_];
     }
     if (node_.id() != 0) {
-      (void)node_.try_send(0, samples, bounds_);  // once in the run, so there is room
+      (void)node_.try_send(0, samples, bounds_);  // sent once in the run, so it never fails
     } else {
       add_samples({.payload = std::as_bytes(bounds_)});
     }
@@ -118,7 +118,7 @@ class SampleSort final : public dmpc::Program {
     }
   }
 
-  /// Where the keys of `target` begin: those of the first from the beginning on.
+  /// Returns the index of the first key for `target`; the first node's keys start at 0.
   std::uint32_t begin_of(std::uint32_t target) const {
     if (target == 0 || target == nodes_) {
       return target == 0 ? 0 : static_cast<std::uint32_t>(keys_.size());
@@ -133,7 +133,8 @@ class SampleSort final : public dmpc::Program {
     has_bounds_ = true;
   }
 
-  /// The next part to every node that may be sent one; first to the next node, so that not all send to the same one.
+  /// Sends the next part to every node to which a packet may be sent, starting with the next node, so that not all nodes send to
+  /// the same one.
   bool send_parts() {
     bool has_sent = false;
     for (std::uint32_t i = 0; i < nodes_; ++i) {
@@ -171,13 +172,13 @@ class SampleSort final : public dmpc::Program {
   dmpc::Node& node_;
   std::uint32_t nodes_, samples_from_ = 0, sent_count_ = 0, parts_last_ = 0;
   std::span<Key> keys_, sorted_, samples_, bounds_;
-  std::span<std::uint32_t> next_;    ///< by target: its first key that is still here
-  std::span<std::uint8_t> has_all_;  ///< by target: whether none is
+  std::span<std::uint32_t> next_;    ///< by target: its first key that is not sent yet
+  std::span<std::uint8_t> has_all_;  ///< by target: whether all keys are sent
   std::size_t sorted_count_ = 0;
   bool is_sampled_ = false, has_bounds_ = false, is_done_ = false;
 };
 
-/// What all nodes' keys come to in order: how many there are, and how far the fullest node is above the mean.
+/// Checks the order of all nodes' keys; returns their number, and how far the largest node is above the mean.
 std::string judged(const std::vector<std::vector<Key>>& of_nodes, std::uint32_t keys) {
   std::vector<Key> all, expected;
   std::size_t most = 0;

@@ -1,4 +1,4 @@
-// What <dmpc/scene.h> promises, by the ray tracer in core.
+// Implements <dmpc/scene.h> with the ray tracer in core.
 #include "apps/computer/dmpc/scene.h"
 
 #include <bit>
@@ -31,7 +31,7 @@ constexpr std::array<Charge, scene_operation_count> scene_charges = {
 
 static_assert(overread_bytes == core::overread_bytes);
 
-/// Pages as tracing asks for them.
+/// The interface through which the tracer accesses pages.
 struct RecordsOf {
   Pages& pages;
   const std::byte* find(core::Address address) { return pages.find(core::byte_offset(address)); }
@@ -114,7 +114,7 @@ std::size_t stack_bytes_of(const Scene& scene) {
   return static_cast<std::size_t>(scene.data().settings.shade.depth_max) * sizeof(core::HitState);
 }
 
-/// As a node's memory is aligned.
+/// Returns memory with the alignment of a node's memory.
 std::shared_ptr<std::byte[]> aligned_bytes(std::size_t bytes) {
   constexpr std::align_val_t alignment{64};
   return {static_cast<std::byte*>(::operator new(bytes, alignment)),

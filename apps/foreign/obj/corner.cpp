@@ -41,7 +41,7 @@ std::uint32_t CornerReader::index(std::string_view text, std::size_t kind, const
   if (value > count && (later.empty() || place > later.back().index)) {
     later.push_back({place, words.line()});
   }
-  return static_cast<std::uint32_t>(std::min(place, index_max));  // one beyond is refused by check_named()
+  return static_cast<std::uint32_t>(std::min(place, index_max));  // check_named() refuses larger indices
 }
 
 Corner CornerReader::read(std::string_view word, const LineWords& words, const Counts& so_far) {

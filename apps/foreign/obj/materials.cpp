@@ -58,7 +58,7 @@ const std::vector<Loss>& losses() {
   return all;
 }
 
-/// Notes losses of materials that are used by a face.
+/// Notes losses of materials that faces use.
 void note_losses(const std::vector<MtlMaterial>& materials, std::vector<std::string>& notes) {
   std::set<std::string> textures;
   std::map<std::string, std::uint64_t> options;
@@ -87,10 +87,10 @@ class Resolver {
   std::uint32_t add(const MtlMaterial& source);
   MtlMaterial colored(MtlMaterial material) const;
   const MtlMaterial* source_of(std::uint32_t name) const;
-  /// MeshLab (until 2023) and OpenMVS write a Tr of 1 for what is opaque: what every face has is not meant to be unseen.
+  /// MeshLab (until 2023) and OpenMVS write a Tr of 1 for opaque materials: faces cannot all be meant to be invisible.
   bool is_tr_of_what_is_opaque() const;
   std::uint32_t index_of(std::uint32_t name);
-  /// Leaves textures out that lie on no face.
+  /// Drops textures if no face of their material has texture coordinates.
   void judge_textures();
 
   const Geometry& geometry_;
@@ -99,7 +99,7 @@ class Resolver {
   std::vector<MtlMaterial> used_;
   std::map<const MtlMaterial*, std::uint32_t> known_;
   std::vector<std::string> unknown_;
-  bool is_tr_opaque_ = false;  ///< that of every material
+  bool is_tr_opaque_ = false;  ///< for every material
 };
 
 bool is_unseen_by_tr(const MtlMaterial& material) { return !material.d && material.transparency == 1; }
@@ -115,7 +115,7 @@ bool Resolver::is_tr_of_what_is_opaque() const {
   });
 }
 
-/// What names no colour is white below colours of vertices.
+/// Materials without a colour are white if vertices have colours.
 MtlMaterial Resolver::colored(MtlMaterial material) const {
   if (!material.diffuse && !geometry_.colors.empty()) {
     material.diffuse = Vec3d{1, 1, 1};
@@ -134,7 +134,7 @@ std::uint32_t Resolver::add(const MtlMaterial& source) {
   return static_cast<std::uint32_t>(result_.list.size() - 1);
 }
 
-/// Index of a run's material. All runs without a material share one, with a null key.
+/// Returns the index of a run's material. All runs without a material share one, with a null key.
 std::uint32_t Resolver::index_of(std::uint32_t name) {
   const MtlMaterial* const source = source_of(name);
   if (name != none && source == nullptr) {

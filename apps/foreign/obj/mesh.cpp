@@ -23,7 +23,7 @@ std::vector<FaceRun> runs_of(const Geometry& geometry, const Materials& material
   return runs;
 }
 
-/// Normals for corners that have none of their own; empty if no face is smooth.
+/// Returns normals for corners that have none of their own; empty if no face is smooth.
 std::vector<Vec3d> group_normals(const Geometry& geometry) {
   constexpr double any_angle = 180;
   std::vector<std::uint32_t> groups = geometry.faces.groups;
@@ -44,7 +44,7 @@ std::vector<Vec3d> normals_of(const Geometry& geometry) {
   return normals;
 }
 
-/// A file's t grows upwards.
+/// In the file t increases upwards.
 std::vector<std::array<float, 2>> places_of(const Geometry& geometry, const Materials& materials) {
   std::vector<std::array<float, 2>> places(geometry.faces.places.empty() ? 0 : geometry.faces.corners.size());
   geometry.for_each_face([&](std::uint32_t face, std::size_t run) {

@@ -22,10 +22,10 @@ using core::Vec3d;
 double in_unit(double value) { return std::clamp(value, 0.0, 1.0); }
 Vec3d in_unit(const Vec3d& v) { return {in_unit(v.x), in_unit(v.y), in_unit(v.z)}; }
 
-/// More than any file's name has.
+/// Longer than any file name.
 constexpr std::size_t name_bytes_max = 4096;
 
-/// Keywords that our pictures do not need, or cannot show together with those that are read.
+/// Keywords that do not affect our pictures, or cannot be combined with those that are read.
 constexpr std::array<std::string_view, 8> passed_over{"ka",    "sharpness", "ps",      "pcr",
                                                       "aniso", "anisor",    "map_aat", "ke_intensity"};
 
@@ -53,7 +53,7 @@ class MtlParser {
   const std::function<void(MtlMaterial)>& take_;
   std::vector<std::string>& notes_;
   std::optional<MtlMaterial> material_;
-  std::size_t nameless_ = 0, first_nameless_ = 0;  ///< textures without a name, and the line of the first
+  std::size_t nameless_ = 0, first_nameless_ = 0;  ///< number of textures without a name, and the line of the first
   UnknownWords unknown_;
 };
 
@@ -103,7 +103,7 @@ void MtlParser::finish() {
   }
 }
 
-/// One number is all three channels. Nothing for a colour by spectral curves or CIE XYZ.
+/// A single number sets all three channels. Returns nothing for spectral curves or CIE XYZ.
 std::optional<Vec3d> MtlParser::color(LineWords& words) {
   LineWords ahead = words;
   const std::string_view first = ahead.next();
@@ -127,7 +127,7 @@ double MtlParser::number(LineWords& words) {
   return value;
 }
 
-/// Whether it is one that says a colour or a number.
+/// Returns whether the statement sets a colour or a number.
 bool MtlParser::value_statement(const std::string& keyword, LineWords& words) {
   using Statement = void (*)(MtlMaterial & material, MtlParser & parser, LineWords & words);
   static const std::map<std::string_view, Statement> statements = {

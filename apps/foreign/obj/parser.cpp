@@ -30,7 +30,7 @@ constexpr const char* thin = "points and lines left out";
 constexpr const char* free_form = "statements about free-form curves and surfaces left out";
 constexpr const char* strange_colors = "vertices whose colour lies outside 0 to 1, brought into it";
 
-/// What is counted and said, by statement; those with no words change no picture of ours.
+/// A statement that is counted, and its text for notes; statements without text do not affect our pictures.
 struct LeftOut {
   std::string_view statement;
   const char* words;
@@ -91,37 +91,37 @@ class Parser {
   void library(LineWords& words);
   void other(std::string_view keyword, const LineWords& words);
 
-  /// 0 for what is none, which makes the vertex, place or normal a stray.
+  /// Returns 0 for a non-finite number, which makes the vertex, texture coordinate or normal a stray.
   double number(LineWords& words);
   /// Remembers the last vertex, texture coordinate or normal that contains NaN.
   void keep_stray(Named what, std::size_t count, const LineWords& words);
-  /// Throws if a face has a stray; notes the others.
+  /// Throws if a face uses a stray; notes the others.
   void judge_strays();
   Vec3d coordinates(LineWords& words);
   void color(const Vec3d& color);
   void add_face(const LineWords& words);
-  /// Corners' places or normals: all of a face have one, or none.
+  /// Adds texture coordinates or normals of a face's corners, of which all have one or none.
   void add_named(Named what, std::vector<std::uint32_t>& list, const LineWords& words);
   void start_run();
   Counts counts() const { return {result_.vertices.size(), result_.places.size(), result_.normals.size()}; }
 
   Geometry result_;
   CornerReader corner_reader_;
-  std::vector<Corner> face_;  ///< the one that is read
+  std::vector<Corner> face_;  ///< the face that is being read
   SceneTotals& totals_;
   std::uint32_t group_ = 0;        ///< smoothing group of the faces that follow
   std::uint32_t material_ = none;  ///< material of the faces that follow
   std::unordered_map<std::string, std::uint32_t> names_;
   std::unordered_set<std::string> libraries_;
   Notes tally_;
-  std::uint64_t colored_ = 0;  ///< vertices
+  std::uint64_t colored_ = 0;  ///< number of coloured vertices
   UnknownWords unknown_;
-  /// What has no number where one is expected, by Named.
+  /// An element with a non-finite number, by Named.
   struct Stray {
     std::size_t index, line;
   };
   std::array<std::vector<Stray>, named_count> strays_;
-  bool is_stray_ = false;  ///< what is being read
+  bool is_stray_ = false;  ///< whether the current element is one
 };
 
 Geometry Parser::read(std::string_view file, const std::function<void(float)>& passed) {
@@ -214,7 +214,7 @@ Vec3d Parser::coordinates(LineWords& words) {
   return v;
 }
 
-/// "x y z", "x y z w" or "x y z r g b".
+/// Parses "x y z", "x y z w" or "x y z r g b".
 void Parser::vertex(LineWords& words) {
   Vec3d position = coordinates(words);
   if (words.has_next()) {
@@ -253,7 +253,7 @@ void Parser::color(const Vec3d& color) {
   result_.colors.push_back({linear(shown.x), linear(shown.y), linear(shown.z)});
 }
 
-/// "u", "u v" or "u v w", of which w is of no use for a picture.
+/// Parses "u", "u v" or "u v w"; w is not used.
 void Parser::place(LineWords& words) {
   std::array<double, 2> place{number(words), 0};
   if (words.has_next()) {
@@ -326,7 +326,7 @@ void Parser::add_named(Named what, std::vector<std::uint32_t>& list, const LineW
   }
 }
 
-/// Where the material is another than before.
+/// Starts a run if the material has changed.
 void Parser::start_run() {
   const auto face = static_cast<std::uint32_t>(result_.faces.ends.size());
   if (result_.runs.empty() || result_.runs.back().name != material_) {
@@ -334,7 +334,7 @@ void Parser::start_run() {
   }
 }
 
-/// A group is any number of 32 bits, as some write them as sets of bits.
+/// A group is any 32-bit number, since some programs write sets of bits.
 void Parser::smoothing(LineWords& words) {
   LineWords ahead = words;
   const std::string word = in_small_letters(ahead.next());

@@ -11,10 +11,10 @@
 namespace dmpc::apps::obj {
 namespace {
 
-/// How many arguments an option of a texture has at most, and what it is without the option.
+/// The maximum number of arguments of a texture option, and its default.
 struct Option {
   std::string_view name;
-  std::size_t numbers_max;  ///< 0: a word
+  std::size_t numbers_max;  ///< 0: a single word
   std::string_view plain_word;
   std::array<double, 3> plain_numbers;
 };
@@ -27,14 +27,13 @@ constexpr std::array options{
     Option{"-type", 0, "", {}},
 };
 
-/// Without the blanks around it.
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
   const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// The first word, and what follows it.
+/// The first word, and the text after it.
 struct Split {
   std::string_view word, rest;
 };
@@ -51,7 +50,7 @@ const Option* option_of(std::string_view word) {
   return found == options.end() ? nullptr : &*found;
 }
 
-/// An option as it stands before a texture's name.
+/// An option before a texture's name.
 struct Said {
   const Option* option;
   std::array<double, 3> numbers;
@@ -60,7 +59,7 @@ struct Said {
   bool changes() const { return option->numbers_max > 0 ? numbers != option->plain_numbers : word != option->plain_word; }
 };
 
-/// Cuts the option's arguments off, of which there may be fewer.
+/// Removes the option's arguments, of which there may be fewer than the maximum.
 Said take_arguments(const Option& option, std::string_view& rest) {
   Said said{&option, option.plain_numbers, std::string(option.plain_word)};
   if (option.numbers_max == 0) {
@@ -83,7 +82,7 @@ Said take_arguments(const Option& option, std::string_view& rest) {
   return said;
 }
 
-/// MTL's t grows upwards: s' = su s + ou, t' = sv t + ov.
+/// In MTL files t increases upwards: s' = su s + ou, t' = sv t + ov.
 TexturePlace place_of(const std::array<double, 3>& scale, const std::array<double, 3>& offset) {
   return {{{{scale[0], 0, offset[0]}, {0, scale[1], 1 - scale[1] - offset[1]}}}};
 }

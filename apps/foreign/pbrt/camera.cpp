@@ -20,7 +20,7 @@ constexpr double degrees_of_radian = 57.295779513082320877;
 
 double angle_of_tangent(double tangent) { return degrees_of_radian * core::angle_of(tangent, 1); }
 
-/// The shorter side's half reaches 1 in its window, unless that is said to be otherwise.
+/// By default half of the shorter side is 1 in the screen window.
 double window_half(const Parameters& parameters, Notes& notes) {
   const Parameter* const window = parameters.find("screenwindow", {number});
   if (window == nullptr) {
@@ -39,7 +39,7 @@ double window_half(const Parameters& parameters, Notes& notes) {
   return half;
 }
 
-/// Exposure before the shutter: ISO over 100, and the white point from a temperature.
+/// Returns the exposure without the shutter: ISO / 100, and the white point from a temperature.
 Exposure exposure_of(const Parameters& parameters, Notes& notes) {
   Exposure exposure{.factor = parameters.number("iso", 100) / 100};
   if (!(exposure.factor > 0 && exposure.factor < 1e12)) {

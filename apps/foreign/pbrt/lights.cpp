@@ -32,7 +32,7 @@ double scale_of(const Parameters& parameters) {
   return scale;
 }
 
-/// What is asked for of the whole, in place of what the light's own numbers make.
+/// Returns the factor that scales the light's total `of_one` to the requested one; 1 if none is requested.
 double factor_of(const Parameters& parameters, const char* name, double of_one) {
   const double value = parameters.number(name, 0);
   return value > 0 ? value / of_one : 1;
@@ -44,7 +44,7 @@ void check_place(const Parameters& parameters, const Vec3d& point) {
   }
 }
 
-/// What a spot's light would fill all round, as bright as it is ahead.
+/// Returns the solid angle that the light of a spot would fill at its axial intensity.
 double filled(const core::LightCone& cone) {
   const double full = core::cos_degrees(cone.full_degrees), none = core::cos_degrees(cone.none_degrees);
   return 2 * pi * ((1 - full) + (full - none) / 2);
@@ -64,7 +64,7 @@ core::LightCone cone_of(const Parameters& parameters, const Transform& world) {
   return {.ahead = normalize(ahead), .full_degrees = std::max(full, 0.0), .none_degrees = none, .edge = core::ConeEdge::smooth};
 }
 
-/// Cone of a projector's square picture, as a circular cone of equal solid angle.
+/// Returns a circular cone with the solid angle of a projector's square picture.
 core::LightCone projector_of(const Parameters& parameters, const Transform& world) {
   const double fov = parameters.number("fov", 90);
   const Vec3d ahead = world.direction({0, 0, 1});
@@ -121,7 +121,7 @@ void add_infinite(const Parameters& parameters, const Tokens& tokens, const Tran
   file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = exposure.of({scale, scale, scale})});
 }
 
-/// A small face, whose vector is as long as its area.
+/// A small face; the length of its vector is its area.
 FileLight half_round(const Vec3d& centre, const Vec3d& face, const Vec3d& radiance) {
   return {.kind = FileLightKind::spot,
           .position = centre,
@@ -131,7 +131,7 @@ FileLight half_round(const Vec3d& centre, const Vec3d& face, const Vec3d& radian
 
 double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
 
-/// Calls take(a, b, c) for each triangle of a shape that is no ball.
+/// Calls take(a, b, c) for each triangle of a shape that is not a sphere.
 template <class Take>
 void for_each_triangle(const PlacedShape& shape, const Transform& world, const Take& take) {
   const PolygonMesh made = shape.round ? mesh_of(*shape.round) : PolygonMesh{};
@@ -177,8 +177,8 @@ Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transf
   return light.power && area > 0 ? light.radiance * (*light.power / area) : light.radiance;
 }
 
-/// As points: of each face, into its half of space by the cosine, as long as they are few; of a sphere and of others all round,
-/// as what looks to all sides alike shines from afar.
+/// Returns point lights: a cosine light into the half-space of each face as long as there are few faces; otherwise, and for a
+/// sphere, an isotropic light, which is what a surface that faces all directions equally looks like from afar.
 std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world) {
   constexpr std::size_t faces_max = 16;
   const Vec3d radiance = radiance_of(light, shape, world);

@@ -21,7 +21,7 @@ constexpr std::uint32_t none = 0xffffffff;
 
 std::uint64_t key_of(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32U | to; }
 
-/// What lies behind each edge, as its face goes along it: the face's third corner.
+/// Maps each directed edge of a face to the face's third corner.
 class Edges {
  public:
   explicit Edges(const Indices& corners) {
@@ -48,7 +48,7 @@ class Edges {
   std::unordered_map<std::uint64_t, std::uint32_t> third_;
 };
 
-/// The vertices around each, in order; of one at an edge from the one end to the other.
+/// The vertices around a vertex, in order; on a boundary from one end to the other.
 struct Ring {
   Indices around;
   bool is_closed = true;
@@ -60,7 +60,7 @@ class Net {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t vertex = corners[i], next = corners[i - i % 3 + (i + 1) % 3];
       ++faces_[vertex];
-      const bool begins = edges_.third(next, vertex) == none;  // nothing lies before the face
+      const bool begins = edges_.third(next, vertex) == none;  // no face precedes it
       first_[vertex] = first_[vertex] == none || begins ? next : first_[vertex];
     }
   }
@@ -144,7 +144,7 @@ Mesh divided(const Mesh& mesh) {
   return result;
 }
 
-/// Across the surface's two tangents at a vertex that lies within.
+/// Returns the cross product of the surface's two tangents at an interior vertex.
 Vec3d normal_at(const std::vector<Vec3d>& points, const Ring& ring) {
   const double step = 2 * std::numbers::pi / static_cast<double>(ring.around.size());
   Vec3d s, t;

@@ -133,7 +133,7 @@ constexpr std::array table{
         "bool wavefront"},
 };
 
-/// The length of a text that does not have the letter.
+/// Returns the position of the letter, or the text's length without it.
 std::size_t place_of(char letter, std::string_view text) {
   std::size_t at = 0;
   while (at < text.size() && text[at] != letter) {
@@ -142,7 +142,7 @@ std::size_t place_of(char letter, std::string_view text) {
   return at;
 }
 
-/// Null if there is none.
+/// Returns nullptr if there is no such row.
 const ParameterRow* find_row(std::string_view statement, std::string_view kind) {
   const auto* const row = std::find_if(table.begin(), table.end(),
                                        [&](const ParameterRow& one) { return one.statement == statement && one.kind == kind; });

@@ -48,7 +48,7 @@ std::string_view without_blanks(std::string_view words) {
   return words.substr(first, words.find_last_not_of(blanks) + 1 - std::min(first, words.find_last_not_of(blanks) + 1));
 }
 
-/// What is beyond it stays.
+/// Numbers beyond the range of floats are unchanged.
 double in_single_precision(double number) {
   return std::fabs(number) <= double{std::numeric_limits<float>::max()} ? double{static_cast<float>(number)} : number;
 }
@@ -102,7 +102,7 @@ Parameter Parameters::read(const Token& declaration) {
 
 void Parameters::read_value(Parameter& parameter, const Token& token) const {
   const bool is_of_text = parameter.type == ParameterType::text || parameter.type == texture;
-  const auto what = [&parameter] { return "parameter \"" + clipped(parameter.name, 40) + "\""; };  // which millions are not
+  const auto what = [&parameter] { return "parameter \"" + clipped(parameter.name, 40) + "\""; };  // only for errors
   if (token.kind == TokenKind::end) {
     fail(parameter.place, what() + " is not ended");
   }

@@ -20,10 +20,10 @@ using PlaceOnPicture = std::array<float, 2>;
 
 constexpr double coordinate_max = 1e30;
 
-/// Vertices, and what they have, of a mesh that is read.
+/// Vertices of a mesh that is being read, with their attributes.
 struct Corners {
   std::vector<Vec3d> points, normals;
-  std::vector<PlaceOnPicture> places;  ///< v upwards
+  std::vector<PlaceOnPicture> places;  ///< v increases upwards
   std::vector<std::uint32_t> indices;
 };
 
@@ -87,7 +87,7 @@ Corners corners_of(const Parameters& parameters, std::size_t of_a_face) {
   return corners;
 }
 
-/// Faces with normals look to where these do, whichever way their corners go round.
+/// Orients faces by their normals, whatever the order of their corners.
 void turn_to_normals(PolygonMesh& mesh) {
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
@@ -113,9 +113,9 @@ void add_corner(const Corners& corners, std::uint32_t vertex, PolygonMesh& mesh)
   }
 }
 
-/// Triangles and quads that do not say where they lie on a picture lie on it as pbrt has them, each by itself.
+/// Triangles and quads without texture coordinates get pbrt's defaults, each separately.
 void place_faces(PolygonMesh& mesh) {
-  constexpr std::array<PlaceOnPicture, 4> corners{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};  // v upwards is 0, 0, 1, 1
+  constexpr std::array<PlaceOnPicture, 4> corners{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};  // with v upwards: 0, 0, 1, 1
   const auto spread = [&mesh](auto& list) {
     auto of_corners = list;
     of_corners.clear();
@@ -160,10 +160,10 @@ T between(const T& p00, const T& p10, const T& p01, const T& p11, double u, doub
   return (p00 * (1 - u) + p10 * u) * (1 - v) + (p01 * (1 - u) + p11 * u) * v;
 }
 
-/// A quad between four straight edges, flat or bent.
+/// A patch between four straight edges, flat or bent.
 class Patch {
  public:
-  static constexpr int side = 8;  ///< faces along one of a bent quad
+  static constexpr int side = 8;  ///< faces along a side of a bent patch
 
   Patch(const Corners& corners, std::size_t first) : corners_(corners), first_(first) {}
 
@@ -183,7 +183,7 @@ class Patch {
     mesh.faces.ends.push_back(static_cast<std::uint32_t>(mesh.faces.corners.size()));
   }
 
-  /// As 8x8 quads, whose vertices are put behind the mesh's.
+  /// Appends 8x8 quads to the mesh.
   void add_bent(PolygonMesh& mesh) const {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int row = 0; row <= side; ++row) {
@@ -231,12 +231,12 @@ class Patch {
   std::size_t first_;
 };
 
-/// Before room is made for what a few numbers become.
+/// Checks capacity before memory is allocated for geometry that a few numbers generate.
 void ask(const GeometrySize& size, const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
   files.totals().ask(size, [&] { return tokens.text_of(parameters.place()) + ": "; });
 }
 
-/// All flat, or all bent: so each corner has all that any has.
+/// Patches are all flat, or all bent, so that all corners have the same attributes.
 PolygonMesh patch_mesh(const Parameters& parameters, const Tokens& tokens, SceneFiles& files) {
   Corners corners = corners_of(parameters, 4);
   PolygonMesh mesh;
@@ -275,7 +275,7 @@ PolygonMesh loop_mesh(const Parameters& parameters, const Tokens& tokens, SceneF
   }
   const std::vector<std::uint32_t> indices = indices_of(parameters, points.size(), 3);
   const std::uint64_t faces = indices.size() / 3 << 2U * static_cast<unsigned>(std::min<std::int64_t>(levels, 12));
-  if (faces <= subdivided_max) {  // else it is refused
+  if (faces <= subdivided_max) {  // otherwise it is refused
     ask(size_of_faces(faces, 3 * faces, sizeof(Vec3d) + edge_bytes), parameters, tokens, files);
   }
   try {

@@ -17,7 +17,7 @@ using core::Vec3d;
 constexpr double nm_step = 1;
 constexpr double last_nm = observer_first_nm + observer_step_nm * static_cast<double>(observer[0].size() - 1);
 
-/// Straight between numbers that lie `step` apart, as the nearest beyond them.
+/// Interpolates linearly between values at intervals of `step`; constant beyond them.
 template <std::size_t Count>
 double between(const std::array<double, Count>& numbers, double first, double step, double nm) {
   const double place = std::clamp((nm - first) / step, 0.0, static_cast<double>(Count - 1));
@@ -56,7 +56,7 @@ Vec3d light_of(const Vec3d& xyz) {
   return bright > 0 ? color * (1 / bright) : Vec3d{};
 }
 
-/// By daylight, in which what reflects all of each wavelength is white.
+/// Integrates under daylight, in which full reflectance is white.
 template <class Value>
 Vec3d reflectance_of(const Value& value) {
   static const Vec3d white = rgb_of(integral(daylight_at));
@@ -71,9 +71,9 @@ double black_body(double nm, double kelvin) {
   return 1 / (x * x * x * x * x * (core::exponential(second_radiation_constant / (nm * kelvin)) - 1));
 }
 
-/// Straight between its points, 0 beyond them.
+/// Interpolates linearly between the points; 0 beyond them.
 double value_at(const std::vector<double>& pairs, double nm) {
-  std::size_t low = 0, high = pairs.size() / 2;  // the first point beyond nm lies there
+  std::size_t low = 0, high = pairs.size() / 2;  // index of the first point beyond nm
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
     (pairs[2 * middle] > nm ? high : low) = pairs[2 * middle] > nm ? middle : middle + 1;
@@ -91,7 +91,7 @@ const auto* find_in(const Rows& rows, const std::string& name) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// Metals and glasses that scenes name, and spectra by pairs.
+/// Looks up named metals and glasses, and spectra given as pairs.
 double value_of(const Parameter& parameter, double nm) {
   constexpr double first = 400, step = 20;
   if (parameter.texts.empty()) {
@@ -102,7 +102,7 @@ double value_of(const Parameter& parameter, double nm) {
   return metal != nullptr ? between(metal->value, first, step, nm) : glass != nullptr ? glass->index : 0;
 }
 
-/// By the CIE's chromaticity, of luminance 1.
+/// Converts CIE chromaticity to XYZ with luminance 1.
 Vec3d xyz_of(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
 
 Vec3d blackbody_light(double kelvin) {
@@ -111,7 +111,8 @@ Vec3d blackbody_light(double kelvin) {
 
 Vec3d times(const std::array<Vec3d, 3>& rows, const Vec3d& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
 
-/// White of daylight at this temperature (CIE 15), by today's radiation constant; of a black body below daylight's range.
+/// Returns the white of daylight at this temperature (CIE 15), with today's radiation constant; of a black body below daylight's
+/// range.
 Vec3d white_of(double kelvin) {
   const double t = kelvin * (1.4388 / 1.4380);
   if (t < 4000) {
@@ -150,7 +151,7 @@ Vec3d metal_color(const Parameter* eta, const Parameter* k, double below) {
   return reflectance_of([&](double nm) { return straight_reflection(value_of(n_of, nm) / below, value_of(k_of, nm) / below); });
 }
 
-/// By von Kries, in the coordinates of the Bradford transform (K. M. Lam, 1985).
+/// Von Kries adaptation in the Bradford space (K. M. Lam, 1985).
 std::array<Vec3d, 3> white_balance(double kelvin) {
   const std::array<Vec3d, 3> cones{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
   const Vec3d white = white_of(kelvin), from = times(cones, white * (1 / white.y)), to = times(cones, xyz_of(0.3127, 0.3290));
@@ -187,7 +188,7 @@ Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse 
   }
   const auto value = [&](double nm) { return value_of(parameter, nm); };
   if (use == SpectrumUse::index) {
-    return {value(630), value(532), value(465)};  // at the wavelengths of red, green and blue
+    return {value(630), value(532), value(465)};  // wavelengths of red, green and blue
   }
   return use == SpectrumUse::reflectance ? reflectance_of(value) : light_of(named ? xyz_of(named->x, named->y) : integral(value));
 }

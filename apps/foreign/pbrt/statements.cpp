@@ -19,9 +19,9 @@ namespace {
 using core::Vec3d;
 
 constexpr double number_max = 1e30, degrees_max = 1e6;
-/// Depth of an integrator that does not give one.
+/// The depth of an integrator without one.
 constexpr std::int64_t depth_unsaid = 5;
-/// pbrt's numbers are floats, in text and in files of meshes.
+/// Rounding of pbrt's numbers, which are floats in text and mesh files.
 constexpr double float_rounding = 0x1p-25;
 
 std::string quoted(const std::string& word) { return "\"" + clipped(word, 60) + "\""; }
@@ -126,7 +126,7 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   return std::move(file_);
 }
 
-/// Into coordinates that a camera of ours shows the right way round.
+/// Transforms the scene into coordinates that our camera does not mirror.
 void Statements::turn_round(const Transform& turn) {
   for (ShapePlace& place : file_.places) {
     place.world = composed(turn, place.world);
@@ -137,7 +137,7 @@ void Statements::turn_round(const Transform& turn) {
   }
   for (FileSky& sky : file_.skies) {
     const Transform rows{sky.rows, {}};
-    sky.rows = composed(rows, turn).rows;  // which is its own inverse
+    sky.rows = composed(rows, turn).rows;  // the transform is its own inverse
   }
 }
 
@@ -147,7 +147,7 @@ void Statements::check_ended() const {
   }
 }
 
-// What moves things.
+// Transforms.
 
 std::vector<double> Statements::numbers(const Token& name, std::size_t count) {
   const bool is_list = tokens_.peek().kind == TokenKind::open;
@@ -180,7 +180,7 @@ void Statements::check_map(const Token& name, const Transform& map) const {
   }
 }
 
-/// What is moved at the end of the shutter's time alone does not move here.
+/// Transforms that apply only at the end of the shutter time are ignored.
 void Statements::apply(const Token& name, const Transform& map) {
   if (state_.moves_start) {
     const Transform moved = composed(state_.ctm, map);
@@ -216,7 +216,7 @@ void Statements::transform_statement(const Token& name) {
   }
 }
 
-/// Sixteen numbers, column by column.
+/// Sixteen numbers in column-major order.
 void Statements::matrix(const Token& name) {
   const std::vector<double> m = numbers(name, 16);
   constexpr double rounding = 1e-6;
@@ -254,7 +254,7 @@ void Statements::active_transform(const Token& name) {
 
 void Statements::reverse_orientation(const Token& /*name*/) { state_.is_reversed = !state_.is_reversed; }
 
-// What is kept and given back.
+// Graphics state.
 
 void Statements::save(Opening opening, const Place& place) {
   if (saved_.size() >= attribute_levels_max) {
@@ -272,7 +272,7 @@ void Statements::restore(Opening opening, const Token& name) {
   saved_.pop_back();
 }
 
-/// In version 4 TransformBegin and TransformEnd are AttributeBegin and AttributeEnd.
+/// In version 4, TransformBegin and TransformEnd are AttributeBegin and AttributeEnd.
 void Statements::begin(const Token& name) { save(Opening::attribute, name.place); }
 
 void Statements::end(const Token& name) {
@@ -283,7 +283,7 @@ void Statements::end(const Token& name) {
   }
 }
 
-/// What a file that is imported says holds until its end alone.
+/// The state set by an imported file ends with the file.
 void Statements::end_imports() {
   while (!saved_.empty() && saved_.back().opening == Opening::import && tokens_.level() <= saved_.back().file_level) {
     state_ = std::move(saved_.back().state);
@@ -306,7 +306,7 @@ void Statements::attribute(const Token& name) {
   Parameters more(tokens_, "Attribute " + quoted(kind), name.place);
   Parameters::List list = state_.defaults[kind] ? *state_.defaults[kind] : Parameters::List{};
   for (Parameter& one : more.take_list()) {
-    list.push_back(std::make_shared<const Parameter>(std::move(one)));  // what is said last counts
+    list.push_back(std::make_shared<const Parameter>(std::move(one)));  // later values take precedence
   }
   constexpr std::size_t most = 1000;
   if (list.size() > most) {
@@ -343,7 +343,7 @@ void Statements::object_instance(const Token& name) {
   }
 }
 
-/// Adds instances of objects that were defined later.
+/// Adds instances whose objects were defined after them.
 void Statements::add_awaited() {
   for (const Awaited& one : awaited_) {
     const auto found = objects_.find(one.object);
@@ -354,7 +354,7 @@ void Statements::add_awaited() {
   }
 }
 
-/// In front of what the object's shapes have. Here alone an instance's transform is made.
+/// Prepends the transform to those of the object's shapes. Only here is an instance's transform made.
 void Statements::add_instance(Object& shapes, const Transform& ctm, const Token& name) {
   count(shapes.is_there ? shapes.anew : GeometrySize{}, name.place);
   shapes.is_there = true;
@@ -370,7 +370,7 @@ void Statements::count(const GeometrySize& more, const Place& said) {
   files_.totals().add(more, [&] { return tokens_.text_of(said) + ": "; });
 }
 
-// How it is seen.
+// Camera and film.
 
 std::string Statements::text(const Token& name, const char* what) {
   const Token token = tokens_.next();
@@ -426,7 +426,7 @@ void Statements::color_space(const Token& name) {
   notes_.count("colours of the space " + quoted(space) + ", shown as if they were of sRGB", space == "srgb" ? 0 : 1);
 }
 
-/// Structures, filters and media: how pbrt renders, or what is not shown.
+/// Acceleration structures, filters and media: they concern only pbrt's rendering, or are not shown.
 void Statements::of_other_renderers(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
@@ -438,7 +438,7 @@ void Statements::of_other_renderers(const Token& name) {
                name.text == "PixelFilter" && !is_ours ? 1 : 0);
 }
 
-/// Pbrt's depth is of hits that lights show directly, of which ours have one without a bounce.
+/// Pbrt's depth counts hits with direct lighting; ours have one such hit without a bounce.
 void Statements::integrator(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "");
@@ -504,7 +504,7 @@ void Statements::of_older_versions(const Token& name) {
       name.text + " is a statement of pbrt-v3 and older versions: turn the scene into one of version 4 by pbrt --upgrade");
 }
 
-// What shapes look like.
+// Materials and textures.
 
 void Statements::texture(const Token& name) {
   const std::string texture = text(name, "its name"), type = text(name, "what it is of"), kind = text(name, "its kind");
@@ -567,7 +567,7 @@ void Statements::shape(const Token& name) {
   const std::string kind = text(name, "its kind");
   const Parameters all = parameters(kind, name, "shape");
   std::optional<PlacedShape> shape =
-      shape_of(kind, all, tokens_, files_, notes_, !surfaces_.is_made(state_.surface));  // one of textures is made later
+      shape_of(kind, all, tokens_, files_, notes_, !surfaces_.is_made(state_.surface));  // textured ones are made later
   if (shape) {
     add_shape(*std::move(shape), all);
     finish(all, name.text, kind);
@@ -600,7 +600,7 @@ std::size_t Statements::look_number(const Look& look) {
   return found->second;
 }
 
-/// Its material, and that of its back where it shines to the front alone.
+/// Sets the material, and that of the back if only the front emits.
 void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
   Look look{.surface = state_.surface, .emission = {}, .opacity = 1};
   const bool is_cut = parameters.find("alpha", {ParameterType::texture}) != nullptr;
@@ -630,7 +630,7 @@ void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
   }
 }
 
-/// But of the material "interface".
+/// Except for shapes with the material "interface".
 void Statements::add_unseen_lights() {
   for (const auto& [surface, light] : unseen_) {
     if (surfaces_.at(surface).is_drawn) {
@@ -646,7 +646,7 @@ void Statements::give_materials() {
   }
 }
 
-/// What parts media from each other shows nothing and does not shine; nor does what alpha takes away.
+/// Removes shapes that only separate media, which neither show nor emit anything, and shapes that alpha removes.
 void Statements::drop_undrawn() {
   const auto is_undrawn = [this](const ShapePlace& place) {
     const Look& look = looks_[file_.shapes[place.shape].mesh.material];

@@ -24,11 +24,11 @@ Vec3d clamped(const Vec3d& color) {
   return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
 }
 
-/// Share of diffuse light inside a medium of this index that its smooth surface reflects back inwards: all but 1/n^2 of what it
-/// lets in (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's reflection
-/// outside).
+/// Returns the share of diffuse light inside a medium of this index that its smooth surface reflects inwards: all but 1/n^2 of
+/// the transmittance (S. Duntley, "The Optical Properties of Diffusing Materials", JOSA 32, 1942, for the mean of Fresnel's
+/// reflection outside).
 double inner_reflection(double index) {
-  constexpr double index_min = 1.001;  // below which there is no telling
+  constexpr double index_min = 1.001;  // the formula is unusable below
   if (!(index > index_min)) {
     return 0;
   }
@@ -40,22 +40,22 @@ double inner_reflection(double index) {
   return 1 - (1 - outside) / square;
 }
 
-/// What a pane reflects of both its faces together, of what one face reflects.
+/// Returns the reflectance of both faces of a pane, from that of one face.
 double of_both_faces(double one) { return 2 * one / (1 + one); }
 
-/// What a metal of this index reflects straight ahead, channel by channel.
+/// Returns the reflectance at normal incidence of a metal with this index, per channel.
 Vec3d channels_of(const Vec3d& eta, const Vec3d& k, double below) {
   const auto channel = [below](double n, double k_of) { return straight_reflection(n / below, k_of / below); };
   return {channel(eta.x, k.x), channel(eta.y, k.y), channel(eta.z, k.z)};
 }
 
-/// The k of a metal whose eta is 1.
+/// Returns the k that gives a metal with eta 1 this reflectance.
 double k_of_reflectance(double share) {
   const double most = std::min(share, 0.9999);
   return 2 * std::sqrt(most / (1 - most));
 }
 
-/// A share of each, of the larger one's kind.
+/// Blends two surfaces; the result has the kind of the one with the larger share.
 Surface blended(const Surface& first, const Surface& second, double amount) {
   Surface result = amount < 0.5 ? first : second;
   const auto between = [&](double a, double b) { return a + (b - a) * amount; };
@@ -110,7 +110,7 @@ void Surfaces::make(std::uint32_t slot, const std::string& kind, const Parameter
     notes_.count("materials with displacement or a map of normals, shown without", is_there ? 1 : 0);
   }
   if (kind == "mix") {
-    const Mixture mixture = mixture_of(parameters);  // which may make slots of the names that it mixes
+    const Mixture mixture = mixture_of(parameters);  // this may create slots for the names that it mixes
     slots_[slot].mixture = mixture;
   } else {
     slots_[slot].surface = surface_of(kind, parameters);
@@ -127,7 +127,7 @@ Surfaces::Mixture Surfaces::mixture_of(const Parameters& parameters) {
   return {named(names->texts[0], names->place), named(names->texts[1], names->place), amount};
 }
 
-/// Roughness as glTF has it: its square is alpha.
+/// Returns the roughness as in glTF: its square is alpha.
 double Surfaces::roughness(const Parameters& parameters, const std::string& prefix, double fallback) const {
   const auto find = [&](const char* name) { return textures_.number(parameters, (prefix + name).c_str()); };
   const double both = find("roughness").value_or(fallback);
@@ -135,7 +135,7 @@ double Surfaces::roughness(const Parameters& parameters, const std::string& pref
   notes_.count("materials that are rougher one way than the other, shown by the mean", u < v || v < u ? 1 : 0);
   const bool is_remapped = parameters.flag("remaproughness", true);
   const double rough = std::sqrt(u * v), alpha = is_remapped ? std::sqrt(rough) : rough;
-  constexpr double smooth_alpha = 1e-3;  // what pbrt takes for a mirror
+  constexpr double smooth_alpha = 1e-3;  // the limit below which pbrt assumes a mirror
   return alpha < smooth_alpha ? 0 : std::clamp(std::sqrt(alpha), 0.0, 1.0);
 }
 
@@ -183,7 +183,7 @@ Surface Surfaces::conductor(const Parameters& parameters, const std::string& pre
   return surface;
 }
 
-/// A metal whose colour is what comes back through a smooth coat, and of both faces of that.
+/// Returns a metal with the colour of the light reflected by a smooth coat and, through both faces of the coat, by the metal.
 Surface Surfaces::coated_conductor(const Parameters& parameters) const {
   notes_.count("coats of metals, shown in the metal's colour and roughness");
   Surface surface = conductor(parameters, "conductor.");
@@ -194,7 +194,7 @@ Surface Surfaces::coated_conductor(const Parameters& parameters) const {
   return surface;
 }
 
-/// Light that is within goes back and forth between what is diffuse and the coat: of R comes out R (1 - f) / (1 - R f).
+/// Light is reflected repeatedly between the diffuse base and the coat: of reflectance R, R (1 - f) / (1 - R f) emerges.
 Surface Surfaces::coated(const Parameters& parameters) const {
   Surface surface = diffuse(parameters, "reflectance", 0.5);
   surface.has_facets = true;
@@ -304,7 +304,7 @@ FileMaterial Surfaces::material_of(const Surface& surface, const Vec3d& emission
   facets.emission = emission;
   facets.opacity = opacity;
   material = apps::material_of(facets);
-  if (surface.is_thin) {  // what comes out goes on as it came
+  if (surface.is_thin) {  // transmitted light keeps its direction
     material.refraction_index = 1;
     material.specular = of_both_faces(material.specular);
     material.transmittance = 1 - material.specular;

@@ -124,7 +124,7 @@ TextureValue Textures::mixed(const Parameters& parameters, bool is_number) {
   return amount < 0.5 ? first : second;
 }
 
-/// Half of its cells have a dot, whose radius is 0.35 of theirs.
+/// Half of its cells have a dot, with a radius of 0.35 cells.
 TextureValue Textures::dotted(const Parameters& parameters, bool is_number) {
   constexpr double share = 0.5 * 0.35 * 0.35 * std::numbers::pi;
   const TextureValue inside = part(parameters, "inside", 1, is_number), outside = part(parameters, "outside", 0, is_number);
@@ -148,7 +148,7 @@ TextureValue Textures::checkered(const Parameters& parameters, bool is_number) {
   return value;
 }
 
-/// u and v as pbrt has them, v upwards, are scaled and moved, `span` of that lies across the picture; its t goes downwards.
+/// Scales and shifts pbrt's u and v (v upwards); the picture covers `span` of the result, and its t increases downwards.
 void Textures::place(const Parameters& parameters, TextureValue& value, double span) {
   const std::string mapping = parameters.text("mapping", "uv");
   notes_.count("textures that lie by a mapping of their own, shown by u and v", mapping == "uv" ? 0 : 1);

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::string_view white = " \t\r\n\v\f", word_ends = " \t\r\n\v\f\"[]";
 
-/// What is one word is copied out of its file.
+/// The maximum length of a word, which is copied out of its file.
 constexpr std::size_t word_bytes_max = std::size_t{1} << 20U;
 
 bool is_of_no_text(char letter) {
   return (static_cast<unsigned char>(letter) < 32 && white.find(letter) == std::string_view::npos) || letter == 127;
 }
 
-/// What stands behind a backslash in a string; 0 for what may not.
+/// Returns the letter for an escape sequence; 0 for an invalid one.
 char escaped(char letter) {
   constexpr std::string_view letters = "bfnrt\\'\"", meant = "\b\f\n\r\t\\'\"";
   const std::size_t at = letters.find(letter);
@@ -72,7 +72,7 @@ void Tokens::check_includes(const std::string& path, const Place& from) const {
   }
 }
 
-/// A file that includes twice what includes twice what includes twice ... would be read for ever.
+/// Bounds the bytes read, since nested files that each include another twice would take exponential time.
 void Tokens::count_bytes(const SourceText& text, const std::string& path, const Place& from) {
   bytes_of_files_ += known_.insert(path).second ? text.text().size() : 0;
   bytes_read_ += text.text().size();
@@ -142,7 +142,7 @@ void Tokens::advance(Source& source, std::size_t bytes) {
   source.rest.remove_prefix(bytes);
 }
 
-/// With remarks; false at the end.
+/// Also skips comments; returns false at the end.
 bool Tokens::skip_blanks(Source& source) {
   while (!source.rest.empty()) {
     const std::size_t blank = std::min(source.rest.find_first_not_of(white), source.rest.size());

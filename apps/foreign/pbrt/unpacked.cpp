@@ -12,10 +12,10 @@
 namespace dmpc::apps::pbrt {
 namespace {
 
-/// Limit of unpacked bytes per packed byte; zlib's own limit is 1032.
+/// Limit of decompressed bytes per compressed byte; zlib's own limit is 1032.
 constexpr std::uint64_t growth_max = 1000;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20U;
-/// zlib's largest window, and 16 for gzip's heads and sums.
+/// zlib's largest window, plus 16 for gzip's headers and checksums.
 constexpr int gzip_window_bits = 15 + 16;
 
 class Unpacker {
@@ -45,7 +45,7 @@ class Unpacker {
   }
 
  private:
-  /// Fills a piece as far as there is something; returns whether there is more.
+  /// Fills a piece as far as there are data; returns whether there are more.
   bool add_piece(char* room) {
     stream_.next_out = reinterpret_cast<Bytef*>(room);
     stream_.avail_out = piece_bytes;
@@ -64,7 +64,7 @@ class Unpacker {
                                             : "what is packed is damaged: copy the file anew");
       }
       if (answer == Z_STREAM_END) {
-        ::inflateReset(&stream_);  // gzip's files may stand one behind the other
+        ::inflateReset(&stream_);  // gzip files may be concatenated
       }
     }
     return true;
@@ -73,7 +73,7 @@ class Unpacker {
   void feed() {
     if (stream_.avail_in == 0) {
       const std::size_t count = std::min<std::size_t>(rest_.size(), std::numeric_limits<uInt>::max());
-      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));  // which zlib only reads
+      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));  // zlib only reads it
       stream_.avail_in = static_cast<uInt>(count);
       rest_.remove_prefix(count);
     }

@@ -17,8 +17,8 @@
 namespace dmpc::apps {
 namespace {
 
-/// For each face the material that is its own, times its colour's if it has one; nothing, and no new material, if there are too
-/// many.
+/// Returns for each face a material that combines the face's own with its colour, if any; returns nothing, without adding
+/// materials, if there would be too many.
 std::optional<std::vector<std::uint32_t>> coloured_materials(const FaceLooks& looks, PlacedFile& file) {
   if (looks.colors.empty()) {
     return looks.materials;
@@ -45,7 +45,7 @@ std::optional<std::vector<std::uint32_t>> coloured_materials(const FaceLooks& lo
   return materials;
 }
 
-/// Puts faces in another order.
+/// Reorders the faces.
 void sort_faces(std::span<const std::uint32_t> order, PolygonMesh& mesh) {
   const FaceList faces = std::move(mesh.faces);
   const auto sort = [&]<class T>(const std::vector<T>& old, std::vector<T>& list) {

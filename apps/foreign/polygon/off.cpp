@@ -35,14 +35,14 @@ class OffReader {
   void read_counts(std::string_view first);
   std::uint64_t count_of(std::string_view word, const char* what) const;
   double number_of(std::string_view word, const char* what) const;
-  /// As above; a word for NaN gives NaN.
+  /// Also accepts a word for NaN, which gives NaN.
   double number_or_none(std::string_view word, const char* what) const {
     return is_no_number(word) ? std::numeric_limits<double>::quiet_NaN() : number_of(word, what);
   }
   void read_vertex(std::uint64_t number);
   void read_face(std::uint64_t number);
   std::uint32_t read_corner(std::uint64_t face);
-  /// Colour from the numbers that end a line, after its first `begin`.
+  /// Returns the colour from the numbers of a line from index `begin` on.
   std::optional<Color> off_color(std::size_t begin);
   void read_rest_of_line();
   std::uint64_t room() const { return (bytes_ - words_.position()) / 2 + 1; }
@@ -53,14 +53,14 @@ class OffReader {
   std::size_t bytes_;
   bool has_colors_ = false, has_normals_ = false, has_places_ = false;
   std::uint64_t vertices_ = 0, faces_ = 0, thin_ = 0, from_map_ = 0, see_through_ = 0, strays_ = 0;
-  std::size_t first_stray_ = 0;  ///< its line
+  std::size_t first_stray_ = 0;  ///< line of the first one
   PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
   FaceLooks looks_;
-  std::vector<double> numbers_;  ///< the current line's
+  std::vector<double> numbers_;  ///< of the current line
   std::vector<std::uint32_t> corners_;
 };
 
-/// ST, C, N, 4 and n stand before OFF in this order.
+/// ST, C, N, 4 and n precede OFF in this order.
 void OffReader::read_kind(std::string_view word) {
   const std::string_view whole = word;
   const auto take = [&word](std::string_view part) {
@@ -81,7 +81,7 @@ void OffReader::read_kind(std::string_view word) {
 void OffReader::read_header() {
   std::string_view word = words_.next();
   const std::size_t end = std::min(word.find("OFF"), word.size()) + 3;
-  const bool has_count = end < word.size() && decimal_number(word.substr(end));  // "OFF490 518 0", as ModelNet has it
+  const bool has_count = end < word.size() && decimal_number(word.substr(end));  // "OFF490 518 0", as in ModelNet
   if ((end == word.size() || has_count) && end <= std::string_view("STCN4nOFF").size()) {
     read_kind(word.substr(0, end));
     word = has_count ? word.substr(end) : words_.next();
@@ -94,7 +94,7 @@ void OffReader::read_header() {
   read_counts(word);
 }
 
-/// Edges need not be counted.
+/// The number of edges is optional.
 void OffReader::read_counts(std::string_view first) {
   vertices_ = count_of(first, "the number of vertices");
   faces_ = count_of(words_.next(), "the number of faces");
@@ -162,7 +162,7 @@ std::optional<Color> OffReader::off_color(std::size_t begin) {
   return Color{from_zero(0), from_zero(1), from_zero(2)};
 }
 
-/// Its first numbers may stand in several lines.
+/// The first numbers of a vertex may extend over several lines.
 void OffReader::read_vertex(std::uint64_t number) {
   numbers_.clear();
   const std::size_t own = has_normals_ ? 6 : 3, places = has_places_ ? 2 : 0;

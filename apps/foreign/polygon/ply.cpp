@@ -20,7 +20,7 @@ namespace {
 
 using enum PlyRole;
 
-/// What is counted on the way, and said in the end.
+/// Counters for the final notes.
 struct PlyCounts {
   std::uint64_t thin = 0, see_through = 0, materials_of_none = 0, textures_of_none = 0, of_other_names = 0;
 };
@@ -30,7 +30,7 @@ Color row_color(const PlyRow& row) {
   return {channel(red), channel(green), channel(blue)};
 }
 
-/// Maximum of a channel; 0 if the type does not imply it.
+/// Returns the maximum of a channel; 0 if the type does not imply it.
 double full_light_of(PlyType type) {
   constexpr double byte_max = 255;
   return !is_whole(type) ? 0 : type == PlyType::uint16 ? most_of(type) : byte_max;
@@ -63,7 +63,7 @@ class PlyReader {
   void read_element(const PlyElement& element);
   void read_vertices(const PlyElement& element);
   void note_left_out(const PlyElement& element, const PlyRow& row);
-  /// Notes incomplete groups of properties, which only mean something together.
+  /// Notes incomplete groups of properties, which have a meaning only together.
   void note_incomplete(const PlyElement& element, const PlyRow& row);
   void set_precision(const PlyRow& row);
   void take_vertex(const PlyRow& row, bool has_normals, bool has_places);
@@ -75,7 +75,7 @@ class PlyReader {
   void take_strip(const PlyRow& row, std::uint64_t number);
   void read_materials(const PlyElement& element);
   void skip(const PlyElement& element);
-  /// Converts index number `number` of a list called `what`, which error messages use.
+  /// Converts index number `number` of a list; error messages call the list `what`.
   std::uint32_t vertex_of(double index, const char* what, std::uint64_t number) const;
   void extension_colors();
   void add_to(PlacedFile& file);
@@ -91,7 +91,7 @@ class PlyReader {
   PlySurfaces surfaces_;
   PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
   FaceLooks looks_;
-  std::vector<std::array<float, 2>> corner_places_;  ///< a corner each, or none; come before those of vertices
+  std::vector<std::array<float, 2>> corner_places_;  ///< one per corner, or none; take precedence over those of vertices
   PlyCounts counts_;
   std::vector<std::string> notes_;
   std::vector<std::uint32_t> corners_;
@@ -184,7 +184,7 @@ std::uint32_t PlyReader::vertex_of(double index, const char* what, std::uint64_t
   return static_cast<std::uint32_t>(index);
 }
 
-/// Faces that have none are plain.
+/// Faces without texture coordinates are plain.
 void PlyReader::take_corner_places(const PlyRow& row, std::uint64_t number) {
   const std::vector<double>& places = row.corner_places();
   const std::size_t corners = row.corners().size();
@@ -253,8 +253,8 @@ void PlyReader::read_faces(const PlyElement& element) {
   for_each(element, row, [&](std::uint64_t number) { take_face(row, number); });
 }
 
-/// Stanford's: a vertex more is a triangle more, every second one turned; -1 begins anew. Triangles without area only join
-/// strips.
+/// Stanford's strips: each further vertex adds a triangle, every second one reversed; -1 restarts the strip. Triangles without
+/// area only join strips.
 void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
   const bool has_texture = surfaces_.texture_count() > 0 && !mesh_.places.empty();
   const std::uint32_t surface = surfaces_.find(0, has_texture ? std::optional(0U) : std::nullopt);
@@ -323,7 +323,7 @@ void PlyReader::read_element(const PlyElement& element) {
 
 bool PlyReader::is_textured() const { return surfaces_.texture_count() > 0 && !(mesh_.places.empty() && corner_places_.empty()); }
 
-/// One kind of colours is shown: a texture's, else the vertices', else the faces'.
+/// Only one kind of colours is shown: the texture's, else the vertices', else the faces'.
 void PlyReader::extension_colors() {
   if (!looks_.colors.empty()) {
     looks_.colors.resize(mesh_.faces.ends.size(), not_yet);
@@ -379,7 +379,7 @@ void PlyReader::add_to(PlacedFile& file) {
   add_mesh(std::move(mesh_), std::move(looks_), file);
 }
 
-/// Its surfaces are another's.
+/// The caller provides the surface.
 PolygonMesh PlyReader::read_shape(std::vector<std::string>& notes) {
   read_elements();
   note_count(notes, "points and lines left out", counts_.thin);
@@ -399,7 +399,7 @@ PlacedFile PlyReader::read() {
                   .coordinate_rounding = coordinate_rounding_};
   file.notes.insert(file.notes.end(), notes_.begin(), notes_.end());
   for (FileMaterial& material : file.materials) {
-    material.texture = is_textured() ? material.texture : std::nullopt;  // which nobody looks for where it is not shown
+    material.texture = is_textured() ? material.texture : std::nullopt;  // textures that are not shown are not loaded
   }
   add_to(file);
   return file;

@@ -33,7 +33,7 @@ class PlyHeaderReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw core::InputError("line " + std::to_string(line_) + ": " + what); }
   std::string_view next_line();
-  /// Whether that was the last line.
+  /// Returns whether that was the last line.
   bool read_line(std::string_view line);
   void add_format(LineWords& words, std::string_view line);
   void add_element(LineWords& words, std::string_view line);
@@ -42,15 +42,15 @@ class PlyHeaderReader {
 
   std::string_view file_;
   std::size_t at_ = 0, line_ = 0;
-  bool ends_by_return_ = false;  ///< every line, so that a first byte \n is the body's
+  bool ends_by_return_ = false;  ///< for every line, so that a first byte \n belongs to the body
   PlyHeader header_;
   std::optional<PlyFormat> format_;
   std::uint64_t strange_lines_ = 0;
-  std::string strange_;  ///< the first
+  std::string strange_;  ///< the first one
 };
 
 std::string_view PlyHeaderReader::next_line() {
-  constexpr std::string_view ends("\r\n\0", 3);  // the last is of a hole in a file, whose end may be far
+  constexpr std::string_view ends("\r\n\0", 3);  // \0 occurs in a hole of a file, which may be long
   const std::size_t end = file_.find_first_of(ends, at_);
   ++line_;
   if (end == std::string_view::npos) {
@@ -126,7 +126,7 @@ bool PlyHeaderReader::read_line(std::string_view line) {
     add_property(words, line);
   } else if (first == "comment") {
     add_comment(words);
-  } else if (!first.empty() && first != "obj_info" && ++strange_lines_ == 1) {  // as Blender 2.47 wrote one
+  } else if (!first.empty() && first != "obj_info" && ++strange_lines_ == 1) {  // as written by Blender 2.47
     strange_ = "line " + std::to_string(line_) + ", '" + clipped(line, 40) + "'";
   }
   return false;

@@ -12,7 +12,7 @@ namespace {
 
 bool is_list_role(PlyRole role) { return role >= PlyRole::corners; }
 
-/// Places on a texture have many names: those of Blender (s, t), of Assimp, and of MeshLab (texture_u, texture_v).
+/// Texture coordinates have many names: those of Blender (s, t), of Assimp, and of MeshLab (texture_u, texture_v).
 std::optional<PlyRole> role_of(std::string_view name) {
   using enum PlyRole;
   static const std::map<std::string_view, PlyRole> roles = {{"x", x},
@@ -62,7 +62,7 @@ PlyRow::PlyRow(const PlyElement& element, PlyValues& values, std::initializer_li
   for (const PlyProperty& property : element.properties) {
     auto role = role_of(property.name);
     if (role && (has(*role) || std::find(used.begin(), used.end(), *role) == used.end())) {
-      role.reset();  // another name of what is there already, or of no use
+      role.reset();  // a second name for the same role, or an unused role
     }
     if (role && is_list_role(*role) != property.count_type.has_value()) {
       throw core::InputError("the property '" + std::string(property.name) + "' of the element '" + std::string(element.name) +

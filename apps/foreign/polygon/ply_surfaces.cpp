@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t without_texture = std::numeric_limits<std::uint32_t>::max();
 
-/// 0 to 1, of the type's largest number; that of an integer of more than 16 bits is 255.
+/// Returns 0 to 1, relative to the type's largest number, or to 255 for integers of more than 16 bits.
 double share_of(const PlyRow& row, PlyRole role) {
   constexpr double byte_max = 255;
   const PlyType type = row.type_of(role);

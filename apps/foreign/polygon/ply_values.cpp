@@ -14,7 +14,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// `least` and `most` are no larger than 64 bits hold.
+/// `least` and `most` fit in 64 bits.
 bool is_whole_number(double value, double least, double most) {
   return value >= least && value <= most && static_cast<double>(static_cast<std::int64_t>(value)) == value;
 }
@@ -38,12 +38,12 @@ class TextValues final : public PlyValues {
 
  private:
   std::uint64_t left() const { return bytes_ - words_.position(); }
-  /// A comment is none.
+  /// Skips comments.
   std::string_view word();
 
   LineWords words_;
   std::size_t bytes_;
-  std::string shared_line_;  ///< words about the first in which an element begins behind another
+  std::string shared_line_;  ///< describes the first line on which an element starts after another
 };
 
 std::string_view TextValues::word() {
@@ -169,7 +169,7 @@ void BinaryValues::take_all(std::vector<double>& values) {
   }
 }
 
-/// Calls act with a value of the C++ type that is `type`.
+/// Calls act with a value of the C++ type for `type`.
 template <class Act>
 auto with_type(PlyType type, const Act& act) {
   switch (type) {
@@ -198,7 +198,7 @@ double BinaryValues::next(PlyType type) {
   return with_type(type, [this](auto of_type) { return static_cast<double>(take<decltype(of_type)>()); });
 }
 
-/// The type is looked at once for all.
+/// The type is dispatched once for the whole list.
 void BinaryValues::next_list(PlyType count_type, PlyType type, std::vector<double>& values) {
   values.resize(next_length(count_type, type));
   with_type(type, [&](auto of_type) { take_all<decltype(of_type)>(values); });

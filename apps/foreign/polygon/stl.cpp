@@ -19,7 +19,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// `b` in small letters.
+/// `b` is in lower case.
 bool is_same(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](unsigned char letter, char other) { return std::tolower(letter) == other; });
@@ -36,7 +36,7 @@ class StlTextReader {
  private:
   void read_solid(PlacedFile& file);
   void read_facet(PolygonMesh& mesh);
-  /// The next word, which has to be this one.
+  /// Requires the next word to be this one.
   void take(std::string_view word) { expect(words_.next(), word); }
   void expect(std::string_view found, std::string_view word) const;
 
@@ -102,7 +102,7 @@ bool begins_with_solid(std::string_view text) {
   return in_small_letters(text.substr(0, 5)) == "solid";
 }
 
-/// Without bytes that text has not, but behind its end.
+/// Requires that zero bytes occur only after the end of the text.
 bool is_text(std::string_view file) {
   const std::string_view text = file.substr(0, file.find('\0'));
   const bool is_whole = text.size() == file.size() || text.find("endsolid") != std::string_view::npos;

@@ -17,10 +17,10 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::size_t header_bytes = 80, facet_bytes = 50, facets_begin = header_bytes + sizeof(std::uint32_t);
-/// The bits of a channel of an attribute's colour.
+/// The bits of a colour channel of an attribute.
 constexpr unsigned mask = 31;
 
-/// As it lies there, least byte first.
+/// Reads a little-endian value.
 template <class T>
 T value_at(std::string_view file, std::size_t place) {
   static_assert(std::endian::native == std::endian::little);
@@ -37,7 +37,7 @@ class StlBinaryReader {
   PlacedFile read();
 
  private:
-  /// What the header says of the whole.
+  /// Returns the colour that the header gives to the whole object.
   std::optional<Color> color_in(std::string_view header);
   std::size_t count_facets();
   void read_facet(std::size_t facet);

@@ -26,7 +26,7 @@ std::string_view without_plus(std::string_view word) {
   return word.substr(has_plus ? 1 : 0);
 }
 
-/// One that std::from_chars finds too large or too small.
+/// Returns the value of a number that std::from_chars finds too large or too small.
 std::optional<double> extreme_number(std::string_view word) {
   const double value = std::strtod(std::string(word).c_str(), nullptr);
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -63,12 +63,12 @@ bool LineWords::is_at_join() const {
   return rules_.are_one && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]);
 }
 
-/// "-1.#IND", as one library writes what is no number, is one word: else it would read as -1.
+/// "-1.#IND", which one library writes for a non-finite number, is one word; otherwise it would be read as -1.
 bool LineWords::is_at_remark() const {
   return rules_.remark != '\0' && text_[at_] == rules_.remark && (at_ == 0 || text_[at_ - 1] != '.');
 }
 
-/// Handles NUL bytes in a file whose end may be far: each byte is a word of its own.
+/// Handles NUL bytes in a file with a hole, which may be long: each byte is a word of its own.
 bool LineWords::is_in_hole() const { return !rules_.are_one && at_ < text_.size() && text_[at_] == '\0'; }
 
 void LineWords::skip_line_end() {

@@ -59,7 +59,7 @@ std::size_t TextLines::behind_end(std::size_t end) const {
   return end == file_.size() ? end : end + (file_.substr(end, 2) == "\r\n" ? 2 : 1);
 }
 
-/// A remark ends with its line, whatever that ends with, such as a folder's name.
+/// A comment ends with its line, even if the line ends with a backslash, such as in a folder's name.
 bool TextLines::goes_on(std::size_t begin, std::size_t end) const {
   return join_ == LineJoin::backslash && end > begin && end < file_.size() && file_[end - 1] == '\\' &&
          file_.substr(begin, end - begin).find('#') == std::string_view::npos;
