@@ -45,7 +45,7 @@ void add_options(OptionSet options, ProgramOptions& program, const std::vector<N
 void add_computer_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
 void add_closer_look(OptionSet options, ProgramOptions& program);
 
-/// Reads the machine to be modelled, if any, and replaces a renderer's operations by the program's. Throws core::InputError as
+/// Reads the modelled machine, if any, with the program's operations instead of a renderer's. Throws core::InputError as
 /// load_machine() does.
 void choose_machine(ProgramOptions& options, const Vocabulary& vocabulary);
 

@@ -157,7 +157,7 @@ std::uint64_t ProgramPlan::digest() const {
   return digest.value();
 }
 
-/// Chaos may reduce credits that return with answers, but not those that are a total.
+/// Chaos may reduce credits that return with answers, but not the fixed total of packets without answers.
 std::uint32_t ProgramPlan::credits(std::uint32_t source, std::uint32_t target, Index packet) const {
   const std::uint32_t count = requests_[packet] ? 0 : places(source, target, packet);
   return chaos_ && answers_[packet] ? nodes::shrunk_credits(*chaos_, count, static_cast<std::uint32_t>(packet)) : count;

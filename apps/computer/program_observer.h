@@ -35,8 +35,7 @@ class ProgramObserver {
 
   /// Returns the run's observer, or nullptr if there is none. Call it once.
   nodes::Observer* observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
-  /// Reports a run of tasks to the observers, on every rank; absent observers have null pointers. Observations of ranks are added
-  /// up.
+  /// Reports a run of tasks to the observers (nullptr if absent) on every rank. Observations of ranks are added up.
   svm::TaskWatching watching();
 
   /// Serializes the observations of local nodes, for add() on rank 0.

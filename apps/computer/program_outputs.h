@@ -18,8 +18,7 @@ using ProgramOutputs = OutputSet<ProgramRecord>;
 /// Returns the requested files.
 ProgramOutputs outputs_of(const ProgramOptions& options);
 
-/// Throws as check_outputs() of names does, and core::InputError if a report is requested but its plots could not be drawn for
-/// lack of a temporary folder.
+/// Throws as check_outputs() of names does, and core::InputError if there is no temporary folder for a requested report's plots.
 void check_outputs(const ProgramOptions& options, const ProgramOutputs& outputs);
 
 /// Writes the files, and prints the program's result and, unless quiet, its closing lines. Returns the exit status.

@@ -15,9 +15,8 @@ struct ProgramWork {
   nodes::WorkOf work_of;
 };
 
-/// A program with packets has its first four operations (each where a call charged it and none before it), the other work of its
-/// calls, and messages. A program of tasks has its first three operations, other work, installing and serving pages, and
-/// messages.
+/// With packets: the first four operations (each where a call charged it and none before it), the other work of calls, and
+/// messages. With tasks: the first three operations, other work, installing and serving pages, and messages.
 ProgramWork program_work(const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

@@ -74,8 +74,7 @@ std::vector<std::vector<Unanswered>> awaited_of_all(nodes::Runner& runner, const
   return awaited;
 }
 
-/// Returns whether the run completed. In a deadlock rank 0 throws each node's description and the cycle of waiting nodes; other
-/// ranks return false.
+/// Returns whether the run completed. In a deadlock rank 0 throws the nodes' descriptions and a cycle; other ranks return false.
 bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt, bool is_first) {
   try {
     if (runner.run(interrupt.token()) == nodes::RunEnd::interrupted) {

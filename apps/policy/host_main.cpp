@@ -1,5 +1,4 @@
-// The program dmpc_policy_host, which dmpc starts: simulates caches with a replacement policy from a shared library, which may
-// crash.
+// The program dmpc_policy_host, which dmpc starts: simulates caches with a shared library's policy, which may crash.
 
 #include <dmpc/policy.h>
 #include <unistd.h>

@@ -12,8 +12,7 @@
 
 namespace dmpc::apps {
 
-/// The answer is text: a line with the policy's name, then a line with the faults for each cache. A request without caches asks
-/// only for the name.
+/// The answer is a line with the policy's name, then a line with the faults of each cache. Without caches it is the name only.
 struct PolicyRequest {
   std::uint32_t node = 0;
   std::vector<std::uint32_t> cache_pages;  ///< per cache

@@ -9,8 +9,7 @@
 
 namespace dmpc::apps {
 
-/// "out.####.png" or "out.%04d.png": the field gives the minimum number of digits, padded with zeros. "%d" and "#" add no
-/// padding.
+/// "out.####.png" or "out.%04d.png": the field gives the minimum number of digits, zero-padded. "%d" and "#" do not pad.
 class FrameName {
  public:
   /// Returns nothing if the file name has no such field. Throws core::UsageError, naming `option`, if it has two.

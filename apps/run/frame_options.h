@@ -36,8 +36,7 @@ struct FrameOptions {
 /// Parses "24" for frames 1 to 24, or "3..7". Throws core::UsageError for anything else, and for frames out of range.
 FrameRange parse_frames(const std::string& text);
 
-/// Declares --frames, --turntable and --camera-path, of which at most one moves the camera, and --animation with --fps. Frames
-/// must differ in something.
+/// Declares --frames, --turntable, --camera-path (not with --turntable), --animation and --fps. Frames must differ in something.
 void add_options(OptionSet options, FrameOptions& frames);
 
 /// Reads the path's file, if there is one. Requires frames, and has_camera_path(). Throws core::InputError as read_camera_path()

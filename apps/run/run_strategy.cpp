@@ -20,8 +20,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// A node of a modelled machine has one pixel, or bundle, in flight and waits for its page, as in the 1994 paper; forest
-/// has many queries in flight.
+/// As in the 1994 paper, a modelled node has one pixel, or bundle, in flight and waits for its page; forest has many queries.
 std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
   if (!options.computer.machine || options.strategy == Strategy::forest || options.pages.in_flight) {
     return options.pages.in_flight;

@@ -18,17 +18,15 @@ namespace dmpc::apps {
 /// A planned run; for dataflow also balanced and assigned.
 struct ReadyRun {
   std::vector<std::string> notes;  ///< sentences for the user, before the run
-  /// Renders. Throws core::InputError if the computer has too little memory or too few threads, and core::InternalError if a
-  /// conservation check fails.
+  /// Renders. Throws core::InputError for too little real memory or too few threads, core::InternalError for a failed
+  /// conservation check.
   std::function<Report(const nodes::Progress&, std::stop_token)> start;
-  /// Renders the next frame on the same nodes, after start() and with its progress, if the options have several frames.
-  /// `settings` may differ from the first frame's only in the camera and what depends on it. Throws as start() does. Empty with
-  /// another tracer than our own.
+  /// Renders the next frame on the same nodes, after start() and with its progress. `settings` may differ from the first frame's
+  /// only in the camera and what depends on it. Throws as start() does. Empty for a single frame or another tracer than our own.
   std::function<Report(const core::RenderSettings& settings, std::stop_token)> go_on;
 };
 
-/// Reads the modelled machine, if there is one, and uses its topology to map regions. Throws core::InputError as load_machine()
-/// does.
+/// Reads the modelled machine, if any; its topology maps the regions. Throws core::InputError as load_machine() does.
 void choose_machine(StrategyOptions& options);
 /// Uses this machine, unchanged.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);

@@ -140,8 +140,7 @@ const SystemDescription& description_of(System system) {
   return *found;
 }
 
-/// Returns whether a requested structure may replace the system's present one: its original structure, and for a grid also
-/// voxels, which are one.
+/// Returns whether a structure may replace the system's present one: its original one, or for a grid voxels, which are a grid.
 bool may_have(System system, core::Structure structure) {
   return structure == description_of(system).had ||
          (settings_of(system).structure == core::Structure::grid && structure == core::Structure::voxels);

@@ -19,8 +19,7 @@ namespace dmpc::apps {
 /// Returns the settings with another camera and what depends on it.
 core::RenderSettings seen_from(const core::View& view, const core::RenderSettings& settings, const core::Database& database);
 
-/// Nodes keep memory, caches and regions from picture to picture. After a stopped picture the next one starts on new nodes.
-/// Thread safety: none.
+/// Nodes keep memory, caches and regions between pictures; after a stopped picture new nodes are made. Thread safety: none.
 class WarmNodes {
  public:
   /// `options` and `database` outlive this object.

@@ -56,9 +56,9 @@ class CameraPath {
   std::vector<Keyframe> keyframes_;  ///< empty for a turntable
 };
 
-/// Reads lines "FRAME CAMERA", such as "1 4,3,5/0,0,0/0,1,0/45", with the camera in the syntax of --camera; blank lines and text
-/// after # are ignored. Throws core::InputError, with file and line, for other lines, no keyframe, frames that do not ascend, and
-/// an unreadable file.
+/// Reads lines "FRAME CAMERA", such as "1 4,3,5/0,0,0/0,1,0/45", in the syntax of --camera; blank lines and text after # are
+/// ignored. Throws core::InputError, with file and line, for other lines, no keyframe, frames that do not ascend, an unreadable
+/// file.
 CameraPath read_camera_path(const std::filesystem::path& file);
 
 }  // namespace dmpc::apps

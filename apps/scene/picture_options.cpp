@@ -52,8 +52,7 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// Options that determine the lighting, except those of path tracing alone. Any of them overrides the default lighting; rendering
-/// quality and background do not.
+/// Options of lighting, except of path tracing alone. Each overrides the default lighting; quality and background do not.
 constexpr std::array said_of_light{"--transport", "--light", "--fill", "--ambient", "--convention"};
 
 /// Returns the first of these options that is given, or nothing.

@@ -34,14 +34,13 @@ struct SceneSetup {
 /// Declares --camera, --light, --fill, --ambient, --background, --scale, --up, --smooth, --missing, --files and --sandbox.
 void add_options(OptionSet options, SceneSetup& scene_setup);
 
-/// Parses "FROM/AT[/UP[/DEGREES]]", such as "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError, naming `option`, for anything else,
-/// or for a view that shows nothing.
+/// Parses "FROM/AT[/UP[/DEGREES]]", as in "1,2,3/0,0,0/0,1,0/45". Otherwise, or if nothing is visible, throws core::UsageError
+/// with `option`.
 CameraChoice parse_camera(const std::string& text, const std::string& option = "--camera");
 /// Parses "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a negative colour.
 core::PointLight parse_light(const std::string& text);
 
-/// Parses "R,G,B" or one number for all three, each from 0 to 1e30. Throws core::UsageError that names the option for anything
-/// else.
+/// Parses "R,G,B" or one number for all three, each from 0 to 1e30. Otherwise throws core::UsageError that names the option.
 core::Vec3d parse_color(const std::string& option, const std::string& text);
 
 /// Returns the view with the given values of the camera in place of its own.

@@ -43,8 +43,8 @@ void say_notes(const std::vector<std::string>& notes);
 /// Describes a database that should store meshes once: how many it does, and what prevents the others.
 std::string kept_text(const core::RecordCounts& records);
 
-/// Describes how meshes with several instances are stored; empty if no option asks or no mesh has several instances. `keeps`:
-/// base meshes are kept.
+/// Describes how meshes with several instances are stored; empty if nobody asked or there are none. `keeps`: they are stored
+/// once.
 std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
                            const core::InstancingShare& share);
 

@@ -109,8 +109,7 @@ class Node {
   std::uint32_t next() const { return (id() + 1) % node_count(); }
   std::uint32_t previous() const { return (id() + node_count() - 1) % node_count(); }
 
-  /// Allocates `count` zeros from the declared memory. To be called only during construction of the program. Throws ProgramError
-  /// beyond the declared size.
+  /// Allocates `count` zeros from the declared memory, during construction only. Throws ProgramError beyond the declared size.
   template <class T>
   std::span<T> allocate(Index memory, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -127,8 +126,7 @@ class Node {
   [[nodiscard]] bool try_send(std::uint32_t target, Index packet, std::span<T> values) {
     return try_send(target, packet, std::span<const std::byte>(std::as_bytes(values)));
   }
-  /// Answers a packet from `target` that is not answered yet, for which there is always space. Throws ProgramError if there is no
-  /// such packet.
+  /// Answers an unanswered packet from `target`, which always fits. Throws ProgramError if there is no such packet.
   virtual void answer(std::uint32_t target, Index packet, std::span<const std::byte> payload = {}) = 0;
 
   /// Counts `count` operations, which take time on a modelled machine.
@@ -192,7 +190,7 @@ template <class P>
 struct Application {
   std::string description;  ///< one sentence on what it does
   std::vector<NumberOption> options = {};
-  /// Returns the needs of a program on `node_count` nodes. Called on every rank after the options are read. Throws UsageError for
+  /// Returns the needs on `node_count` nodes; called on every rank after the options are read. Throws UsageError for
   /// contradictory options.
   std::function<Needs(std::uint32_t node_count)> needs;
   /// Makes a node's program, on the node's rank.

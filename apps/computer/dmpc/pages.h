@@ -35,11 +35,10 @@ enum class Step : std::uint8_t {
 /// A task's view of the data while it runs.
 class Pages {
  public:
-  /// Returns the bytes from `offset`, a multiple of find_alignment, to the end of its page; nullptr if the page is not here.
-  /// Valid until the next call.
+  /// Returns the bytes from `offset`, a multiple of find_alignment, to the end of its page until the next call; nullptr if
+  /// absent.
   virtual const std::byte* find(std::uint64_t offset) = 0;
-  /// Reads the value at `offset`; returns false if its page is not here. Values are aligned to their size, so that none crosses a
-  /// page boundary.
+  /// Reads the value at `offset`; returns false if its page is absent. Values are aligned to their size, so none crosses pages.
   template <class T>
   [[nodiscard]] bool read(std::uint64_t offset, T& value) {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 512 && (sizeof(T) & (sizeof(T) - 1)) == 0);

@@ -18,8 +18,8 @@ inline constexpr std::uint32_t policy_version = 1;
 class Policy {
  public:
   virtual ~Policy() = default;
-  /// The page in a frame is referenced again. Consecutive references to one page count as one, and the first reference to an
-  /// arriving page is its insert().
+  /// The page in a frame is referenced again. Repeated references count as one; the first reference to a new page is its
+  /// insert().
   virtual void hit(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}
   /// A page has arrived in a frame that was empty or was returned by victim().
   virtual void insert(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}

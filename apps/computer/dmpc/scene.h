@@ -14,15 +14,13 @@
 
 namespace dmpc {
 
-/// A page from Pages::find() that is passed to a pixel must be readable for this many bytes past its end; their values do not
-/// matter.
+/// A page from Pages::find() for a pixel must be readable for this many bytes past its end; their values do not matter.
 inline constexpr std::size_t overread_bytes = 32;
 
 /// A scene and a picture of it with one sample per pixel. Immutable: nodes' programs may access everything except the records.
 class Scene {
  public:
-  /// Loads a built-in scene, such as "rings-3-t1", with a page size that is a power of two from 512 B to 64 KiB. Throws
-  /// UsageError for anything else.
+  /// Loads a built-in scene, such as "rings-3-t1", in pages of a power of two from 512 B to 64 KiB. Otherwise throws UsageError.
   Scene(const std::string& name, std::uint32_t width, std::uint32_t height, std::size_t page_bytes = 1024);
 
   std::uint32_t pixel_count() const;

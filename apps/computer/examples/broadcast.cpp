@@ -22,8 +22,8 @@ struct Tree {
   /// Returns the size of a piece with its number in front.
   std::size_t piece_bytes() const { return sizeof(std::uint32_t) + (bytes + pieces - 1) / pieces; }
 
-  /// Returns the `i`-th child of `node`, if that is below the number of nodes. In a binomial tree all nodes below 2^r send to the
-  /// node at distance 2^r in round r.
+  /// Returns the `i`-th child of `node`, if below the number of nodes. In round r of a binomial tree nodes below 2^r send to the
+  /// node 2^r further.
   std::uint64_t child(std::uint32_t node, std::uint32_t i) const {
     return children > 0 ? std::uint64_t{node} * children + i + 1 : node + (std::uint64_t{1} << (std::bit_width(node) + i));
   }

@@ -133,8 +133,7 @@ class SampleSort final : public dmpc::Program {
     has_bounds_ = true;
   }
 
-  /// Sends the next part to every node to which a packet may be sent, starting with the next node, so that not all nodes send to
-  /// the same one.
+  /// Sends the next part to every node with space for a packet, first to the next one, so that not all send to the same node.
   bool send_parts() {
     bool has_sent = false;
     for (std::uint32_t i = 0; i < nodes_; ++i) {

@@ -25,8 +25,7 @@ using Corner = std::array<std::uint32_t, named_count>;
 /// later are remembered and checked at the end.
 class CornerReader {
  public:
-  /// Parses `word`, which is the last word of `words`. Throws core::InputError, with the line, for a malformed corner or an
-  /// impossible index.
+  /// Parses `word`, the last one of `words`. Throws core::InputError, with the line, for a malformed corner or impossible index.
   Corner read(std::string_view word, const LineWords& words, const Counts& so_far);
   /// Throws core::InputError, with the line, for the first corner that refers to an element that the whole file does not define.
   void check_named(const Counts& all) const;

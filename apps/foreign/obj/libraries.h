@@ -13,8 +13,7 @@
 
 namespace dmpc::apps::obj {
 
-/// Finds materials by name: first by the full name, then without a trailing comment. If several materials share a name, the
-/// first one wins.
+/// Finds materials by full name, then by the name without a trailing comment. Of several with one name the first wins.
 class Libraries {
  public:
   /// `wanted` contains material names as written after usemtl.

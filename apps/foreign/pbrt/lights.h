@@ -27,8 +27,7 @@ core::Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const 
 /// Returns lights that replace an area light whose shape is invisible.
 std::vector<FileLight> unseen_lights(const AreaLight& light, const PlacedShape& shape, const Transform& world);
 
-/// Adds the light of a LightSource statement to the file's lights, background or skies. `world` maps from the light's
-/// coordinates to the world.
+/// Adds the light of a LightSource statement to the file's lights, background or skies. `world` maps light to world coordinates.
 void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
                const Exposure& exposure, PlacedFile& file, Notes& notes);
 

@@ -63,8 +63,7 @@ class Parameters {
   bool flag(std::string_view name, bool fallback) const;
   std::string text(std::string_view name, const std::string& fallback) const;
   std::optional<core::Vec3d> point(std::string_view name) const;
-  /// Returns points in single precision, as pbrt stores them. Throws core::InputError if the number of values is not a multiple
-  /// of three.
+  /// Returns points in single precision, as in pbrt. Throws core::InputError if the number of values is not a multiple of three.
   std::vector<core::Vec3d> points(std::string_view name, std::initializer_list<ParameterType> types) const;
 
   /// Throws core::InputError with the position of a parameter or of its statement.

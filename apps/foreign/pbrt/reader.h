@@ -10,9 +10,8 @@
 
 namespace dmpc::apps::pbrt {
 
-/// Reads the scene whose first file is `path`, in right-handed coordinates: if pbrt's camera sees left-handed coordinates, x is
-/// negated. Throws core::InputError, with file, line and column, for input that pbrt-v4 rejects, and std::bad_alloc if memory is
-/// exhausted.
+/// Reads a scene from its first file, in right-handed coordinates: if pbrt's camera sees left-handed ones, x is negated. Throws
+/// core::InputError, with file, line and column, for input that pbrt-v4 rejects; std::bad_alloc if memory is exhausted.
 PlacedFile read_pbrt(const std::string& path, const MeshOptions& options, SceneFiles& files);
 
 }  // namespace dmpc::apps::pbrt

@@ -111,8 +111,7 @@ Vec3d blackbody_light(double kelvin) {
 
 Vec3d times(const std::array<Vec3d, 3>& rows, const Vec3d& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
 
-/// Returns the white of daylight at this temperature (CIE 15), with today's radiation constant; of a black body below daylight's
-/// range.
+/// Returns the white of daylight (CIE 15, today's radiation constant) or, below daylight's range, of a black body.
 Vec3d white_of(double kelvin) {
   const double t = kelvin * (1.4388 / 1.4380);
   if (t < 4000) {

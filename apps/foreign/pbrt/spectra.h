@@ -15,16 +15,14 @@ namespace dmpc::apps::pbrt {
 enum class SpectrumUse : std::uint8_t { reflectance, light, index };
 
 /// Converts an rgb, spectrum or blackbody parameter with the CIE 1931 observer; reflectances are seen under daylight (D65). A
-/// spectrum is 0 outside its range. Throws core::InputError, with the position, for numbers out of range, and for a light that
-/// emits nothing.
+/// spectrum is 0 outside its range. Throws core::InputError, with the position, for numbers out of range and dark lights.
 core::Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse use);
 /// Returns whether pbrt-v4 has a light, metal or glass spectrum of this name; otherwise it is a file name.
 bool is_named_spectrum(const std::string& name);
 
 /// Returns the Fresnel reflectance at normal incidence for the relative index n + i k.
 double straight_reflection(double n, double k);
-/// Returns the colour of a metal, computed per wavelength, with copper for missing spectra. `below` is the index of the medium
-/// outside the metal.
+/// Returns a metal's colour, computed per wavelength, with copper for missing spectra. `below`: index of the medium outside.
 core::Vec3d metal_color(const Parameter* eta, const Parameter* k, double below);
 
 /// Returns the rows of the matrix that maps light of this temperature to white, in linear sRGB.

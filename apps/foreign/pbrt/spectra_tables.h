@@ -39,8 +39,7 @@ inline constexpr std::array<double, 41> daylight{
      80.026802, 80.2146,    82.277802,  78.284203,  69.721298,  71.6091,    74.348999,  61.604,     69.885597,
      75.086998, 63.592701,  46.418201,  66.805397,  63.382801}};
 
-/// Chromaticities of CIE illuminants (CIE 15). For D50 the value is that of pbrt-v4's table, whose red is below CIE's (0.34567,
-/// 0.35850).
+/// Chromaticities of CIE illuminants (CIE 15). D50 is from pbrt-v4's table, whose red is below CIE's (0.34567, 0.35850).
 struct NamedLight {
   std::string_view name;
   double x, y;

@@ -22,8 +22,7 @@ struct Surface {
   MetallicSurface facets;  ///< without its base colour, which is `color`
 };
 
-/// Converts by the table in apps/foreign/README.md. A shape's final material combines a surface, the shape's emission and its
-/// opacity.
+/// Converts by the table in apps/foreign/README.md. A final material combines a surface, the shape's emission and its opacity.
 class Surfaces {
  public:
   /// Surface 0 is pbrt's default before any Material statement.

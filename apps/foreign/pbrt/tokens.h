@@ -31,8 +31,7 @@ struct Token {
   Place place;
 };
 
-/// Limits: nested open files, total opened files, and bytes read as a multiple of the size of all files, or bytes_read_min if
-/// that is larger.
+/// Limits: nested open files, total opened files, and bytes read as a multiple of all files' size, or bytes_read_min if larger.
 inline constexpr std::size_t include_levels_max = 64, includes_max = 100'000;
 inline constexpr std::uint64_t rereadings_max = 64, bytes_read_min = std::uint64_t{1} << 20U;
 
@@ -65,12 +64,10 @@ class Tokens {
 
   /// Continues with the named file, which is included at `from`, before the tokens that follow. peek() must not have read ahead.
   void include(const std::string& name, const Place& from);
-  /// Returns the number of open files, 1 for the first file alone. A file is closed when the token after its last one is
-  /// requested.
+  /// Returns the number of open files, at least 1. A file is closed when the token after its last one is requested.
   std::size_t level() const { return open_.size(); }
 
-  /// Reads a file of numbers, such as a spectrum, in which # begins a comment. Throws core::InputError at `from` for an invalid
-  /// file.
+  /// Reads a file of numbers, such as a spectrum; # begins a comment. Throws core::InputError at `from` for an invalid file.
   const std::vector<double>& numbers_of(const std::string& name, const Place& from);
 
   /// Returns the path of a file relative to the scene's first file.

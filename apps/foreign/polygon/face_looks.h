@@ -23,9 +23,8 @@ struct FaceLooks {
 /// Throws core::CapacityError if there are more corners than indices can address.
 void add_face(std::span<const std::uint32_t> corners, PolygonMesh& mesh);
 
-/// Adds a mesh that has faces, grouped by material in their order. If the faces have at most face_colors_max colours, each
-/// colour becomes a material that reproduces it exactly; otherwise the colours are stored per corner. The file's first material
-/// must exist.
+/// Adds a mesh that has faces, grouped by material in their order. Up to face_colors_max face colours become materials, which
+/// reproduce them exactly; otherwise colours are stored per corner. The file's first material must exist.
 void add_mesh(PolygonMesh mesh, FaceLooks looks, PlacedFile& file);
 
 }  // namespace dmpc::apps

@@ -253,8 +253,8 @@ void PlyReader::read_faces(const PlyElement& element) {
   for_each(element, row, [&](std::uint64_t number) { take_face(row, number); });
 }
 
-/// Stanford's strips: each further vertex adds a triangle, every second one reversed; -1 restarts the strip. Triangles without
-/// area only join strips.
+/// Stanford's strips: each further vertex adds a triangle, every second one reversed; -1 restarts. Degenerate ones only join
+/// strips.
 void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
   const bool has_texture = surfaces_.texture_count() > 0 && !mesh_.places.empty();
   const std::uint32_t surface = surfaces_.find(0, has_texture ? std::optional(0U) : std::nullopt);

@@ -19,8 +19,7 @@ class PlyValues {
  public:
   virtual ~PlyValues() = default;
 
-  /// Begins an element. In text an element starts a new line, or follows another on the same line provided that no values remain
-  /// at the end.
+  /// Begins an element. In text it starts a line, or follows another on the same line provided that no values remain at the end.
   virtual void begin_element() = 0;
   /// Throws PlyIsShort at the end, and core::InputError, with the position, for an invalid value of the type.
   virtual double next(PlyType type) = 0;
@@ -32,8 +31,7 @@ class PlyValues {
 
   /// Returns an upper bound on the number of elements for which there are bytes.
   virtual std::uint64_t room_for(const PlyElement& element) const = 0;
-  /// Returns the number of bytes after the last element. Throws core::InputError if lines contained more values than their
-  /// elements.
+  /// Returns the number of bytes after the last element. Throws core::InputError if lines contained superfluous values.
   virtual std::uint64_t count_rest() = 0;
   /// Returns the number of bytes read.
   virtual std::size_t position() const = 0;

@@ -9,9 +9,8 @@
 
 namespace dmpc::apps {
 
-/// Parses a decimal number that takes up the whole word: `.9`, `+1`, `1.`, `1e5`. Returns nothing for anything else, such as
-/// `1x`, `10.0D-01`, `-1.#IND`, `nan`, `inf`, hexadecimal digits, or a number above the range of doubles. A number below the
-/// range is 0.
+/// Parses a word that is a decimal number: `.9`, `+1`, `1.`, `1e5`. Returns nothing for anything else, such as `1x`, `10.0D-01`,
+/// `-1.#IND`, `nan`, `inf`, hexadecimal digits, or a number above the range of doubles. A number below the range is 0.
 std::optional<double> decimal_number(std::string_view word);
 
 /// Returns whether programs write this word for a non-finite number: `nan`, `-nan(ind)`, `inf`, `-1.#IND`, `1.#QNAN`.
@@ -19,8 +18,9 @@ bool is_no_number(std::string_view word);
 
 /// Separators of words besides blanks and line ends, which are \n, \r or both.
 struct WordRules {
-  char remark = '#';     ///< begins a comment to the end of the line, except after a point, as in `1.#INF`; 0: no comments
-  bool are_one = false;  ///< the text is one line, in which a backslash before a line end counts as a blank (apps/foreign/text/text_lines.h)
+  char remark = '#';  ///< begins a comment to the end of the line, except after a point, as in `1.#INF`; 0: no comments
+  bool are_one =
+      false;  ///< the text is one line, in which a backslash before a line end counts as a blank (apps/foreign/text/text_lines.h)
 };
 inline constexpr WordRules one_line{.are_one = true}, without_remarks{.remark = '\0'};
 

@@ -6,7 +6,7 @@
 
 namespace dmpc::apps {
 
-/// Whether a backslash at the end of a line joins it with the next one.
+/// Whether a backslash at the end of a line joins the line with the next one.
 enum class LineJoin : bool { none, backslash };
 
 /// Lines end with \n, \r\n or \r. Nothing is copied: `file` outlives this object.
