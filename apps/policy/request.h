@@ -20,8 +20,8 @@ struct PolicyRequest {
   std::string source;  ///< source text of a Python policy
 };
 
-/// Writes four numbers (node, caches, bytes of the source, references), then the caches, the references, and the source. Numbers
-/// have 32 bits in native byte order. The file offset is then at the beginning, for the process that inherits the descriptor.
+/// Writes four numbers (node, caches, bytes of the source, references), then the caches, the references, and the source, to the
+/// beginning of the file, where the process with its descriptor reads. Numbers have 32 bits in native byte order.
 void put_request(const MemoryFile& file, std::uint32_t node, std::span<const std::uint32_t> cache_pages,
                  std::span<const svm::PageId> references, std::string_view source);
 /// Reads a request from a file to its end. Throws core::InternalError if it is malformed.

@@ -24,11 +24,11 @@ struct RenderOptions : StrategyOptions {
   PictureOptions picture;
   DatabaseOptions database;
   FrameOptions frames;
-  std::filesystem::path image;                      ///< file of the picture
-  std::optional<std::filesystem::path> stats;       ///< JSON file of the counters
-  std::optional<std::filesystem::path> report;      ///< HTML file of the report
-  std::vector<HeatRequest> heat_maps;               ///< heat maps of the pixels
-  TraceOptions trace;                               ///< recording of the run
+  std::filesystem::path image;
+  std::optional<std::filesystem::path> stats;   ///< JSON file of the counters
+  std::optional<std::filesystem::path> report;  ///< HTML file of the report
+  std::vector<HeatRequest> heat_maps;
+  TraceOptions trace;
   std::optional<std::filesystem::path> references;  ///< CSV file of the nodes' page references
   CheckpointOptions checkpoint;                     ///< checkpoint of the unfinished picture
   std::string serve_port;                           ///< port for browsers, 0: any free port; empty: none

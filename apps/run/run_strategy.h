@@ -21,8 +21,8 @@ struct ReadyRun {
   /// Renders. Throws core::InputError for too little real memory or too few threads, core::InternalError for a failed
   /// conservation check.
   std::function<Report(const nodes::Progress&, std::stop_token)> start;
-  /// Renders the next frame on the same nodes, after start() and with its progress. `settings` may differ from the first frame's
-  /// only in the camera and what depends on it. Throws as start() does. Empty for a single frame or another tracer than our own.
+  /// Requires several frames: renders the next one on the same nodes, after start() and with its progress. `settings` may differ
+  /// from the first only in the camera and what depends on it. Throws as start() does. Empty with another tracer than our own.
   std::function<Report(const core::RenderSettings& settings, std::stop_token)> go_on;
 };
 

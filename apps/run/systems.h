@@ -1,4 +1,4 @@
-// Named systems from the literature or practice: each is a strategy with the options that reproduce it.
+// Named systems that were built or described: each is a strategy with the options that reproduce it.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,6 @@ struct SystemDescription {
   core::Structure had;   ///< the structure of the original description, or the nearest one available
   const char* had_what;  ///< the original structure, in a few words
 };
-/// All of them.
 std::span<const SystemDescription> systems();
 /// The name on the command line.
 const char* name_of(System system);

@@ -47,7 +47,7 @@ class PassingRing final : public dmpc::Program {
 
   void receive(const dmpc::Packet& packet) override {
     if (packet.kind % packets_a_lane == taken) {
-      return;  // the computer counts the free places
+      return;  // the computer counts what may be sent
     }
     const std::size_t lane = packet.kind / packets_a_lane;
     const Item arrived = packet.as<Item>();
