@@ -46,14 +46,14 @@ DefaultError default_error(bool is_by_paths);
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
-  int samples = 1;                   ///< per pixel, 1 to 32768 (see core/picture/film/film.h); if refined, in the first pass
-  bool is_refined = false;           ///< --samples=auto
-  bool presents_meshes = false;      ///< selects the defaults of mesh files described at add_options() below
-  bool is_refined_unasked = false;   ///< refined to the default error because of presents_meshes
-  bool is_by_paths_unasked = false;  ///< path tracing because of presents_meshes
-  bool is_one_path_unasked = false;  ///< path tracing without a given number of samples
-  core::RefinementOptions refinement;  ///< its error is 0 unless the picture is refined
-  int depth = 5;                       ///< hits of this depth cast shadow rays only; 1 to 255; with path tracing the transport's
+  int samples = 1;                       ///< per pixel, 1 to 32768 (see core/picture/film/film.h); if refined, in the first pass
+  bool is_refined = false;               ///< --samples=auto
+  bool presents_meshes = false;          ///< selects the defaults of mesh files described at add_options() below
+  bool is_refined_unasked = false;       ///< refined to the default error because of presents_meshes
+  bool is_by_paths_unasked = false;      ///< path tracing because of presents_meshes
+  bool is_one_path_unasked = false;      ///< path tracing without a given number of samples
+  core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
+  int depth = 5;  ///< hits of this depth cast shadow rays only; 1 to 255; with path tracing the transport's
   core::Convention convention = core::Convention::haines;
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already applied to the fields above
