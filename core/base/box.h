@@ -1,4 +1,4 @@
-// Boxes along the axes, in double and in floats.
+// Axis-aligned boxes in double and single precision.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,12 @@ struct Box {
   Vec3d high = -low;
 
   bool empty() const { return !(low.x <= high.x); }
-  /// By name: GCC has what is gathered in a loop over axes in memory.
+  /// The components are named because GCC moves data that a loop over axes gathers into memory.
   [[gnu::always_inline]] void include(const Vec3d& point) {
     low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
     high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
   }
-  /// A ball about a center.
+  /// Includes a ball around `center`.
   void include(const Vec3d& center, double radius) {
     const Vec3d reach{radius, radius, radius};
     include(center - reach);
@@ -37,11 +37,11 @@ struct Box {
     }
     return box;
   }
-  /// Grows by `margin` to every side.
+  /// The box grown by `margin` on every side.
   Box padded(const Vec3d& margin) const { return {low - margin, high + margin}; }
   Vec3d center() const { return (low + high) * 0.5; }
   Vec3d half() const { return (high - low) * 0.5; }
-  /// Border included; no point that is not a number.
+  /// The border belongs to the box; a point with a NaN never does.
   bool holds(const Vec3d& point) const {
     return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y && point.z >= low.z &&
            point.z <= high.z;
@@ -56,7 +56,7 @@ inline float rounded_down(double value) {
 /// The least float that is not below `value`.
 inline float rounded_up(double value) { return -rounded_down(-value); }
 
-/// Empty as constructed: low above high. Four numbers a corner, the last always 0, fill a register.
+/// Empty as constructed: low above high. Each corner has four numbers, the last always 0, and fills a register.
 struct alignas(16) Bounds {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   std::array<float, 4> low{infinity, infinity, infinity, 0};
@@ -89,9 +89,9 @@ struct alignas(16) Bounds {
     }
     return bounds;
   }
-  /// Twice the coordinate of the middle.
+  /// Twice the coordinate of the center.
   float middle(std::size_t axis) const { return low[axis] + high[axis]; }
-  /// Half the surface.
+  /// Half the surface area.
   float area() const {
     const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
     return x * y + y * z + z * x;

@@ -1,4 +1,4 @@
-// What consists of counts alone is summed without naming one: a new count is a line where it is declared.
+// Sums and differences of structs that consist of counters only. No counter is named here, so a new one is only declared.
 #pragma once
 
 #include <array>
@@ -11,18 +11,19 @@
 
 namespace dmpc::core {
 
-/// T{n, n, ...} with as many numbers as it has room for: then each is one of its own, or of an array or aggregate in it.
+/// Whether T{n, n, ...} compiles with this many numbers: then each initializes one member, or one element of an array or
+/// aggregate in T.
 template <class T, std::size_t... I>
 constexpr bool is_made_of(std::index_sequence<I...>) {
   return requires(std::uint64_t n) { T{(static_cast<void>(I), n)...}; };
 }
 
-/// An aggregate of std::uint64_t, arrays of them and aggregates of them, and nothing else.
+/// An aggregate that contains only std::uint64_t, arrays of them and aggregates of them.
 template <class T>
 concept MadeOfCounts = std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(std::uint64_t) == 0 &&
                        is_made_of<T>(std::make_index_sequence<sizeof(T) / sizeof(std::uint64_t)>());
 
-/// Adds each count of `more` to the same one of `sum`, which it returns.
+/// Adds each count of `more` to the corresponding one of `sum`, and returns `sum`.
 template <MadeOfCounts T>
 T& add_counts(T& sum, const T& more) {
   using Numbers = std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)>;
@@ -34,7 +35,7 @@ T& add_counts(T& sum, const T& more) {
   return sum = std::bit_cast<T>(numbers);
 }
 
-/// Each count of `now` less the same one of `before`.
+/// The differences of corresponding counts, `now` - `before`.
 template <MadeOfCounts T>
 T counts_since(const T& now, const T& before) {
   using Numbers = std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)>;
@@ -46,7 +47,7 @@ T counts_since(const T& now, const T& before) {
   return std::bit_cast<T>(numbers);
 }
 
-/// The sum of of(item), which are counts, over all items.
+/// The sum of of(item), which returns counts, over all items.
 template <class Items, class Of>
 auto total_of(const Items& items, const Of& of) {
   std::remove_cvref_t<decltype(std::invoke(of, *items.begin()))> sum{};

@@ -15,14 +15,14 @@
 namespace dmpc::core {
 namespace {
 
-// Each constant as the nearest double and, where it matters, the nearest double to what that leaves out.
+// Each constant is the nearest double and, where it matters, the nearest double to the remainder.
 constexpr double half_pi = 0x1.921fb54442d18p+0, half_pi_tail = 0x1.1a62633145c07p-54;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double radian_per_degree = 0x1.1df46a2529d39p-6, radian_per_degree_tail = 0x1.5c1d8becdd291p-62;
 
 constexpr double angle_max = 1e6;
 
-/// A quarter turn counted, and the rest of the angle as an unevaluated sum of radians, |high| <= pi/4 and a little.
+/// The number of quarter turns, and the rest of the angle in radians as an unevaluated sum, |high| slightly above pi/4 at most.
 struct Reduced {
   int quarter = 0;
   double high = 0, low = 0;
@@ -49,7 +49,7 @@ double polynomial(double x, const std::array<double, Count>& coefficients) {
   return sum;
 }
 
-/// Taylor's series to the 17th power: the first term left out is below 1e-19 at pi/4.
+/// Taylor's series to the 17th power: the first omitted term is below 1e-19 at pi/4.
 double sin_reduced(double high, double low) {
   static constexpr std::array<double, 8> series = {1 / 355687428096000.0, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
                                                    1 / 362880.0,          -1 / 5040.0,          1 / 120.0,        -1 / 6.0};
@@ -57,7 +57,7 @@ double sin_reduced(double high, double low) {
   return high + std::fma(high * square, polynomial(square, series), std::fma(-0.5 * square, low, low));
 }
 
-/// Taylor's series to the 18th power: the first term left out is below 4e-21 at pi/4.
+/// Taylor's series to the 18th power: the first omitted term is below 4e-21 at pi/4.
 double cos_reduced(double high, double low) {
   static constexpr std::array<double, 8> series = {
       -1 / 6402373705728000.0, 1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0,
@@ -76,7 +76,7 @@ double sin_of(const Reduced& angle) {
 
 double cos_of(const Reduced& angle) { return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low}); }
 
-/// Quarter turns, and the rest in degrees, |rest| <= 45: exact.
+/// The number of quarter turns and the rest in degrees, |rest| <= 45; exact.
 std::pair<double, double> reduce_degrees(double degrees) {
   expect(std::abs(degrees) <= angle_max, "an angle lies within a million degrees");
   const double quarters = std::nearbyint(degrees / 90);
@@ -101,7 +101,7 @@ constexpr std::array<double, 9> arc_tangent_of_eighths = {0x0p+0,
                                                           0x1.921fb54442d18p-1};
 
 /// The angle of y / x, 0 <= y <= x, x > 0: that of the nearest eighth, plus Taylor's series for the difference, whose tangent is
-/// at most 1/16: the first omitted term is below 1e-19.
+/// at most 1/16. The first omitted term is below 1e-19.
 double first_octant(double y, double x) {
   static constexpr std::array<double, 7> series = {-1 / 15.0, 1 / 13.0, -1 / 11.0, 1 / 9.0, -1 / 7.0, 1 / 5.0, -1 / 3.0};
   const auto eighth = static_cast<std::size_t>(y / x * 8 + 0.5);
@@ -128,7 +128,7 @@ double natural_log_of(double x) {
   return finite_log(x);
 }
 
-/// `Function` with this processor's own fused multiply-add, which gives the bits of libm's without a call for each.
+/// `Function` compiled with this processor's fused multiply-add, which gives the same bits as libm's without a call for each.
 template <auto Function, class... Numbers>
 [[gnu::target("fma"), gnu::flatten]] double fused(Numbers... numbers) {
   return Function(numbers...);
@@ -140,16 +140,16 @@ double dispatched(Numbers... numbers) {
   return has_fma ? fused<Function>(numbers...) : Function(numbers...);
 }
 
-/// Powers of ten that a double holds exactly.
+/// The powers of ten that a double represents exactly.
 constexpr std::array<double, 23> power_of_10 = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// An unevaluated sum, exact: value times a power of ten (rounded), and what the rounding left out.
+/// An exact unevaluated sum: value times a power of ten (rounded), and the rounding error.
 struct Scaled {
   double high = 0, low = 0;
 };
 
-/// value * 10 ^ power, -22 <= power <= 22. Dividing leaves the sign of `low` right only, which is all that a tie needs.
+/// value * 10 ^ power, -22 <= power <= 22. After a division only the sign of `low` is right, which is all that a tie needs.
 Scaled scale_by_10(double value, int power) {
   const double factor = power_of_10[static_cast<std::size_t>(std::abs(power))];
   if (power >= 0) {
@@ -160,7 +160,7 @@ Scaled scale_by_10(double value, int power) {
   return {high, std::fma(-high, factor, value)};
 }
 
-/// The integer nearest to a sum between 0 and 1e7, ties to even. Where `high` is not a tie, `low` is too small to matter.
+/// The integer nearest to a sum between 0 and 1e7, ties to even. If `high` is not a tie, `low` is too small to matter.
 double nearest_integer(const Scaled& sum) {
   const double below = static_cast<double>(static_cast<std::int64_t>(sum.high));
   const double beyond_half = (sum.high - below) - 0.5;
@@ -170,7 +170,7 @@ double nearest_integer(const Scaled& sum) {
   return up ? below + 1 : below;
 }
 
-/// The power of ten that brings a positive value to six digits before the point, perhaps one too high.
+/// The power of ten that scales a positive value to six digits before the point; may be one too high.
 int six_digit_power(double magnitude) {
   const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(magnitude) >> 52U) - 1023;
   constexpr double log10_of_2 = 0.30102999566398119521;
@@ -179,7 +179,7 @@ int six_digit_power(double magnitude) {
   return 5 - below;
 }
 
-/// For the numbers whose power of ten is not exact in a double: the same result by way of text.
+/// The same result by way of text, for numbers whose power of ten is not exact in a double.
 double round_by_text(double value) {
   std::array<char, 64> text{};
   const auto written = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);

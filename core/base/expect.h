@@ -1,4 +1,4 @@
-// The always-on assertion: a broken invariant is the programmer's error, never the user's.
+// The always-on assertion. A broken invariant is a programming error, never the user's error.
 #pragma once
 
 #include <source_location>
@@ -7,22 +7,22 @@
 
 namespace dmpc::core {
 
-/// A broken invariant inside dmpc. The command line turns it into exit status 3; it never looks like bad input.
+/// A broken invariant inside dmpc. The command line maps it to exit status 3, distinct from bad input.
 struct InternalError : std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Bad input: the message names what, where (file, line, option), what was expected and what to do. Exit status 1.
+/// Bad input. The message names what, where (file, line, option), what was expected and what to do. Exit status 1.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Input that would do if there were more room: on this computer, in the nodes' memory, or in a database. Exit status 4.
+/// Valid input that needs more memory than this computer, the nodes or a database have. Exit status 4.
 struct CapacityError : InputError {
   using InputError::InputError;
 };
 
-/// Wrong use of the command line (options that do not go together). Exit status 2.
+/// Wrong use of the command line (for example, options that exclude each other). Exit status 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,7 +31,7 @@ struct UsageError : std::runtime_error {
   throw InternalError(std::string(where.file_name()) + ":" + std::to_string(where.line()) + ": expected that " + sentence);
 }
 
-/// Throws InternalError unless `condition` holds; `sentence` states the invariant. On in every build.
+/// Throws InternalError unless `condition` holds; `sentence` states the invariant. Enabled in every build.
 inline void expect(bool condition, const char* sentence, const std::source_location& where = std::source_location::current()) {
   if (!condition) [[unlikely]] {
     fail(sentence, where);

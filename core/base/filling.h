@@ -1,4 +1,4 @@
-// Pages as large as the operating system has them, asked for where many bytes are about to be filled.
+// Requests large pages from the operating system where many bytes are about to be written.
 #pragma once
 
 #include <sys/mman.h>
@@ -8,14 +8,14 @@
 
 namespace dmpc::core {
 
-/// As long as large pages are on most computers.
+/// The size of a large page on most computers.
 inline constexpr std::size_t large_page_bytes = std::size_t{2} << 20U;
 
-/// Asks for them, where `first` begins one. A wish: small pages do, too. Thread-safe.
+/// Requests large pages; `first` is the begin of one. This is a hint: small pages work, too. Thread-safe.
 inline void wish_large_pages(void* first, std::size_t bytes) noexcept { ::madvise(first, bytes, MADV_HUGEPAGE); }
 
-/// All of these bytes, and maybe none beside them, are about to be written: asks for the large pages that lie wholly in them, so
-/// that not each small one is an interruption. Thread-safe.
+/// Call this before all of `bytes` are written, and maybe none beside them: requests the large pages that lie wholly in them,
+/// which saves a page fault for each small page. Thread-safe.
 inline void begin_filling(std::span<std::byte> bytes) noexcept {
   const auto begin = reinterpret_cast<std::uintptr_t>(bytes.data());
   const std::size_t before = (large_page_bytes - begin % large_page_bytes) % large_page_bytes;

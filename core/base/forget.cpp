@@ -1,6 +1,6 @@
 #include "core/base/forget.h"
 
-#include <cstdlib>  // defines __GLIBC__ where it is
+#include <cstdlib>  // defines __GLIBC__ on glibc
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -19,7 +19,7 @@ void give_back(std::span<const std::byte> bytes) {
   const auto begin = reinterpret_cast<std::uintptr_t>(bytes.data()), end = begin + bytes.size();
   const std::uintptr_t first = (begin + page - 1) / page * page, last = end / page * page;
   if (first < last) {
-    ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);  // where it fails they stay a while
+    ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);  // on failure the pages stay until they are freed
   }
 #endif
 }

@@ -1,4 +1,4 @@
-// Gives memory back before its owner ends.
+// Releases memory before its owner's lifetime ends.
 #pragma once
 
 #include <cstddef>
@@ -7,18 +7,18 @@
 
 namespace dmpc::core {
 
-/// Empties `items` and frees their room, which an assignment of {} or clear() would keep.
+/// Empties `items` and frees their memory, which an assignment of {} or clear() would keep.
 template <class T>
 void forget(std::vector<T>& items) {
   std::vector<T>().swap(items);
 }
 
-/// Lets the operating system have the whole pages among bytes of the heap that nobody reads or writes any more, before their
-/// owner frees them. Thread-safe.
+/// Returns the whole pages in `bytes` to the operating system before their owner frees them. `bytes` lie on the heap, and nobody
+/// reads or writes them any more. Thread-safe.
 void give_back(std::span<const std::byte> bytes);
 
-/// Lets the operating system have what was freed, which the allocator else keeps for later where it lay in small pieces or
-/// between others. Worth it after much was freed: it takes some milliseconds for a gigabyte. Thread-safe.
+/// Returns freed memory to the operating system that the allocator would keep for later because it lay in small pieces or between
+/// others. Call it after much was freed: it takes some milliseconds for a gigabyte. Thread-safe.
 void give_back_freed();
 
 }  // namespace dmpc::core

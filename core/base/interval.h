@@ -1,4 +1,4 @@
-// Intervals of real numbers whose ends are doubles, rounded outwards: what they are computed from lies in them for certain.
+// Intervals of real numbers with outward-rounded double ends: they are guaranteed to contain the exact result.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,22 @@ namespace dmpc::core {
 
 namespace directed {
 
-/// The next double below or above `x`, or the one behind that, without a change of the processor's rounding. Source: S. M. Rump,
-/// P. Zimmermann, S. Boldo, G. Melquiond, "Computing predecessor and successor in rounding to nearest", BIT 49, 2009.
+/// The next double below or above `x`, or the one after it, without changing the rounding mode. Source: S. M. Rump, P.
+/// Zimmermann, S. Boldo, G. Melquiond, "Computing predecessor and successor in rounding to nearest", BIT 49, 2009.
 inline double step(double x) { return std::fabs(x) * (0x1p-53 * (1 + 0x1p-52)) + std::numeric_limits<double>::denorm_min(); }
 inline double below(double x) { return x - step(x); }
 inline double above(double x) { return x + step(x); }
 
-/// What a rounded sum lacks, exactly, unless it overflows. Source: D. E. Knuth, The Art of Computer Programming 2, section 4.2.2.
+/// The exact rounding error of a sum, unless it overflows. Source: D. E. Knuth, The Art of Computer Programming 2, section 4.2.2.
 inline double sum_rest(double a, double b, double sum) {
   const double b_taken = sum - a;
   return (a - (sum - b_taken)) + (b - b_taken);
 }
-/// Nearer to 0 than this what a rounded product lacks may itself be rounded.
+/// The rounding error of a product nearer to 0 than this may itself be rounded.
 inline constexpr double product_min = 0x1p-960;
 
-/// A rounded result moved to the side of the exact one on which `rest`, what it lacks, says that it must lie. NaN counts.
+/// A lower or upper bound of the exact result, given the rounded one and `rest`, its rounding error. A NaN in `rest` moves the
+/// bound, too.
 inline double floor_of(double rounded, double rest) { return rest >= 0.0 ? rounded : below(rounded); }
 inline double ceiling_of(double rounded, double rest) { return rest <= 0.0 ? rounded : above(rounded); }
 
@@ -43,10 +44,10 @@ inline double product_ceiling(double a, double b) {
 
 }  // namespace directed
 
-/// All reals from `low` to `high`; infinite ends where nothing is known. The result of an operation holds the results on all
-/// reals of its operands, and so what doubles make of them by the same operations, each rounded to nearest. Sums, differences and
-/// products are the tightest there are (by error-free transformations; T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot
-/// Product", 2005), so that what is exact in double has no width. Source: R. E. Moore, Interval Analysis, 1966.
+/// All reals from `low` to `high`; an end is infinite where nothing is known. The result of an operation contains the results for
+/// all reals of its operands, and therefore what doubles compute from them by the same operations, each rounded to nearest. Sums,
+/// differences and products are the tightest possible (by error-free transformations; T. Ogita, S. M. Rump, S. Oishi, "Accurate
+/// Sum and Dot Product", 2005), so a result that is exact in double has width 0. Source: R. E. Moore, Interval Analysis, 1966.
 struct Interval {
   double low = 0, high = 0;
 
@@ -60,12 +61,12 @@ struct Interval {
   bool holds(double x) const { return low <= x && x <= high; }
   bool is_bounded() const { return std::isfinite(low) && std::isfinite(high); }
   double width() const { return directed::sum_ceiling(high, -low); }
-  /// The largest and the least of all reals that it holds, without their signs.
+  /// The largest and the least magnitude in the interval.
   double most() const { return std::max(-low, high); }
   double least() const { return std::max({low, -high, 0.0}); }
 };
 
-/// From the ends of a result; of NaN nothing is known.
+/// An interval from computed ends; a NaN makes it all reals.
 inline Interval checked(double low, double high) { return low <= high ? Interval(low, high) : Interval::everything(); }
 
 inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
@@ -97,7 +98,7 @@ inline Interval operator/(const Interval& a, const Interval& b) {
   return checked(directed::below(least), directed::above(most));
 }
 
-/// Holds |x| for all x that `a` holds.
+/// Contains |x| for all x in `a`.
 inline Interval magnitude(const Interval& a) { return {a.least(), a.most()}; }
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Morton order: neighbours in space stay near each other in memory (G. Morton, 1966).
+// Morton order keeps neighbours in space near each other in memory (G. Morton, 1966).
 #pragma once
 
 #include <cstdint>

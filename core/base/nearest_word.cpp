@@ -7,9 +7,9 @@
 namespace dmpc::core {
 namespace {
 
-/// What is longer is no slip of the fingers, and the table grows with the square.
+/// A longer word is no typing error, and the table grows with the square of the length.
 constexpr std::size_t letters_max = 64;
-/// A shorter beginning is one of too many words.
+/// A shorter prefix would match too many words.
 constexpr std::size_t beginning_min = 3;
 
 char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }

@@ -1,4 +1,4 @@
-// Which of the words that there are somebody meant who typed another.
+// Finds the known word that a user who typed another one probably meant.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,16 @@
 
 namespace dmpc::core {
 
-/// How many letters must be put in, left out, replaced or swapped with their neighbours to make one word of the other; capital
-/// and small letters are the same (R. A. Wagner and R. Lowrance, "An Extension of the String-to-String Correction Problem", 1975,
-/// without editing between swapped letters).
+/// The number of insertions, deletions, replacements and swaps of neighbouring letters that turn one word into the other,
+/// ignoring case (R. A. Wagner and R. Lowrance, "An Extension of the String-to-String Correction Problem", 1975, without editing
+/// between swapped letters).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `words` that is near `typed`: a third of its letters differ at most, or it begins so and no other does. Of equally
-/// near ones the first; nothing if none is near.
+/// The word of `words` nearest to `typed`: at most a third of its letters differ, or it is the only one that begins with `typed`.
+/// The first of equally near ones; nothing if none is near.
 std::optional<std::string> nearest_word(std::string_view typed, std::span<const std::string> words);
 
-/// " Did you mean teapot?", to follow a sentence; empty if no word is near.
+/// " Did you mean teapot?", to append to a message; empty if no word is near.
 std::string did_you_mean(std::string_view typed, std::span<const std::string> words);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Why a request is refused: a sentence that names fields by member, so that whoever sets them may call them by other names.
+// Why a request is refused. The message refers to fields by member, so the code that sets them can call them by other names.
 #pragma once
 
 #include <concepts>
@@ -14,10 +14,10 @@
 
 namespace dmpc::core {
 
-/// A member of a struct. Two are equal if they are the same member of the same struct.
+/// A member of a struct. Two fields are equal if they are the same member of the same struct.
 class Field {
  public:
-  /// `path` lasts as long as the program: "dmpc::svm::PageOptions::work_donor".
+  /// `path` must live as long as the program: "dmpc::svm::PageOptions::work_donor".
   constexpr explicit Field(std::string_view path) : path_(path) {}
   /// "work_donor".
   constexpr std::string_view name() const { return path_.substr(path_.rfind(':') + 1); }
@@ -27,7 +27,7 @@ class Field {
   std::string_view path_;
 };
 
-/// field_of<&svm::PageOptions::work_donor>(): the compiler says what the member is called.
+/// field_of<&svm::PageOptions::work_donor>() gets the member's name from the compiler.
 template <auto Member>
 consteval Field field_of() {
   const std::string_view function = std::source_location::current().function_name();  // "... [with auto Member = &...; ...]"
@@ -35,7 +35,7 @@ consteval Field field_of() {
   return Field(function.substr(first, function.find_first_of(";]", first) - first));
 }
 
-/// Words, whole numbers and fields, one after the other.
+/// A sequence of words, whole numbers and fields.
 class Sentence {
  public:
   using FieldNames = std::function<std::string_view(const Field&)>;
@@ -48,7 +48,7 @@ class Sentence {
   void add(const Parts&... parts) {
     (add_part(parts), ...);
   }
-  /// With fields as `name_of` calls them.
+  /// The text, with field names from `name_of`.
   std::string text(const FieldNames& name_of = &Field::name) const;
 
  private:

@@ -1,4 +1,4 @@
-// A box of finest cells: the part of space that a node answers for.
+// A box of finest cells: the part of space that a node owns.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Region {
     return cell[0] >= low[0] && cell[0] < high[0] && cell[1] >= low[1] && cell[1] < high[1] && cell[2] >= low[2] &&
            cell[2] < high[2];
   }
-  /// Whether the whole cube of edge `span` at `cell` lies in it.
+  /// Whether the whole cube of edge `span` at `cell` lies in the region.
   constexpr bool contains(const Corner& cell, std::int32_t span) const {
     return contains(cell) && contains({cell[0] + span - 1, cell[1] + span - 1, cell[2] + span - 1});
   }

@@ -1,4 +1,4 @@
-// A hash for whatever must look random and be the same on every node and in every order.
+// A hash for values that must look random but be the same on every node and in every order.
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@ constexpr std::array<double, 255> byte_limits() {
   return limits;
 }
 
-/// Floats of one exponent and the same first bits of the fraction are in one bin, of which each spans two limits at most; bins
-/// begin where a byte of 1 can, and end at 1.
+/// A bin holds the floats with the same exponent and the same first bits of the fraction, and spans at most two limits. Bins
+/// begin at the least value that byte 1 can have, and end at 1.
 constexpr int fraction_bits = 23, bin_bits = 7;
 constexpr std::uint32_t bin_of(float linear) { return std::bit_cast<std::uint32_t>(linear) >> (fraction_bits - bin_bits); }
 constexpr float darkest = 0x1p-13F;
@@ -27,7 +27,7 @@ constexpr std::uint32_t first_bin = bin_of(darkest), bin_count = bin_of(1.0F) - 
 constexpr std::array<double, 255> limits = byte_limits();
 static_assert(limits[0] > double{darkest} && limits[254] < 1);
 
-/// By bin: the byte of the least value in it.
+/// For each bin, the byte of its least value.
 constexpr std::array<std::uint8_t, bin_count> least_bytes = [] {
   std::array<std::uint8_t, bin_count> bytes{};
   std::size_t byte = 0;

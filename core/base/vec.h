@@ -1,4 +1,4 @@
-// Vectors of three components, in single and in double precision, and linear RGB colours.
+// Three-component vectors in single and double precision, and linear RGB colours.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dmpc::core {
 
-/// Three components. Single precision for what is stored and traversed, double for what is shaded and built.
+/// Three components. Single precision is for storage and traversal, double for shading and building.
 template <class T>
 struct Vec3 {
   T x{}, y{}, z{};
@@ -48,7 +48,7 @@ template <class T>
 constexpr Vec3<T> operator*(T s, const Vec3<T>& a) {
   return a * s;
 }
-/// Component by component: light of one colour on a surface of another.
+/// Component-wise product: light of one colour on a surface of another.
 template <class T>
 constexpr Vec3<T> operator*(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
@@ -65,13 +65,13 @@ template <class T>
 T length(const Vec3<T>& a) {
   return std::sqrt(dot(a, a));
 }
-/// The largest of its components without their signs.
+/// The largest magnitude of the components.
 template <class T>
 T largest_component(const Vec3<T>& a) {
   return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
-/// The sum of the products of components, all without their signs: what rounding each of `b` by a share moves a point across the
-/// plane with the normal `a` by, at most, is that share of it.
+/// The sum of the products of the components' magnitudes. If rounding moves each coordinate of `b` by a relative share, it moves
+/// the point across the plane with normal `a` by at most that share of this value.
 template <class T>
 T dot_of_magnitudes(const Vec3<T>& a, const Vec3<T>& b) {
   return std::fabs(a.x * b.x) + std::fabs(a.y * b.y) + std::fabs(a.z * b.z);
@@ -86,8 +86,8 @@ bool is_finite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// The least altitude of a triangle with these edges, in any order and direction; `twice_area` is that of it. Not a number if all
-/// is 0.
+/// The least altitude of a triangle with these edges, in any order and direction; `twice_area` is twice its area. NaN if all are
+/// 0.
 inline double least_altitude(const Vec3d& a, const Vec3d& b, const Vec3d& c, double twice_area) {
   return twice_area / std::sqrt(std::max(std::max(dot(a, a), dot(b, b)), dot(c, c)));
 }

@@ -5,8 +5,8 @@
 namespace dmpc::core {
 namespace {
 
-/// Tests the parts of x86-64-v3, and of Highway's AVX2 target, for which compilers have no names: F16C, MOVBE, AES and LZCNT,
-/// which other processors execute as BSR, with different results.
+/// Tests the parts of x86-64-v3 and of Highway's AVX2 target that compilers have no names for: F16C, MOVBE, AES and LZCNT. Other
+/// processors execute LZCNT as BSR, with different results.
 bool has_small_instructions() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   constexpr unsigned basic = bit_F16C | bit_MOVBE | bit_AES | bit_PCLMUL, extended = 0x80000001U;

@@ -13,30 +13,30 @@
 namespace dmpc::core {
 namespace {
 
-/// So many bytes and more have pages of their own. malloc() gives up doing so as soon as something as large has been freed, and
-/// then calloc() writes its zeros: 1,024 nodes had their memories touched to the last byte before they began.
+/// An array of this size or more is mapped directly. malloc() stops doing so as soon as something as large has been freed, and
+/// then calloc() writes the zeros: with 1,024 nodes every byte of their memories was touched before they began.
 constexpr bool has_pages(std::size_t bytes) { return bytes >= std::size_t{128} << 10U; }
 
 constexpr std::size_t whole_pages(std::size_t bytes) { return round_up(bytes, std::size_t{4} << 10U); }
 
-/// Returns nullptr if there is no room.
+/// Returns nullptr if there is not enough memory.
 void* map(std::size_t bytes) {
   void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return mapped == MAP_FAILED ? nullptr : mapped;
 }
 
-/// In small pages, of which none is set aside before something in it is touched, unless core/base/filling.h wishes for large
-/// ones. As map().
+/// Maps small pages, none of which is committed before it is touched, unless core/base/filling.h requests large ones. Returns as
+/// map().
 void* map_small(std::size_t length) {
   void* const first = map(length);
   if (first != nullptr) {
-    ::madvise(first, length, MADV_NOHUGEPAGE);  // a wish, like the other: systems without large pages refuse it
+    ::madvise(first, length, MADV_NOHUGEPAGE);  // a hint, like the other: systems without large pages refuse it
   }
   return first;
 }
 
-/// Begins where a large page does: the system places a mapping anywhere, and what lies before its first large page and behind its
-/// last one has small pages. As map().
+/// Maps memory that begins at a large page. The system places a mapping anywhere, and the parts before its first large page and
+/// after its last one have small pages. Returns as map().
 void* map_large(std::size_t length) {
   void* const mapped = map(length + large_page_bytes);
   if (mapped == nullptr) {

@@ -1,4 +1,4 @@
-// Large arrays that begin as zeros and keep their size.
+// Large zero-initialised arrays of constant size.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@ namespace dmpc::core {
 /// How an array will be used: all of it, or sparsely.
 enum class Touching : std::uint8_t { all, parts };
 
-/// Zero bytes for objects of any kind that are not over-aligned, set aside as they are first touched. Large ones that all is
-/// touched of are asked of the operating system in pages as large as it has (Linux: transparent huge pages): with pages of 4 KiB
-/// a film of a million pixels is 13,000 interruptions, which took as long as a third of a picture. Throws std::bad_alloc.
-/// Thread-safe, both.
+/// Zeroed bytes for objects of any type that is not over-aligned; memory is committed when it is first touched. For large arrays
+/// that are touched completely the operating system is asked for its large pages (Linux: transparent huge pages): with pages of 4
+/// KiB a film of a million pixels caused 13,000 page faults, which took as long as a third of a picture. Throws std::bad_alloc.
+/// Both functions are thread-safe.
 void* allocate_zeros(std::size_t bytes, Touching touching = Touching::all);
-/// What allocate_zeros() returned for as many bytes.
+/// Frees what allocate_zeros() returned for the same number of bytes.
 void free_zeros(void* first, std::size_t bytes) noexcept;
 
-/// Objects whose value-initialised state is all zero bytes: nobody touches one before its owner does. A value that is copied and
-/// moved as a std::vector. Thread safety: as a std::vector.
+/// Objects whose value-initialised state is all zero bytes; none is touched before its owner touches it. Copied and moved like a
+/// std::vector. Thread safety: as a std::vector.
 template <class T>
 class ZeroedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> &&

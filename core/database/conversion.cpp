@@ -21,7 +21,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Objects, or vertices, that one thread takes at a time, and such chunks that are under way together.
+/// The number of objects or vertices in one thread's chunk, and of chunks processed together.
 constexpr std::size_t chunk_size = 4096;
 constexpr std::size_t chunks_together = 16;
 
@@ -31,7 +31,7 @@ void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
   }
 }
 
-/// Values from `first` on, each to its row, and their rests.
+/// Stores values from `first` on, each in its row, with their rests.
 void put_values(PrimitiveValues& primitive, std::size_t first, const std::array<double, 4>& values) {
   std::uint32_t rests = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -45,14 +45,14 @@ void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, dou
   put_values(primitive, first, {on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)});
 }
 
-/// Stores a flat cone's axis, in place of its apex: no coordinates, so not on a lattice.
+/// Stores a flat cone's axis in place of its apex. It is not a coordinate and therefore not on a lattice.
 void put_axis(PrimitiveValues& primitive, const Vec3d& axis, double apex_radius) {
   put_values(primitive, 4, {axis.x, axis.y, axis.z, on_lattice(apex_radius)});
 }
 
 LeafLane lane_of(const PrimitiveValues& primitive) { return {primitive.value.data(), 1, 0}; }
 
-/// The rests of four values from `first` on whose floats pass by local zero; the radius, which keeps its sign, may be another
+/// The rests of four values from `first` on whose floats pass by local zero. The radius keeps its sign and may become another
 /// one.
 void put_passing(PrimitiveValues& primitive, std::size_t first, const Vec3d& place, double radius) {
   primitive.value[first + 3] = static_cast<float>(radius);
@@ -63,23 +63,23 @@ void put_passing(PrimitiveValues& primitive, std::size_t first, const Vec3d& pla
 
 double grown(double radius, double by) { return std::copysign(std::max(std::fabs(radius) + by, 0.0), radius); }
 
-/// A sphere that passes by local zero (core/record/curved_values.h) does so where it did before its centre was rounded.
+/// A sphere passes by local zero (core/record/curved_values.h) if it did so before its centre was rounded.
 void settle_passing_sphere(PrimitiveValues& sphere, const Vec3d& center, double radius) {
   put_passing(sphere, 0, center, radius);
   const Vec3d rounded = sphere.curved().vector(0);
   put_passing(sphere, 0, center, grown(radius, dot(rounded - center, rounded + center) / (length(rounded) + length(center))));
   if (!passes_by_zero(sphere.kind, lane_of(sphere))) {
-    put_passing(sphere, 0, center, radius);  // on the border between what passes by and what does not
+    put_passing(sphere, 0, center, radius);  // on the border between passing by and not passing by
   }
 }
 
-/// How far the surface of a cone is from local zero, negative within.
+/// The distance of a cone's surface from local zero, negative inside.
 double gap_at_zero(const Vec3d& base, const Vec3d& axis, double base_radius, double apex_radius) {
   const double height = -dot(base, axis) / dot(axis, axis);
   return length(base + axis * height) - (base_radius + (apex_radius - base_radius) * height);
 }
 
-/// Settles the values of a cone or cylinder.
+/// Settles the values of a cone or cylinder that passes by local zero.
 void settle_passing_cone(PrimitiveValues& values, const Vec3d& base, const Vec3d& apex, double base_radius, double apex_radius) {
   const double low = std::fabs(base_radius), high = std::fabs(apex_radius);
   const auto put = [&](double by) {
@@ -99,17 +99,17 @@ bool is_point(const PrimitiveValues& primitive) {
   return largest_component(box.high - box.low) < size_least;
 }
 
-/// Nearer to a line than this share of their coordinates, corners lie on it as far as doubles can tell.
+/// Corners nearer to a line than this share of their coordinates lie on it as far as doubles can tell.
 constexpr double line_share = 0x1p-48;
 
-/// The height of a triangle that is not degenerate, 0 of one that is; `coordinate` is its largest before anything was subtracted.
+/// The height of a triangle, 0 if it is degenerate; `coordinate` is its largest coordinate before any subtraction.
 double height_of(const std::array<Vec3d, 3>& corner, double coordinate) {
   const Vec3d a = corner[1] - corner[0], b = corner[2] - corner[0];
   const double height = least_altitude(a, b, b - a, length(cross(a, b)));
   return height > line_share * coordinate ? height : 0.0;
 }
 
-/// Thinner than this share of its coordinates, a flat cone is no more than a point to doubles.
+/// To doubles a flat cone thinner than this share of its coordinates is only a point.
 constexpr double axis_share = 0x1p-46;
 
 bool degenerate_cone(const PrimitiveValues& values) {
@@ -123,7 +123,7 @@ void include_cube(Box& box, const Vec3d& center, double half) {
   box.include(center + Vec3d{half, half, half});
 }
 
-/// Appends some objects of a scene to a conversion.
+/// Appends a range of a scene's objects to a conversion.
 class Converter {
  public:
   Converter(const Scene& scene, const GridFrame& frame, bool keeps_corners, Conversion& result)
@@ -142,7 +142,7 @@ class Converter {
         return add_cone(index, object, scene_.cones[object.first]);
     }
   }
-  /// A triangle of a mesh's copy. `plane`: PrimitiveValues::plane().
+  /// A triangle of a mesh's copy. `plane`: see PrimitiveValues::plane().
   void add_copy(const MeshTriangle& triangle, std::uint32_t first, bool is_mirrored, std::uint32_t plane) {
     const std::uint32_t index = first + triangle.object;
     const Object& object = scene_.objects[index];
@@ -158,7 +158,7 @@ class Converter {
       result_.primitives.back().lie_in(plane);
     }
   }
-  /// What stands for a place whose copy is left out.
+  /// A placeholder for an instance whose copy is left out.
   void add_place() {
     result_.primitives.push_back({.kind = PrimitiveKind::instance});
     result_.sources.push_back({source_is_place});
@@ -168,7 +168,7 @@ class Converter {
  private:
   [[gnu::always_inline]] Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
 
-  /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
+  /// `size` is the extent before rounding, `at` the position; both are called if the object is degenerate.
   template <class Size>
   void add(const PrimitiveValues& primitive, std::uint32_t object, bool degenerate, std::uint32_t material, const Vec3d& at,
            const Size& size) {
@@ -190,7 +190,7 @@ class Converter {
       ++result_.dropped;
       return;
     }
-    if (vertices.size() == 3 && has_area(vertices)) {  // as most are, which need no list
+    if (vertices.size() == 3 && has_area(vertices)) {  // the common case, which needs no list
       return add_triangle(index, object, vertices, {0, 1, 2});
     }
     const auto triangles = triangulate(vertices);
@@ -266,7 +266,7 @@ class Converter {
         [&] { return finite && has_radius ? size_across(cone) : 0.0; });
   }
 
-  /// 0 of one without a length.
+  /// 0 for a cone without length.
   static double size_across(const Cone& cone) {
     const double height = length(cone.apex - cone.base);
     return height > 0 ? std::max(height, 2 * std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius))) : 0.0;
@@ -282,7 +282,7 @@ class Converter {
     PrimitiveValues values{.kind = PrimitiveKind::cone};
     put_four(values, 0, local(cone.base), base_radius);
     is_flat ? put_axis(values, axis, apex_radius) : put_four(values, 4, local(cone.apex), apex_radius);
-    values.value[3] = std::copysign(values.value[3], static_cast<float>(base_radius));  // of 0, too
+    values.value[3] = std::copysign(values.value[3], static_cast<float>(base_radius));  // also of 0
     values.value[7] = std::copysign(values.value[7], static_cast<float>(apex_radius));
     if (passes_by_zero(values.kind, lane_of(values))) {
       settle_passing_cone(values, local(cone.base), local(cone.apex), base_radius, apex_radius);
@@ -296,7 +296,7 @@ class Converter {
   Conversion& result_;
 };
 
-/// What is converted one by one: objects, and in place of the copies of a mesh its triangles, or one thing where it has none.
+/// The items converted one by one: objects, and for each mesh copy its triangles, or one placeholder if it has none.
 class Steps {
  public:
   Steps(const Scene& scene, std::span<const MeshFaces> meshes) : meshes_(meshes) {
@@ -314,7 +314,7 @@ class Steps {
 
   std::size_t size() const { return count_; }
 
-  /// What places have beside their triangles.
+  /// Adds the planes that instances have beside their triangles.
   void add_planes(const GridFrame& frame, Conversion& all) {
     for (Run& run : runs_) {
       if (run.place != nullptr) {
@@ -344,12 +344,12 @@ class Steps {
   }
 
  private:
-  /// Steps from `begin` on: objects from `first` on, or the triangles of a place.
+  /// Steps from `begin` on: objects from `first` on, or the triangles of an instance.
   struct Run {
     std::size_t begin;
     std::uint32_t first;
     const BaseMeshInstance* place;
-    std::vector<std::uint32_t> planes;  ///< by the mesh's: PrimitiveValues::plane()
+    std::vector<std::uint32_t> planes;  ///< by the mesh's plane: PrimitiveValues::plane()
   };
 
   /// Adds the objects before `end`.
@@ -431,7 +431,7 @@ Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const Parallel& paral
   return all;
 }
 
-/// At most: polygons may turn out to be degenerate.
+/// An upper bound: polygons may turn out to be degenerate.
 std::size_t primitive_count_max(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) {
@@ -461,7 +461,7 @@ void append(Conversion& all, const Conversion& more) {
   all.dropped += more.dropped;
 }
 
-/// Keeps the room that the lists have taken.
+/// Clears the lists but keeps their memory.
 void clear(Conversion& conversion) {
   conversion.primitives.clear();
   conversion.sources.clear();

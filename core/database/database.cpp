@@ -19,7 +19,7 @@
 namespace dmpc::core {
 namespace {
 
-/// visit(address, leaf) for each leaf below a BVH node.
+/// Calls visit(address, leaf) for each leaf below a BVH node.
 template <class Visit>
 void for_each_leaf_below(const LocalRecords& records, Address from, const Visit& visit) {
   const auto bvh_node = read<BvhNode>(records.find(from));
@@ -29,7 +29,7 @@ void for_each_leaf_below(const LocalRecords& records, Address from, const Visit&
   }
 }
 
-/// `first` is the id of what the leaf calls 0; `lane_of` makes the lane of a hit of the leaf's.
+/// `first` is the id of the leaf's item 0; `lane_of` makes the lane of a hit on the leaf.
 template <class LaneOf>
 void add_slots(Address address, const std::byte* leaf, std::uint32_t first, const LaneOf& lane_of,
                std::vector<Database::Place>& places) {
@@ -40,7 +40,7 @@ void add_slots(Address address, const std::byte* leaf, std::uint32_t first, cons
   }
 }
 
-/// What each instance of a leaf of them puts in its place.
+/// Lists the places of a leaf's instances.
 void find_places_of_instances(const LocalRecords& records, const std::byte* leaf, std::vector<Database::Place>& places) {
   for (std::size_t i = 0; i < read<LeafHeader>(leaf).count; ++i) {
     const Address address = instance_in(leaf, i);
@@ -61,10 +61,11 @@ void find_places_in(const LocalRecords& records, Address address, std::vector<Da
       address, leaf, 0, [](std::uint32_t lane) { return lane; }, places);
 }
 
-/// The corners of the copies that a scene leaves out.
+/// The number of corners of the copies that a scene leaves out.
 std::uint64_t copied_corners(const Scene& scene) { return size_with_copies(scene).vertices - scene.vertices.size(); }
 
-/// What is there while a scene with copies in these places becomes primitives. Their records take its objects' place.
+/// The peak memory in bytes while a scene with copies for these instances becomes primitives. The records then replace the
+/// scene's objects.
 std::uint64_t bytes_with_copies(const Scene& scene, const std::vector<bool>& places) {
   constexpr std::uint64_t a_primitive = sizeof(PrimitiveValues) + sizeof(PrimitiveSource) + sizeof(ShadingReference);
   const ExpandedSize size = size_with_copies(scene, places);
@@ -72,7 +73,7 @@ std::uint64_t bytes_with_copies(const Scene& scene, const std::vector<bool>& pla
   return size.bytes() + std::max(size.objects, triangles) * a_primitive;
 }
 
-/// `why`: they have to be there, behind "with a copy in each place".
+/// `why` is the reason for the copies, to follow "with a copy in each place".
 void put_copies_in(Scene& scene, const std::vector<bool>& places, const CopyLimits& limits, const std::string& why,
                    const char* advice) {
   if (const std::uint64_t bytes = bytes_with_copies(scene, places); bytes > limits.bytes_max) {
@@ -84,7 +85,7 @@ void put_copies_in(Scene& scene, const std::vector<bool>& places, const CopyLimi
 
 constexpr const char* fewer_slots = "give the scene fewer places, or coarser meshes";
 
-/// Counts them in `copied`.
+/// Adds the obstacles to the scene and counts them in `copied`.
 void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const CopyLimits& limits, ObstacleCounts& copied) {
   add(obstacles, copied);
   if (any_of(obstacles)) {

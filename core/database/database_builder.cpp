@@ -53,11 +53,11 @@ DatabaseBuilder::DatabaseBuilder(Input input)
 std::optional<Database> DatabaseBuilder::build() {
   fit();
   conversion_ = convert(scene_, frame(), parallel_, {.meshes = meshes_});
-  set_pad();  // places of meshes may have brought layers
+  set_pad();  // instances of meshes may have added layers
   MacroCells cells = sort_into_macro_cells();
   if (settle_coplanar(conversion_, cells, scene_, frame(), parallel_)) {
     set_pad();                        // there are layers now
-    cells = sort_into_macro_cells();  // which may look for twins among the scene's objects
+    cells = sort_into_macro_cells();  // may look for twins among the scene's objects
   }
   if (!keep()) {
     return std::nullopt;
@@ -74,7 +74,7 @@ std::optional<Database> DatabaseBuilder::build() {
     }
   }
   result_.references_ = write_records(cells);
-  give_back_freed();  // trees are many small pieces
+  give_back_freed();  // trees consist of many small allocations
   result_.dropped_ = conversion_.dropped;
   result_.duplicates_ = conversion_.duplicates;
   result_.shared_planes_ = conversion_.shared_planes;
@@ -123,7 +123,7 @@ std::int32_t DatabaseBuilder::layers_above() const {
 }
 
 /// If primitives are so large, so long, so far from the view or so concentrated that the lists would be long, duplicates are
-/// removed; then cells of twice the size are tried, at last a single one.
+/// removed; then cells of twice the size are tried, and finally a single one.
 MacroCells DatabaseBuilder::sort_into_macro_cells() {
   for (;;) {
     if (auto cells = list_macro_cells()) {
@@ -191,7 +191,7 @@ void DatabaseBuilder::write_lights() {
   }
 }
 
-/// Emitters' materials follow the scene's, extensions follow all, in their order.
+/// Emitters' materials follow the scene's, and extensions follow all, in the order of their materials.
 void DatabaseBuilder::write_materials() {
   std::vector<Material> materials = scene_.materials;
   materials.insert(materials.end(), emitters_.materials.begin(), emitters_.materials.end());
@@ -226,7 +226,7 @@ void DatabaseBuilder::write_emitters() {
   writer_.write(choices, 0, std::as_bytes(std::span(emitters_.choices)));
 }
 
-/// Numbers that are no colours are what pictures by paths show alone.
+/// Only pictures with path tracing use textures of numbers that are not colours.
 bool DatabaseBuilder::is_shown(const Texture& texture) const {
   return options_.for_paths || texture.format != TexelFormat::linear;
 }
@@ -245,7 +245,7 @@ void DatabaseBuilder::write_sky_table() {
   }
 }
 
-/// Behind all other records, in one piece, once these have their room.
+/// The tiles follow all other records in one piece, once these are allocated.
 void DatabaseBuilder::write_sky_tiles() {
   if (!sky_.tiles.empty()) {
     writer_.begin_page();
@@ -256,7 +256,8 @@ void DatabaseBuilder::write_sky_tiles() {
   }
 }
 
-/// Their room is made at once, and each texture's texels are forgotten when it is there: a large one is most of a scene.
+/// Each texture's memory is allocated at once, and its texels are freed when its tiles are written: a large texture is most of a
+/// scene.
 void DatabaseBuilder::write_textures() {
   std::size_t tiles = 0;
   for (const TextureReference& texture : textures_) {

@@ -25,7 +25,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Nothing depends on a part's pages; the smallest wastes least at its end.
+/// Nothing depends on the page size of a part; the smallest one wastes least at the part's end.
 constexpr std::size_t part_page_bytes = 512;
 
 class Extractor {
@@ -115,7 +115,7 @@ class Extractor {
     return to;
   }
 
-  /// Lists what each voxel has for the regions, as entries of the part's directory and references to the whole's leaves.
+  /// Lists for each voxel what the regions need of it, as entries of the part's directory and references to the whole's leaves.
   void choose_listed(const Region& around) {
     const DatabaseHeader& header = part_.header;
     entries_.resize(directory_entry_count(header.directory_size));
@@ -144,7 +144,7 @@ class Extractor {
     return {static_cast<std::uint32_t>(begin)};
   }
 
-  /// Whether a hit on a leaf may lie in one of those regions.
+  /// Whether a hit on a leaf may lie in one of the regions.
   bool is_wanted(Address leaf, const Those& those) {
     const Box box = bounds_of_leaf(at(leaf)).padded(pad_);
     bool is_wanted = false;
@@ -168,7 +168,7 @@ class Extractor {
     writer_.write(part_.header.directory, 0, std::as_bytes(std::span(entries_)));
   }
 
-  /// Then a ray may meet it again, in the same region as in others, and it has a shared_name.
+  /// A ray may then meet the leaf again, in the same region as in others, so it has a shared_name.
   bool lies_in_several_voxels(Address leaf) const {
     const Box box = bounds_of_leaf(at(leaf)).padded(pad_);
     const double edge = double{whole_.frame.finest_cell} * finest_per_macro;
@@ -201,7 +201,7 @@ class Extractor {
     return {0, among_.size()};
   }
 
-  /// The remaining regions that a child's box touches; call let_go() for them before those from which they were chosen.
+  /// The remaining regions that a child's box touches. Call let_go() for them before those that they were chosen from.
   Those touched(const BvhNode& bvh_node, std::size_t child, const Those& those) {
     const std::size_t first = among_.size();
     const Box box = box_of(bvh_node, child);
@@ -215,7 +215,7 @@ class Extractor {
   }
   void let_go(const Those& those) { among_.resize(those.first); }
 
-  /// Whether one of the regions needs a BVH node's child: a leaf whose box touches it, or a BVH node that has such below.
+  /// Whether a region needs a BVH node's child: a leaf whose box touches it, or a BVH node with such a leaf below.
   bool needs(const BvhNode& bvh_node, std::size_t child, const Those& those) {
     const BvhChild& link = bvh_node.child[child];
     const Those left = touched(bvh_node, child, those);
@@ -224,10 +224,11 @@ class Extractor {
     let_go(left);
     return is_needed;
   }
-  /// For boxes of instances, whether one of them has something here; any other leaf whose box touches a region is needed.
+  /// Whether a region needs a leaf whose box touches it: a leaf of instances only if one of them has something there, any other
+  /// always.
   bool needs_leaf(Address leaf) const { return !needs_ || !has_places(leaf) || needed_slots(leaf) != 0; }
   bool has_places(Address leaf) const { return read<LeafHeader>(at(leaf)).kind == PrimitiveKind::instance; }
-  /// A bit for each lane.
+  /// One bit for each lane.
   std::uint32_t needed_slots(Address leaf) const {
     std::uint32_t needed = 0;
     for (std::size_t lane = 0; lane < read<LeafHeader>(at(leaf)).count; ++lane) {
@@ -243,7 +244,7 @@ class Extractor {
     }
     return false;
   }
-  /// A bit for each.
+  /// One bit for each child.
   std::uint32_t needed_children(const BvhNode& bvh_node, const Those& those) {
     std::uint32_t needed = 0;
     for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
@@ -254,14 +255,14 @@ class Extractor {
 
   const BvhNode& bvh_node_at(Address address) const { return *reinterpret_cast<const BvhNode*>(at(address)); }
 
-  /// Copies what a BVH node has for the regions; no_address if that is nothing.
+  /// Copies the part of a BVH node that the regions need; no_address if they need nothing.
   Address copy_bvh_node(const BvhNode& from, const Those& those) {
     const std::uint32_t needed = needed_children(from, those);
     return needed == 0 ? no_address
                        : write_bvh_node(from, needed, [&](std::size_t child) { return copy_child(from, child, those); });
   }
 
-  /// The BVH node's copy, and those of its children that are needed, by copy(child).
+  /// Copies the BVH node, and the children that are needed by copy(child).
   template <class Copy>
   Address write_bvh_node(const BvhNode& from, std::uint32_t needed, const Copy& copy) {
     const Address to = writer_.allocate(sizeof(BvhNode));
@@ -288,7 +289,7 @@ class Extractor {
     return copy;
   }
 
-  /// Whether a child's box lies in none of those regions: a ray may meet it in others, too.
+  /// Whether a child's box lies wholly in none of the regions, so that a ray may meet it in others, too.
   bool is_shared(const BvhNode& bvh_node, std::size_t child, const Those& those) const {
     const Box box = box_of(bvh_node, child);
     const auto holds = [&](std::uint32_t region) {
@@ -303,11 +304,11 @@ class Extractor {
     return std::none_of(first, first + static_cast<std::ptrdiff_t>(those.count), holds);
   }
 
-  /// Copies of a leaf of instances the lanes that are needed, with their meshes.
+  /// Copies the needed lanes of a leaf of instances, with their meshes.
   Address copy_places(Address from) {
     const std::uint32_t needed = needed_slots(from);
     auto header = read<LeafHeader>(at(from));
-    const std::size_t lanes = header.count, rows = value_count(header.kind) + 1;  // of boxes, and ids
+    const std::size_t lanes = header.count, rows = value_count(header.kind) + 1;  // rows of boxes, and of ids
     header.count = static_cast<std::uint8_t>(std::popcount(needed));
     const Address to = writer_.allocate(leaf_bytes(header));
     writer_.write(to, 0, header);
@@ -333,7 +334,7 @@ class Extractor {
     return to;
   }
 
-  /// Once, for all places.
+  /// Copies a mesh once for all of its instances.
   Address copy_mesh(Address root) {
     if (const auto [copy, is_new] = meshes_.find_or_add(root); !is_new) {
       return copy;
@@ -360,7 +361,7 @@ class Extractor {
     return copy_lanes(from, is_shared);
   }
 
-  /// With normals and textures.
+  /// Copies lanes with normals and textures.
   Address copy_lanes(Address from, bool is_shared) {
     auto header = read<LeafHeader>(at(from));
     const std::size_t rows = leaf_bytes(header.kind, header.count), size = leaf_bytes(header);
@@ -381,7 +382,7 @@ class Extractor {
     return to;
   }
 
-  /// A triangle that lies in several BVH nodes keeps one record of normals.
+  /// A triangle that lies in several BVH nodes keeps a single record of normals.
   Address copy_normals(Address from) {
     const auto [copy, is_new] = normals_.find_or_add(from);
     if (is_new) {
@@ -402,7 +403,7 @@ class Extractor {
     return writer_.add(FacetedNormals{.textured = textured, .facets = facets});
   }
 
-  /// Notes which tiles the triangle needs; they are copied when all are known.
+  /// Notes which tiles the triangle needs; they are copied when all of them are known.
   TextureReference copy_reference(const TexturedNormals& triangle, const TextureReference& from) {
     const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(from.tiles));
     UsedTexture& texture = found->second;
@@ -416,7 +417,7 @@ class Extractor {
     return texture.to;
   }
 
-  /// In the order of the whole, which keeps neighbours together.
+  /// Copies textures in the order of the whole database, which keeps neighbours together.
   void copy_textures() {
     for (const auto& [address, texture] : textures_) {
       const auto* const table = reinterpret_cast<const Address*>(at(texture.from.tiles));
@@ -442,16 +443,16 @@ class Extractor {
 
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
-  Vec3d pad_;  ///< within which a hit may lie beside its primitive
+  Vec3d pad_;  ///< the maximum distance of a hit from its primitive
   std::span<const Region> regions_;
   std::vector<std::uint32_t> among_;
   RecordWriter writer_;
   DatabasePart part_;
-  std::vector<DirectoryEntry> entries_;  ///< the voxels'
-  std::vector<VoxelReference> listed_;   ///< by them
-  std::optional<MeshNeeds> needs_;       ///< where meshes are kept once
+  std::vector<DirectoryEntry> entries_;  ///< of the voxels
+  std::vector<VoxelReference> listed_;   ///< by the voxels
+  std::optional<MeshNeeds> needs_;       ///< where base meshes are stored
   Address next_instance_ = no_address;   ///< for the next copied instance
-  AddressMap meshes_;                    ///< by their first BVH nodes
+  AddressMap meshes_;                    ///< by the mesh's first BVH node
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };

@@ -25,7 +25,7 @@ struct Parallel::Arena {
 #else
 
 struct Parallel::Arena {
-  /// None for one thread.
+  /// Returns nullptr for one thread.
   static std::unique_ptr<Arena> of(std::uint32_t threads) {
     const int concurrency = threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads);
     return threads == 1 ? nullptr : std::make_unique<Arena>(concurrency);

@@ -19,16 +19,15 @@
 namespace dmpc::core {
 namespace {
 
-/// Nothing depends on a proxy's pages; the smallest wastes least.
+/// Nothing depends on the page size of a proxy; the smallest one wastes least.
 constexpr std::size_t proxy_page_bytes = 512;
-/// On 64 nodes and 512x512 pixels rays of four scenes took 0.68 of the processor time with 4 KiB of proxy that they took
-/// without, 0.65 with 16 KiB, 0.64 with 64 KiB.
+/// On 64 nodes and 512x512 pixels, rays of four scenes took 0.68 of the processor time with 4 KiB of proxy that they took
+/// without, 0.65 with 16 KiB, and 0.64 with 64 KiB.
 constexpr std::size_t small_proxy_bytes = 16_KiB;
-/// A topmost BVH node stands for some 4,096 primitives: about a 4,096th of the database.
+/// A topmost BVH node represents some 4,096 primitives: about a 4,096th of the database.
 constexpr std::size_t database_share = 2048;
 
-/// Copies BVH nodes in the order in which they are met, level by level. Where meshes are kept once those of each place are
-/// brought to where it stands.
+/// Copies BVH nodes breadth first. With base meshes, the BVH nodes of each instance are transformed to where it stands.
 class Outliner {
  public:
   Outliner(const Database& database, std::size_t bytes_max)
@@ -51,28 +50,28 @@ class Outliner {
   }
 
  private:
-  /// What is to be outlined.
+  /// A BVH node or leaf that is to be copied.
   struct Waiting {
-    BvhChild from;     ///< a BVH node, or a leaf of boxes of places
-    Address instance;  ///< in which the BVH node of a mesh stands; no_address: it is none
-    Address to;        ///< address for the proxy's BVH node
-    int level;         ///< BVH nodes down to this one
+    BvhChild from;     ///< a BVH node, or a leaf of instances
+    Address instance;  ///< the instance that contains a mesh's BVH node; no_address: none
+    Address to;        ///< address of the proxy's BVH node
+    int level;         ///< number of BVH nodes down to this one
   };
 
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
   const BvhNode& bvh_node_at(Address address) const { return *reinterpret_cast<const BvhNode*>(at(address)); }
 
-  /// For one BVH node more, the last page filled up.
+  /// Whether one more BVH node fits, with the last page filled up.
   bool has_room() const { return writer_.page_bytes_with(sizeof(BvhNode)) <= bytes_max_; }
 
-  /// Room for a BVH node, which is made when its turn comes.
+  /// Allocates a BVH node, which is written when its turn comes.
   Address wait_for(BvhChild from, Address instance, int level) {
     const Address to = writer_.allocate(sizeof(BvhNode));
     waiting_.push_back({from, instance, to, level});
     return to;
   }
 
-  /// False if it does not fit with the BVH nodes that it names.
+  /// False if it does not fit together with the BVH nodes that it refers to.
   bool copy_directory(DatabaseHeader& header) {
     const std::uint64_t count = directory_entry_count(whole_.directory_size);
     bool fits = count * sizeof(DirectoryEntry) <= bytes_max_;
@@ -88,8 +87,8 @@ class Outliner {
     return fits;
   }
 
-  /// The child of an outlined BVH node for one of the whole: a BVH node if there is something to say of it, and room, and rays
-  /// that have no more places for children that wait than a tree has levels can come there.
+  /// The proxy's child for one of the whole: a BVH node if it adds information, if it fits, and if rays can reach it, whose stack
+  /// of waiting children has as many slots as a tree has levels.
   BvhChild child_for(BvhChild whole, Address instance, int level) {
     const bool has_boxes = !whole.is_leaf() || (whole_.has_instances != 0 && instance == no_address &&
                                                 read<LeafHeader>(at(whole.address())).kind == PrimitiveKind::instance);
@@ -105,7 +104,7 @@ class Outliner {
     return bvh_node;
   }
 
-  /// For instances, or a mesh's BVH node in one.
+  /// For instances, or for a mesh's BVH node in an instance.
   BvhNode bvh_node_in_place(const Waiting& next) {
     const std::byte* const record = at(next.from.address());
     std::array<Bounds, bvh_children_max> boxes;
@@ -148,7 +147,7 @@ class Outliner {
   std::deque<Waiting> waiting_;
 };
 
-/// Which voxels have lists, or which cubes of so many voxels that the directory fits.
+/// The voxels that have lists, or cubes of as many voxels as it takes for the directory to fit.
 class VoxelOutliner {
  public:
   explicit VoxelOutliner(const Database& database) : whole_(database.header()), records_(database.bytes()) {}

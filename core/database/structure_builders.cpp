@@ -1,4 +1,4 @@
-// How each structure makes its cells, and in which order its records lie.
+// How each structure builds its cells, and the order of its records.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@
 namespace dmpc::core {
 namespace {
 
-/// A tree in each macro cell.
+/// Builds a tree in each macro cell.
 class GridBuilder : public DatabaseBuilder {
  public:
   using DatabaseBuilder::DatabaseBuilder;
@@ -41,7 +41,7 @@ class GridBuilder : public DatabaseBuilder {
     return cells.references();
   }
 
-  /// Cells are built at the same time.
+  /// Cells are built in parallel.
   std::vector<BvhTree> draft_trees(const MacroCells& cells) {
     const BvhBuilder builder(conversion_.primitives, pad(), frame(), parallel());
     std::vector<BvhTree> trees(cells.size());
@@ -57,7 +57,7 @@ class GridBuilder : public DatabaseBuilder {
     return trees;
   }
 
-  /// Trees take their room in order, and are written at the same time.
+  /// Trees are allocated in order and written in parallel.
   void write_trees(const MacroCells& cells, std::vector<BvhTree> trees) {
     std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     for (std::size_t i = 0; i < trees.size(); ++i) {
@@ -75,7 +75,7 @@ class GridBuilder : public DatabaseBuilder {
   }
 };
 
-/// One tree. The BVH nodes that no page holds together with all that is below them have pages of their own, with the tables.
+/// Builds a single tree. BVH nodes whose subtree does not fit a page have pages of their own, with the tables.
 class TreeBuilder : public GridBuilder {
  public:
   using GridBuilder::GridBuilder;
@@ -101,7 +101,7 @@ class TreeBuilder : public GridBuilder {
   }
 };
 
-/// One tree in which places of meshes are boxes, behind which come those of meshes.
+/// Builds a single tree whose leaves include boxes of mesh instances; the trees of the meshes follow it.
 class InstancedBuilder : public TreeBuilder {
  public:
   explicit InstancedBuilder(Input input) : TreeBuilder(std::move(input)) {
@@ -113,7 +113,7 @@ class InstancedBuilder : public TreeBuilder {
   std::span<const Obstacle> obstacles() const override { return obstacles_; }
 
  protected:
-  /// Together with copies that are left out, too. These are looked at one by one only if that may let cells be smaller.
+  /// The copies that are left out count, too. They are counted one by one only if that may allow smaller cells.
   std::optional<MacroCells> list_macro_cells() const override {
     if (!left_out_) {
       return list_with(0);
@@ -170,7 +170,7 @@ class InstancedBuilder : public TreeBuilder {
     set_open_pages(begin_page() - forest_pages);
     write_textures();
     write_normals(conversion_);
-    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));  // two share a record
+    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));  // two entries share a record
     directory[0].bits = static_cast<std::uint32_t>(top.take_room(writer_));
     for (MeshRecords& mesh : kept_.meshes) {
       write_normals(mesh.conversion);
@@ -186,7 +186,7 @@ class InstancedBuilder : public TreeBuilder {
     }
     write_instances(instances);
     write_directory(directory);
-    conversion_.primitives.resize(conversion_.primitives.size() - kept_.places.size());  // without boxes
+    conversion_.primitives.resize(conversion_.primitives.size() - kept_.places.size());  // without the boxes
     return ids.size();
   }
 
@@ -199,7 +199,7 @@ class InstancedBuilder : public TreeBuilder {
     }
   }
 
-  /// The boxes of places become primitives behind all others. Returns what the top tree is over.
+  /// Appends the boxes of instances to the primitives. Returns the ids that the top-level tree contains.
   std::vector<std::uint32_t> add_boxes() {
     std::vector<std::uint32_t> ids = std::move(kept_.own_ids);
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
@@ -216,7 +216,7 @@ class InstancedBuilder : public TreeBuilder {
     return ids;
   }
 
-  /// Leaves of boxes hold the address of each record.
+  /// Allocates the instance records; leaves of boxes hold the address of each.
   Address take_instance_room() {
     const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
@@ -249,8 +249,8 @@ class InstancedBuilder : public TreeBuilder {
   StoredInstances kept_;
 };
 
-/// A list in each cell. The frame of its plain grid begins where the usual one does, and keeps local zero and where far eyes'
-/// rays start.
+/// Builds a list in each voxel. The frame of its plain grid begins where the usual one does, and keeps local zero and the start
+/// of rays from far eyes.
 class VoxelBuilder : public DatabaseBuilder {
  public:
   using DatabaseBuilder::DatabaseBuilder;
@@ -294,7 +294,7 @@ class VoxelBuilder : public DatabaseBuilder {
   using Count = std::array<std::int32_t, 3>;
 
   static Count voxels_along(const Vec3d& extent, double edge) {
-    constexpr double rounding_share = 0x1p-20;  // voxels that are this share too few to cover it become larger, not more
+    constexpr double rounding_share = 0x1p-20;  // if voxels fail to cover it by at most this share, they become larger, not more
     Count count{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       count[axis] = std::max(1, static_cast<std::int32_t>(std::ceil(extent[axis] / edge - rounding_share)));
@@ -303,8 +303,8 @@ class VoxelBuilder : public DatabaseBuilder {
   }
   static double product(const Count& count) { return static_cast<double>(count[0]) * count[1] * count[2]; }
 
-  /// As many as the rule says for the scene's objects, or a few less, at least one, over what the scene takes of the grid, or
-  /// more than that by less than a voxel.
+  /// Creates as many voxels as the rule says for the scene's objects, or slightly fewer, at least one. They cover the scene's
+  /// part of the grid, and extend beyond it by less than a voxel.
   void cut_into_voxels() {
     const VoxelRule& rule = options().voxels;
     expect(rule.voxels_per_primitive > 0 && rule.voxels_max > 0 && rule.voxels_max <= VoxelRule::voxels_bound,

@@ -1,4 +1,4 @@
-// Balls: a sphere with nine smaller ones on it, each with nine on it, ...
+// Balls: a sphere with nine smaller ones on it, each with nine on it, and so on.
 #include <array>
 #include <cmath>
 
@@ -10,7 +10,8 @@ namespace {
 
 using Directions = std::array<Vec3d, 9>;
 
-/// Where the nine children of a ball stand whose own direction is +z: three tilted by asin(2 / sqrt 6) and turned three times.
+/// The directions of the nine children of a ball whose own direction is +z: three tilted by asin(2 / sqrt 6) and rotated three
+/// times.
 Directions child_directions() {
   const double d = 1 / std::sqrt(2.0);
   const std::array<Vec3d, 3> corner = {Vec3d{d, d, 0}, Vec3d{d, 0, -d}, Vec3d{0, d, -d}};
@@ -23,7 +24,7 @@ Directions child_directions() {
   return directions;
 }
 
-/// The rotation that brings +z to the unit vector `direction` the short way.
+/// The shortest rotation from +z to the unit vector `direction`.
 Frame frame_towards(const Vec3d& direction) {
   if (direction.z >= 0.9999) {
     return {};

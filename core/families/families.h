@@ -1,6 +1,6 @@
 // The generators of the Standard Procedural Databases (E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A
-// 7(11), 1987): each sends its scene of the given size to a sink, entity by entity in the order of the SPD's own files,
-// unrounded. Sizes are checked by core/families/scenes.h. Thread safety: all are pure except for what they send.
+// 7(11), 1987). Each sends its scene of the given size to a sink, entity by entity in the order of the SPD's files, unrounded.
+// core/families/scenes.h checks sizes. Thread safety: all are pure except for what they send.
 #pragma once
 
 #include <initializer_list>
@@ -11,10 +11,10 @@ namespace dmpc::core::scenes {
 
 void make_balls(int size, SceneSink& sink);
 void make_gears(int size, SceneSink& sink);
-/// The jacks are the one family tessellated in the object's own frame, always with 2 pieces a quarter.
+/// Jacks are the only family tessellated in the object's own frame, always with 2 pieces per quarter.
 void make_jacks(int size, bool is_tessellated, SceneSink& sink);
 void make_lattice(int size, SceneSink& sink);
-/// Requires size <= 7: beyond it the hash of 1987 shifts by a negative count.
+/// Requires size <= 7: beyond that the hash of 1987 shifts by a negative count.
 void make_mount(int size, SceneSink& sink);
 void make_rings(int size, SceneSink& sink);
 void make_shells(int size, SceneSink& sink);
@@ -24,9 +24,9 @@ void make_tetra(int size, SceneSink& sink);
 void make_tree(int size, SceneSink& sink);
 
 inline constexpr Vec3d sky{0.078, 0.361, 0.753};
-/// The shine that stands for "no highlight", always with Ks = 0.
+/// The shininess that means "no highlight", always with Ks = 0.
 inline constexpr double no_highlight = 100000;
-/// The shine whose highlight falls to one half at 37 degrees: ln .5 / ln cos 37 degrees.
+/// The shininess whose highlight falls to one half at 37 degrees: ln .5 / ln cos 37 degrees.
 inline constexpr double soft_highlight = 3.0827;
 
 /// Background, view and lights, in the order of the SPD's files.

@@ -1,4 +1,4 @@
-// Frames for the built-in scenes: where an object's own coordinates lie in the world.
+// Frames that place the objects of built-in scenes in the world.
 #pragma once
 
 #include "core/base/elementary.h"
@@ -6,7 +6,7 @@
 
 namespace dmpc::core::scenes {
 
-/// Sine and cosine of an angle, for rotations whose angle is known by those alone.
+/// Sine and cosine of an angle, for rotations where only those are known.
 struct Turn {
   double sine = 0, cosine = 1;
 };
@@ -34,11 +34,11 @@ inline Frame rotation_x(const Turn& t) { return {{1, 0, 0}, {0, t.cosine, t.sine
 inline Frame rotation_y(const Turn& t) { return {{t.cosine, 0, -t.sine}, {0, 1, 0}, {t.sine, 0, t.cosine}, {}}; }
 inline Frame rotation_z(const Turn& t) { return {{t.cosine, t.sine, 0}, {-t.sine, t.cosine, 0}, {0, 0, 1}, {}}; }
 
-/// `v` turned about the unit vector `axis`, right-handed (Rodrigues' formula).
+/// `v` rotated about the unit vector `axis`, right-handed (Rodrigues' formula).
 inline Vec3d rotated(const Vec3d& v, const Vec3d& axis, const Turn& t) {
   return v * t.cosine + cross(axis, v) * t.sine + axis * (dot(axis, v) * (1 - t.cosine));
 }
-/// This turn as a frame.
+/// This rotation as a frame.
 inline Frame rotation(const Vec3d& axis, const Turn& t) {
   return {rotated({1, 0, 0}, axis, t), rotated({0, 1, 0}, axis, t), rotated({0, 0, 1}, axis, t), {}};
 }

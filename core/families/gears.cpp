@@ -30,7 +30,7 @@ Material gear_material(int x, int y, int z) {
   return {.color = bright, .diffuse = 1, .specular = 0, .shine = no_highlight, .transmittance = 0, .refraction_index = 0};
 }
 
-/// The proxy of a face, four points a tooth; `sense` is +1 counter-clockwise from above, -1 clockwise.
+/// The outline of a face, four points per tooth; `sense` is +1 counter-clockwise from above, -1 clockwise.
 std::vector<Vec3d> proxy(const Gear& gear, double sense, double lowered) {
   std::vector<Vec3d> points;
   const auto add = [&](double share, double degrees) {

@@ -1,4 +1,4 @@
-// Jacks: three crossed rods with balls at their ends, and eight half-sized copies at the corners of a cube, again and again.
+// Jacks: three crossed rods with balls at their ends, and eight half-sized copies at the corners of a cube, recursively.
 #include "core/families/families.h"
 #include "core/families/frame.h"
 #include "core/families/tessellation.h"
@@ -8,8 +8,8 @@ namespace {
 
 constexpr int tessellation = 2;
 
-/// Carries entities out of a frame that turns, moves and scales evenly. Normals go by the inverse transpose and are not
-/// renormalised, as in the SPD's files: their length is one over the frame's scale.
+/// Transforms entities from a frame that rotates, translates and scales uniformly. Normals are transformed by the inverse
+/// transpose and not renormalised, as in the SPD's files: their length is one over the frame's scale.
 class FramedSink final : public SceneSink {
  public:
   FramedSink(const Frame& frame, SceneSink& target) : frame_(frame), scale_(length(frame.x)), target_(target) {}

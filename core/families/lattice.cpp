@@ -15,7 +15,7 @@ Material rod_material(std::size_t axis) {
   return {.color = color, .diffuse = 0.99, .specular = 0, .shine = no_highlight, .refraction_index = 0};
 }
 
-/// The rod from a point to its neighbour along an axis, ends just inside the balls.
+/// The rod from a point to its neighbour along an axis; its ends lie just inside the balls.
 void add_rod(const Vec3d& point, std::size_t axis, double cell, SceneSink& sink) {
   const double ball_radius = cell / 4, rod_radius = cell / 16;
   const double inset = 0.99 * ball_radius * (1 - 0.5);

@@ -10,7 +10,7 @@
 namespace dmpc::core::scenes {
 namespace {
 
-/// The modulus of the generator of uniform numbers that seeds are for; its period, too.
+/// The modulus, and the period, of the uniform random number generator that seeds are for.
 constexpr std::uint32_t modulus = 134456;
 
 /// A normally distributed number from a seed, without state (the polar method of Box, Muller and Marsaglia).
@@ -29,13 +29,13 @@ double gauss(std::uint32_t seed) {
   }
 }
 
-/// The hash of 1987 stands for a lattice of 2^7 cells a side; beyond, points are numbered on one of 2^16.
+/// The hash of 1987 has a lattice of 2^7 cells a side; finer points are numbered on one of 2^16.
 constexpr int first_bits = 7, finest_bits = 16;
 
-/// The seed of a grid point's displacement; (x, y) on the finest lattice. Points that a mountain of size 7 has, keep the hash of
-/// 1987 as it is, poor and repetitive, so that results compare. It has no value between them: there every point has a seed of
-/// its own, mixed from the whole of both coordinates. Seeds do not depend on the size, so each mountain has all points of the
-/// smaller ones and more between.
+/// The seed of a grid point's displacement; (x, y) are on the finest lattice. Points that a mountain of size 7 has keep the hash
+/// of 1987, poor and repetitive as it is, so that results are comparable. That hash has no values between them: each of those
+/// points has a seed of its own, mixed from both full coordinates. Seeds do not depend on the size, so each mountain has all
+/// points of the smaller ones and more between.
 std::uint32_t seed_of(std::uint32_t x, std::uint32_t y) {
   constexpr unsigned shift = finest_bits - first_bits;
   constexpr std::uint32_t between = (1U << shift) - 1;
@@ -103,7 +103,7 @@ class Mountain {
   double roughness_ = 0;
 };
 
-/// Four balls that touch, in a tetrahedron standing on three of them.
+/// Four touching balls in a tetrahedron that stands on three of them.
 void add_glass(SceneSink& sink) {
   const double radius = 0.17;
   const Vec3d center = {-0.8, 0.8, 1};

@@ -14,13 +14,13 @@
 namespace dmpc::core {
 namespace {
 
-/// Bounds the memory of a scene: 3 GiB of patches.
+/// Bounds the memory of a scene to 3 GiB of patches.
 constexpr double primitives_max = 16'777'216;
 constexpr int tessellation_max = 1000;
-/// A size that no scene of so few primitives has.
+/// A size above that of any scene within the bound.
 constexpr int any_size = 100'000;
 
-/// Objects of a scene by kind. In double precision: exact below 2^53, and nothing overflows before the comparison with the bound.
+/// The objects of a scene by kind. Doubles are exact below 2^53, and nothing overflows before the comparison with the bound.
 struct Counts {
   double flat = 0, spheres = 0, cones = 0;
 };
@@ -60,8 +60,8 @@ std::vector<Vec3d> rounded(const std::vector<Vec3d>& vectors) {
   return result;
 }
 
-/// Rounds every number to the 6 significant digits of an NFF file, so that a built-in scene and its written file are the same
-/// scene, bit for bit. Its target must outlive it.
+/// Rounds every number to the 6 significant digits of an NFF file, so that a built-in scene is the same, bit for bit, as the file
+/// written from it. Its target must outlive it.
 class RoundingSink final : public SceneSink {
  public:
   explicit RoundingSink(SceneSink& target) : target_(target) {}
@@ -121,7 +121,7 @@ const Family* find_family(std::string_view name) {
   return nullptr;
 }
 
-/// The tessellation that a family's scenes really get.
+/// The tessellation that a family's scenes actually get.
 int used_tessellation(const Family& family, int tessellation) {
   return family.name == "jacks" && tessellation > 0 ? 2 : tessellation;
 }
@@ -132,7 +132,7 @@ double total(const Family& family, int size, int tessellation) {
   return counts.flat + (n > 0 ? counts.spheres * 12 * n * n + counts.cones * 8 * n : counts.spheres + counts.cones);
 }
 
-/// The last number from 1 to `limit` that `fits` accepts, or 0; `fits` accepts a beginning.
+/// The largest number from 1 to `limit` that `fits` accepts, or 0; `fits` must be monotonic.
 int last_fitting(int limit, const std::function<bool(int)>& fits) {
   int low = 0, high = limit + 1;
   while (high - low > 1) {
@@ -155,7 +155,7 @@ std::vector<std::string> family_names(std::span<const std::string> others) {
   return names;
 }
 
-/// " Did you mean teapot-12?" for teapt-12: the family that is near, with the rest as it stands.
+/// " Did you mean teapot-12?" for teapt-12: the nearest family, with the rest unchanged.
 std::string family_meant(std::string_view text, const std::vector<std::string>& names) {
   const std::size_t end = std::min(text.find_first_of("-0123456789"), text.size());
   const std::optional<std::string> name = nearest_word(text.substr(0, end), names);
@@ -185,7 +185,7 @@ const Family& family_of(const SceneName& name) {
 
 std::string range_text(const Family& family) { return "1 to " + std::to_string(size_max(family)); }
 
-/// The digits that stand at the front of `text`, which they leave; -1 if there are none, any_size + 1 if too many.
+/// Removes leading digits from `text` and returns their value; -1 if there are none, any_size + 1 if there are too many.
 int take_number(std::string_view& text) {
   int value = -1;
   const char* end = text.data() + text.size();
@@ -199,7 +199,7 @@ int take_number(std::string_view& text) {
 
 bool starts_with_digit(std::string_view text) { return !text.empty() && text.front() >= '0' && text.front() <= '9'; }
 
-/// Takes `-` and a tag before a number from the front of `text`; nothing if that is not what stands there.
+/// Removes `-`, a tag and a number from the front of `text`; nothing if it does not begin with these.
 std::optional<int> take_part(std::string_view& text, std::string_view tag) {
   if (!text.starts_with(tag) || !starts_with_digit(text.substr(tag.size()))) {
     return std::nullopt;

@@ -13,46 +13,46 @@
 
 namespace dmpc::core {
 
-/// What `family-size[-tN]` says.
+/// A parsed name `family-size[-tN]`.
 struct SceneName {
   std::string family;    ///< balls gears jacks lattice mount rings shells sombrero teapot tetra tree
   int size = 1;          ///< 1 to size_max of the family
-  int tessellation = 0;  ///< 0: true spheres, cones and cylinders; N: triangles, 12 N^2 a sphere and 8 N a cone
+  int tessellation = 0;  ///< 0: true spheres, cones and cylinders; N: triangles, 12 N^2 per sphere and 8 N per cone
 
-  /// In full, with the size: `teapot-12`, `rings-4-t1`.
+  /// The full name with the size: `teapot-12`, `rings-4-t1`.
   std::string text() const;
 };
 
-/// Reads `family`, `family-size`, `family-tN` or `family-size-tN`; a size not given is the SPD's default (teapot 12). Nothing if
-/// the text does not begin with a family's name, or goes on with a dot or a slash (balls-4.nff), so that it is a file's name.
-/// Throws InputError with what is allowed if the rest makes no sense or the scene is too large (more than 16,777,216 primitives).
+/// Parses `family`, `family-size`, `family-tN` or `family-size-tN`; the default size is the SPD's (teapot 12). Returns nothing
+/// for a file name: a text that does not begin with a family's name, or continues with a dot or a slash (balls-4.nff). Throws
+/// InputError with what is allowed if the rest is invalid or the scene is too large (more than 16,777,216 primitives).
 std::optional<SceneName> find_scene_name(std::string_view text);
 
-/// Parses a text that must be a built-in name: throws InputError, listing the families, if it is none. `others`: names of
-/// families that the caller has besides, which are listed, too.
+/// Parses a text that must be a built-in name: otherwise throws InputError that lists the families, and the names in `others`,
+/// further families of the caller.
 SceneName parse_scene_name(std::string_view text, std::span<const std::string> others = {});
 
-/// Throws InputError unless the family exists, and size and tessellation lie in its ranges.
+/// Throws InputError unless the family exists and size and tessellation are in its ranges.
 void check_scene_name(const SceneName& name);
 
-/// One scene of each family, of its default size, in alphabetical order.
+/// One scene of each family at its default size, in alphabetical order.
 std::vector<SceneName> default_scenes();
 
-/// The families in alphabetical order with their default sizes and ranges, a line each, for help texts.
+/// One line for each family, alphabetical, with its default size and ranges, for help texts.
 std::string describe_scene_families();
 
-/// How many objects the scene has: spheres, cones, polygons and patches. By formula, without making it. Tessellation changes
-/// nothing for gears, sombrero, teapot and tetra, and is always 2 for jacks. Requires a name that check_scene_name accepts.
+/// The number of objects of the scene (spheres, cones, polygons and patches), by formula, without generating it. Tessellation
+/// does not affect gears, sombrero, teapot and tetra, and is always 2 for jacks. Requires a name that check_scene_name accepts.
 std::uint64_t primitive_count(const SceneName& name);
 
 /// Sends the scene to `sink` in the order of the SPD's files (`b`, `v`, `l`s, then objects, with an `f` wherever the SPD writes
-/// one), every number rounded to 6 significant digits as its files are. Throws InputError as check_scene_name does.
+/// one). Every number is rounded to 6 significant digits, as in those files. Throws InputError as check_scene_name does.
 void generate_scene(const SceneName& name, SceneSink& sink);
 
-/// Generates it in the full precision of the generators: for measuring them.
+/// Generates the scene in the full precision of the generators, to measure them.
 void generate_unrounded_scene(const SceneName& name, SceneSink& sink);
 
-/// The scene as generate_scene sends it; its name is name.text().
+/// The scene that generate_scene sends; its name is name.text().
 Scene built_in_scene(const SceneName& name);
 
 }  // namespace dmpc::core

@@ -1,4 +1,4 @@
-// Shells: a sea shell of spheres along a logarithmic spiral, most of them tiny, all overlapping: the pathological case.
+// Shells: a sea shell of spheres along a logarithmic spiral, most of them tiny, all overlapping; the pathological case.
 #include <numbers>
 
 #include "core/base/elementary.h"

@@ -9,7 +9,7 @@ namespace dmpc::core::scenes {
 namespace {
 
 /// Sample (row, column) of the surface. It is evaluated on a lattice divided by `width` but placed on one divided by `width - 1`,
-/// so the hat sits slightly off centre, as in the SPD.
+/// so the hat is slightly off centre, as in the SPD.
 Vec3d surface_point(int row, int column, int width) {
   const double u = -4 + 8.0 * column / width, v = -4 + 8.0 * row / width;
   const double distance = std::sqrt(u * u + v * v);

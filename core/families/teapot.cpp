@@ -147,7 +147,7 @@ Corner corner_at(const TeapotPatch& patch, double s, double t) {
   return {point, normalize(cross(along_t, along_s)), false};
 }
 
-/// A triangle with two corners at a cusp has no area and is left out.
+/// Omits a triangle with two corners at a cusp, which has no area.
 void add_triangle(const Corner& a, const Corner& b, const Corner& c, SceneSink& sink) {
   if (int{a.is_cusp} + int{b.is_cusp} + int{c.is_cusp} < 2) {
     sink.patch({a.point, b.point, c.point}, {a.normal, b.normal, c.normal});

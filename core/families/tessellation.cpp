@@ -7,7 +7,7 @@
 
 namespace dmpc::core::scenes {
 
-/// A cube's face bulged to the sphere: (N + 1)^2 unit vectors.
+/// A cube's face projected to the sphere: (N + 1)^2 unit vectors.
 struct TessellatingSink::Face {
   std::size_t side = 0;
   std::vector<Vec3d> points;
@@ -38,7 +38,7 @@ void turn_quarter(std::vector<Vec3d>& points, std::size_t p, std::size_t q) {
   }
 }
 
-/// A unit vector across the axis.
+/// A unit vector perpendicular to the axis.
 Vec3d first_radial(const Vec3d& axis) {
   const Vec3d across = cross(axis, {0, 0, 1});
   return normalize(length(across) < 1e-7 ? cross(axis, {1, 0, 0}) : across);

@@ -1,4 +1,4 @@
-// A step between a generator and its reader that turns spheres, cones and cylinders into smooth-shaded triangles, as the SPD
+// A filter between a generator and its sink that converts spheres, cones and cylinders to smooth-shaded triangles, as the SPD
 // does.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace dmpc::core::scenes {
 
-/// Replaces each curved primitive in place by patches of 3 vertices with unit normals and passes everything else on: 12 N^2 for a
-/// sphere (each face of a cube divided N by N), 8 N for a cone or cylinder (4 N sides, no caps).
+/// Replaces each curved primitive by patches of 3 vertices with unit normals and passes everything else on: 12 N^2 for a sphere
+/// (each face of a cube divided N by N), 8 N for a cone or cylinder (4 N sides, no caps).
 class TessellatingSink final : public SceneSink {
  public:
   /// Requires tessellation >= 1. `target` must outlive the sink.
@@ -32,8 +32,8 @@ class TessellatingSink final : public SceneSink {
   void add_sphere_triangle(const Vec3d& center, double radius, const Vec3d* corner);
 
   SceneSink& target_;
-  std::vector<Vec3d> directions_;  ///< on a unit sphere, three for each triangle, in the order they are sent
-  std::vector<Turn> turns_;        ///< around a cone's side, 4 N + 1 from 0 to a whole turn
+  std::vector<Vec3d> directions_;  ///< on a unit sphere, three for each triangle, in sending order
+  std::vector<Turn> turns_;        ///< around a cone's side: 4 N + 1 from 0 to a full turn
 };
 
 }  // namespace dmpc::core::scenes

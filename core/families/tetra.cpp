@@ -6,7 +6,7 @@
 namespace dmpc::core::scenes {
 namespace {
 
-/// The corners of a cube that make a regular tetrahedron: those whose signs multiply to +1.
+/// The corners of a cube that form a regular tetrahedron: those whose signs multiply to +1.
 constexpr std::array<Vec3d, 4> corners = {Vec3d{-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1}};
 
 void add_tetrahedron(int depth, const Vec3d& center, double reach, SceneSink& sink) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double taper = 0.67, trunk_radius = 0.15;
 
-/// A child's frame in its parent's: at the parent's end, shorter, turned and leaning.
+/// A child's frame in its parent's: at the parent's end, shorter, rotated and tilted.
 Frame child_frame(double scale, double turn, double lean) {
   return compose(translation({0, 0, 1}),
                  compose(scaling(scale), compose(rotation_z(turn_degrees(turn)), rotation_x(turn_degrees(lean)))));

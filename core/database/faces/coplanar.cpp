@@ -20,19 +20,19 @@ namespace {
 
 using Ids = std::vector<std::uint32_t>;
 
-/// Sets of faces whose planes are apart are taken apart so often; what is left then keeps its own distances.
+/// The number of times that sets of faces in separate planes are split further; the rest keep their own distances.
 constexpr int rounds_max = 16;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Pairs of triangles that cover each other, or lead from one to the other of such.
+/// Pairs of triangles that cover each other, or that connect such triangles.
 struct CoveringPairs {
-  Pairs coplanar;  ///< in one plane, by what records say of them
-  Pairs close;     ///< these, and what is near
-  Pairs reached;   ///< and what layers of those may reach
-  Ids unseen;      ///< nobody looked for what covers these
+  Pairs coplanar;  ///< in one plane according to their records
+  Pairs close;     ///< those, and faces that are near
+  Pairs reached;   ///< and faces that layers of those may reach
+  Ids unseen;      ///< faces whose covering faces nobody looked for
 
-  /// What lies in one plane, as records have it, or in two next to each other.
+  /// Faces that lie in one plane according to their records, or in two adjacent ones.
   void look_at_planes(std::span<const Face> faces, const BucketSize& size) {
     const PlaneBuckets buckets = fill_plane_buckets(faces, size);
     if (buckets.buckets.empty()) {
@@ -45,7 +45,7 @@ struct CoveringPairs {
     coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
     add_close(finder);
   }
-  /// What leans on something else: low faces alone are looked at for that, which most of a scene has none of.
+  /// Faces that lean on other faces: only low faces are tested for that, and most of a scene has none.
   void look_at_meeting(std::span<const Face> faces) {
     if (std::none_of(faces.begin(), faces.end(), [](const Face& face) { return face.altitude < low_altitude; })) {
       return;
@@ -61,21 +61,21 @@ struct CoveringPairs {
   }
 };
 
-/// Where doubles know of triangles.
+/// The exact corners of triangles, in double.
 struct Exactly {
   const Conversion& conversion;
   const Scene& scene;
   const GridFrame& frame;
 };
 
-/// A part of a curved surface, from which it is off by far more than rounding moves it.
+/// Whether the face is part of a curved surface, which it deviates from by far more than rounding moves it.
 bool is_smooth(const Conversion& conversion, const Face& face) {
   const auto found = std::lower_bound(conversion.smooth.begin(), conversion.smooth.end(), face.id,
                                       [](const Conversion::Smooth& one, std::uint32_t id) { return one.primitive < id; });
   return found != conversion.smooth.end() && found->primitive == face.id;
 }
 
-/// The faces of those primitives that are triangles.
+/// The faces of those of the primitives that are triangles.
 std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::uint32_t> ids) {
   std::vector<Face> faces;
   faces.reserve(ids.size());
@@ -87,7 +87,7 @@ std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::ui
   return faces;
 }
 
-/// The pairs of a macro cell, without copies of a mesh, which has been judged by itself.
+/// The pairs of a macro cell, except copies of a mesh, which is judged separately.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
   const Conversion& conversion = exactly.conversion;
   Ids apart;
@@ -110,7 +110,7 @@ CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32
   return pairs;
 }
 
-/// Sets of ids, of two or more each.
+/// Sets of two or more ids.
 class FaceSets {
  public:
   explicit FaceSets(std::size_t primitive_count) : sets_(primitive_count) {}
@@ -155,8 +155,8 @@ class FaceSets {
 /// Triangles that cover each other.
 struct CoveringSets {
   FaceSets coplanar, close;
-  Pairs reached;  ///< what they lead to
-  Ids unseen;     ///< ascending, once each
+  Pairs reached;  ///< faces that they lead to
+  Ids unseen;     ///< ascending, without duplicates
 };
 
 CoveringSets covering_sets(const Exactly& exactly, const MacroCells& cells, const Parallel& parallel) {
@@ -176,7 +176,7 @@ CoveringSets covering_sets(const Exactly& exactly, const MacroCells& cells, cons
   return sets;
 }
 
-/// Sets of triangles as doubles have them, each polygon of which is divided once.
+/// Sets of triangles with their exact corners; each polygon is triangulated once.
 class ExactSets {
  public:
   ExactSets(const Exactly& exactly, std::vector<Ids> sets) : sets_(std::move(sets)) {
@@ -203,7 +203,7 @@ class ExactSets {
   std::vector<Face> faces_;
 };
 
-/// One of each polygon of ascending ids, whose triangles come one behind the other.
+/// One triangle of each polygon, for ascending ids; the triangles of a polygon have consecutive ids.
 Ids one_of_each_polygon(const Conversion& conversion, const Ids& set) {
   Ids ids;
   std::unique_copy(set.begin(), set.end(), std::back_inserter(ids), [&](std::uint32_t a, std::uint32_t b) {
@@ -229,7 +229,7 @@ void add_polygons(const Conversion& conversion, const Ids& ids, FaceSets& sets) 
   }
 }
 
-/// The plane nearest to all corners, in the direction of `axis`, by least squares.
+/// The least-squares plane of all corners, in the direction of `axis`.
 FacePlane fitted_plane(const std::vector<Face>& faces, std::size_t axis) {
   const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
   Vec3d middle;
@@ -256,7 +256,7 @@ FacePlane fitted_plane(const std::vector<Face>& faces, std::size_t axis) {
   return {normal, dot(normal, middle)};
 }
 
-/// The highest: the one whose plane rounding turns least.
+/// The face with the greatest height: rounding turns its plane least.
 const Face& largest_of(const std::vector<Face>& faces) {
   std::size_t largest = 0;
   for (std::size_t i = 1; i < faces.size(); ++i) {
@@ -265,17 +265,18 @@ const Face& largest_of(const std::vector<Face>& faces) {
   return faces[largest];
 }
 
-/// Finds the planes of sets, and who lies in which.
+/// Finds the planes of sets, and which faces lie in which plane.
 class Planes {
  public:
   explicit Planes(Conversion& conversion) : conversion_(conversion) {}
 
-  /// How many sets have a coordinate in common, by which their plane is known, and how many share another one.
+  /// The number of sets whose corners have a coordinate in common, which identifies their plane, and of sets that share another
+  /// plane.
   std::uint32_t level_count() const { return level_count_; }
   std::uint32_t count() const { return count_; }
 
-  /// Gives a set its plane: that of its largest triangle if all lie in it, which keeps planes along the axes exact, else the one
-  /// nearest to all. Those that lie in neither get planes of their own.
+  /// Gives a set its plane: that of its largest triangle if all lie in it, which keeps axis-aligned planes exact, else the plane
+  /// nearest to all. Triangles that lie in neither get planes of their own.
   void share(const Ids& set) {
     if (set.size() > 1 && is_level(set)) {
       ++level_count_;
@@ -313,7 +314,7 @@ class Planes {
     return false;
   }
 
-  /// Returns those that do not lie in the plane.
+  /// Returns the faces that do not lie in the plane.
   Ids lie_in(const Ids& ids, const std::vector<Face>& faces, const FacePlane& plane) {
     Ids members, others;
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -333,13 +334,13 @@ class Planes {
   std::uint32_t level_count_ = 0, count_ = 0;
 };
 
-/// By who shows where triangles cover each other.
+/// The order by which triangles that cover each other are visible.
 void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const Material> materials) {
   const auto rank = [&](std::uint32_t id) { return materials[conversion.shading[id].material()].rank_in_plane(); };
   std::stable_sort(set.begin(), set.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
-/// Adds the emitters that are fully visible in a set of one plane, in order of precedence, if the set is small.
+/// Adds the emitters that are fully visible in a small set of one plane, which is sorted by precedence.
 void add_whole_lamps(const Ids& set, std::span<const Material> materials, Conversion& conversion) {
   constexpr std::size_t lamps_max = 1024;
   const auto lamps_end = std::find_if(
@@ -357,7 +358,7 @@ void add_whole_lamps(const Ids& set, std::span<const Material> materials, Conver
   }
 }
 
-/// Takes out of a set, which comes by precedence, what has the corners of one before it.
+/// Removes from a set, sorted by precedence, the faces with the same corners as an earlier one.
 void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
   std::vector<std::pair<SortedCorners, std::size_t>> sorted;
   for (std::size_t place = 0; place < set.size(); ++place) {
@@ -375,7 +376,7 @@ void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
   set = std::move(kept);
 }
 
-/// Gives the faces of a conversion that cover each other their planes and their places.
+/// Assigns planes and order to the faces of a conversion that cover each other.
 class Settler {
  public:
   Settler(Conversion& conversion, std::span<const Material> materials)
@@ -383,7 +384,7 @@ class Settler {
     std::iota(from_.begin(), from_.end(), 0U);
   }
 
-  /// Assigns a plane to a set that lies in one plane, for doubles as for floats.
+  /// Assigns a plane to a set that lies in one plane both in double and in float.
   void share(Ids set) {
     settle(set);
     add_whole_lamps(set, materials_, conversion_);
@@ -408,12 +409,12 @@ class Settler {
   }
 
  private:
-  /// By several objects.
+  /// Whether several objects have faces in the layer.
   bool is_shared(const Ids& layer) const {
     const auto object_of = [&](std::uint32_t id) { return conversion_.sources[id].object; };
     return std::any_of(layer.begin(), layer.end(), [&](std::uint32_t id) { return object_of(id) != object_of(layer[0]); });
   }
-  /// Brings faces of one plane into the order by which they show, and takes out which are there twice.
+  /// Sorts the faces of one plane by precedence, and removes duplicates.
   void settle(Ids& set) {
     const Ids places = set;
     sort_by_precedence(set, conversion_, materials_);
@@ -430,8 +431,7 @@ class Settler {
   std::uint32_t stacked_shared_ = 0;
 };
 
-/// For certain, and without dividing polygons: the corners of all polygons of a set have a coordinate in common, as doubles have
-/// it.
+/// Whether the corners of all polygons of a set certainly have a coordinate in common in double; needs no triangulation.
 bool is_level(const Exactly& exactly, const Ids& whole) {
   const Ids set = one_of_each_polygon(exactly.conversion, whole);
   const auto corners_of = [&](std::uint32_t id) {
@@ -451,7 +451,7 @@ bool is_level(const Exactly& exactly, const Ids& whole) {
   return false;
 }
 
-/// The first of each set that doubles take apart; what they cannot goes to `merged`.
+/// The first triangle of each set that doubles separate; the inseparable ones go to `merged`.
 Ids sets_apart(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
   std::vector<Ids> doubtful = close.sets();
   std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
@@ -467,7 +467,8 @@ Ids sets_apart(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>&
   return apart;
 }
 
-/// Joins to the sets of `apart`, whose polygons are there, what their layers reach, and what the layers of those do.
+/// Joins to the sets of `apart`, whose polygons are present, the faces that their layers reach, and those that the layers of
+/// these reach.
 void add_reached(const Conversion& conversion, const Ids& apart, const Pairs& reached, FaceSets& close) {
   FaceSets wide = close;
   wide.add_all(reached);
@@ -483,7 +484,7 @@ void add_reached(const Conversion& conversion, const Ids& apart, const Pairs& re
   }
 }
 
-/// The sets that have one of `some`.
+/// The sets that contain one of `some`.
 std::vector<Ids> sets_of(FaceSets& faces, const Ids& some) {
   std::vector<bool> is_wanted(some.empty() ? 0 : *std::max_element(some.begin(), some.end()) + 1);
   for (const std::uint32_t id : some) {
@@ -494,8 +495,8 @@ std::vector<Ids> sets_of(FaceSets& faces, const Ids& some) {
   return sets;
 }
 
-/// The sets that doubles take apart, with what their layers reach and the other triangles of their polygons; what doubles cannot
-/// take apart goes to `merged`.
+/// The sets that doubles separate, with the faces that their layers reach and the other triangles of their polygons; the
+/// inseparable ones go to `merged`.
 std::vector<Ids> sets_to_stack(const Exactly& exactly, CoveringSets& found, std::vector<CloseFaces>& merged) {
   const Ids apart = sets_apart(exactly, found.close, merged);
   if (apart.empty()) {

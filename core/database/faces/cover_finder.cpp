@@ -10,22 +10,22 @@
 namespace dmpc::core {
 namespace {
 
-/// Pairs that are looked at, for each face and however few there are: a fan of 700 triangles about one corner is within it.
+/// The number of pairs tested for each face, and the minimum for few faces; a fan of 700 triangles about one corner is within it.
 constexpr std::size_t pairs_per_face = 256;
 constexpr std::size_t pairs_least = 0x40000;
-/// So few are all in one square.
+/// Up to this number of faces a single square is used.
 constexpr std::size_t one_square_max = 16;
-/// Squares that a face is in, on average, at most.
+/// The maximum average number of squares that a face is in.
 constexpr std::size_t squares_per_face = 8;
 constexpr std::size_t raster_side_max = 4096;
-/// From so many on a square's faces are looked through for those that are there many times over.
+/// From this number of faces in a square on, duplicates are searched for.
 constexpr std::size_t crowd_least = 64;
-/// The object of a face that stands for equal ones of several.
+/// The object id of a face that stands for equal faces of several objects.
 constexpr std::uint32_t several_objects = 0xffffffff;
-/// Planes of one bucket, where pairs are too many to be looked at.
+/// The maximum number of planes in a bucket with too many pairs to test.
 constexpr std::size_t planes_max = 64;
 
-/// Any order in which equal corners come together.
+/// Any order in which equal corners are adjacent.
 bool is_before(const std::array<Vec3d, 3>& a, const std::array<Vec3d, 3>& b) {
   const auto values = [](const std::array<Vec3d, 3>& corner) {
     return std::array{corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y,
@@ -50,7 +50,7 @@ void MergedSets::merge(std::uint32_t a, std::uint32_t b) {
   parents_[std::max(first, second)] = std::min(first, second);
 }
 
-/// Squares over all that is seen.
+/// A grid of squares over the extent of all faces.
 class CoverFinder::Raster {
  public:
   Raster(std::span<const Seen> seen, std::size_t squares) : side_(squares) {
@@ -108,7 +108,7 @@ void CoverFinder::see(std::span<const std::uint32_t> some, std::size_t axis) {
   }
 }
 
-/// Lists the faces of each square, of squares as small as lists of bounded length allow.
+/// Lists the faces of each square. The squares are as small as the maximum length of the lists allows.
 void CoverFinder::list_squares() {
   const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(seen_.size())));
   std::size_t side = seen_.size() <= one_square_max ? 1 : std::min(root, raster_side_max);
@@ -118,7 +118,7 @@ void CoverFinder::list_squares() {
   sort_by_square(side * side);
 }
 
-/// By counting, which leaves the entries of a square in order.
+/// A counting sort, which keeps the order of entries within a square.
 void CoverFinder::sort_by_square(std::size_t square_count) {
   if (square_count == 1) {
     return;
@@ -135,7 +135,7 @@ void CoverFinder::sort_by_square(std::size_t square_count) {
   std::swap(entries_, sorted_);
 }
 
-/// False if the lists are too long; one square's never is.
+/// False if the lists are too long; they never are with a single square.
 bool CoverFinder::list_squares(const Raster& raster) {
   const std::size_t most = squares_per_face * seen_.size();
   entries_.clear();
@@ -171,13 +171,13 @@ bool CoverFinder::look_at_pairs(std::size_t axis) {
   return true;
 }
 
-/// Keeps one of several faces with the same corners, which meet the same others, for those that it covers.
+/// Keeps one of several faces with the same corners, which meet the same other faces, and pairs it with its duplicates.
 std::span<const CoverFinder::Entry> CoverFinder::without_twins(std::size_t axis, std::span<const Entry> square) {
   const auto corner_of = [&](const Entry& entry) -> const auto& { return faces_[seen_[entry.place].face].corner; };
   distinct_.assign(square.begin(), square.end());
   std::stable_sort(distinct_.begin(), distinct_.end(),
                    [&](const Entry& a, const Entry& b) { return is_before(corner_of(a), corner_of(b)); });
-  std::size_t kept = 0, first = 0;  // how many are left, and the first of those that are alike
+  std::size_t kept = 0, first = 0;  // number kept, and the first of the equal ones
   for (std::size_t i = 0; i < distinct_.size(); ++i) {
     const Entry entry = distinct_[i];
     const bool is_twin = kept > 0 && corner_of(distinct_[first]) == corner_of(entry);
@@ -240,7 +240,7 @@ bool CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
   return share_plane;
 }
 
-/// Takes the largest, all that lie in its plane or near to it, the largest of the others, and so on.
+/// Takes the largest face and all in or near its plane, then the largest of the others, and so on.
 void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
   std::vector<std::uint32_t> rest(some.begin(), some.end());
   for (std::size_t planes = 0; planes < planes_max && rest.size() > 1; ++planes) {
@@ -257,7 +257,7 @@ void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
   std::for_each(rest.begin(), rest.end(), [&](std::uint32_t face) { unseen_.push_back(faces_[face].id); });
 }
 
-/// By doubles what is coplanar is merely close.
+/// Faces that are coplanar in their records are only close in double.
 void CoverFinder::merge(std::uint32_t a, std::uint32_t b, bool are_coplanar) {
   merge_in(close_, a, b);
   if (are_coplanar && !faces_[a].is_by_doubles && !faces_[b].is_by_doubles) {

@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<Vec3d, 3>;
 
-/// Whether these corners are, once they are rounded, those of the triangle.
+/// Whether these corners, once rounded, are those of the triangle.
 bool become(const Corners& corners, const PrimitiveValues& triangle) {
   for (std::size_t row = 0; row < 9; ++row) {
     if (coordinate_of(corners[row / 3][row % 3]) != triangle.value[row]) {
@@ -24,7 +24,7 @@ bool become(const Corners& corners, const PrimitiveValues& triangle) {
   return true;
 }
 
-/// Finds the corners of one polygon's triangles after the other.
+/// Finds the corners of a polygon's triangles, one after the other.
 class CornerFinder {
  public:
   CornerFinder(const Scene& scene, const GridFrame& frame) : scene_(scene), frame_(frame) {}

@@ -30,7 +30,7 @@ bool edge_separates(const std::array<Flat, 3>& a, const std::array<Flat, 3>& b) 
   return false;
 }
 
-/// How high a corner of a triangle is above the plane of another one, and how far rounding may have moved it there.
+/// The height of a triangle's corner above another triangle's plane, and the maximum displacement by rounding.
 struct Height {
   double height, moved;
 };
@@ -39,7 +39,7 @@ std::array<Height, 3> heights_above(const Face& base, const Face& face) {
   const Vec3d middle = base.middle();
   std::array<Height, 3> heights{};
   for (std::size_t i = 0; i < 3; ++i) {
-    // The plane itself is turned by what rounding does to its corners.
+    // Rounding of its corners turns the plane itself.
     const double turned = 2 * length(face.corner[i] - middle) / base.altitude;
     heights[i] = {base.plane.height_of(face.corner[i]), face.moved + base.moved * (1 + turned)};
   }

@@ -13,7 +13,7 @@ namespace {
 /// Limits for one stack.
 constexpr std::size_t looks_max = std::size_t{1} << 26U, pairs_max = std::size_t{1} << 22U;
 
-/// Lower triangles have no plane that doubles could tell; they keep that of their floats.
+/// Triangles with less altitude have no plane that doubles could determine; they keep that of their floats.
 constexpr double altitude_least = 0x1p-40;
 
 using Places = std::vector<std::uint32_t>;  ///< indices of faces
@@ -31,7 +31,7 @@ Places flat_ones(std::span<const Face> faces) {
   return places;
 }
 
-/// The first of the largest.
+/// The first of the largest faces.
 std::uint32_t place_of_largest(std::span<const Face> faces, const Places& places) {
   return *std::max_element(places.begin(), places.end(),
                            [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); });
@@ -39,7 +39,7 @@ std::uint32_t place_of_largest(std::span<const Face> faces, const Places& places
 
 const Face& largest_of(std::span<const Face> faces, const Places& places) { return faces[place_of_largest(faces, places)]; }
 
-/// The largest face, all that lie in its plane, the largest of the others, and so on.
+/// Takes the largest face and all that lie in its plane, then the largest of the others, and so on.
 std::vector<Places> by_plane(std::span<const Face> faces, StackBudget& budget) {
   std::vector<Places> planes;
   Places rest = flat_ones(faces);
@@ -63,22 +63,22 @@ FacePlane facing(const FacePlane& plane, const Vec3d& up) {
   return dot(plane.normal, up) < 0.0 ? FacePlane{-plane.normal, -plane.offset} : plane;
 }
 
-/// Between which heights a face lies above a plane.
+/// The least and the greatest height of a face above a plane.
 std::pair<double, double> heights_above(const FacePlane& plane, const Face& face) {
   const auto height = [&](std::size_t corner) { return plane.height_of(face.corner[corner]); };
   return std::minmax({height(0), height(1), height(2)});
 }
 
-/// How a face lies above another one that it covers.
+/// The height of a face above another one that it covers.
 struct Rise {
   double least, most;  ///< negative: below
-  double moved;        ///< what rounding does to either
+  double moved;        ///< displacement of either by rounding
 
   bool is_above() const { return least >= -moved; }
   bool is_below() const { return most <= moved; }
 };
 
-/// By the corners of the smaller one, or, where those lie on both sides, by the other's.
+/// Measured at the corners of the smaller face or, if those lie on both sides, at the other's.
 Rise rise_of(const Face& above, const Face& below, const Vec3d& up) {
   const auto [least, most] = heights_above(facing(below.plane, up), above);
   const auto [low, high] = heights_above(facing(above.plane, up), below);
@@ -89,7 +89,7 @@ Rise rise_of(const Face& above, const Face& below, const Vec3d& up) {
   return first.is_above() || first.is_below() || !(second.is_above() || second.is_below()) ? first : second;
 }
 
-/// Whether they may be next to each other, one over the other: what leans more is cut through, in a line.
+/// Whether the faces may be adjacent layers; faces at a larger angle intersect in a line.
 bool lie_on_each_other(const Face& a, const Face& b) {
   const Rise rise = rise_of(a, b, b.plane.normal);
   return std::fabs(dot(a.plane.normal, b.plane.normal)) > 0.5 && rise.least <= layers_reach && rise.most >= -layers_reach;
@@ -100,7 +100,7 @@ CloseFaces close_to(const Face& small, double least, double most, std::uint32_t 
           layers};
 }
 
-/// What is no farther from a face in an exact plane may be passed by rays that start on it (core/picture/hits/triangle_hit.h).
+/// Rays that start on a face in an exact plane may miss faces up to this distance (core/picture/hits/triangle_hit.h).
 double passed_by_starts(const Face& face) {
   double largest = 0;
   for (const Vec3d& corner : face.corner) {
@@ -109,7 +109,7 @@ double passed_by_starts(const Face& face) {
   return (exact_clearance + start_rounding) * largest + coordinate_step;
 }
 
-/// Finds which planes are above which. Each faces as those do that it is next to, so a set may go round a barrel.
+/// Finds which planes are above which. Each plane is turned like its neighbours, so a set may go round a barrel.
 class Layers {
  public:
   Layers(std::span<const Face> faces, const std::vector<Places>& planes) : faces_(faces), planes_(planes), layer_(planes.size()) {
@@ -136,7 +136,7 @@ class Layers {
             static_cast<std::uint8_t>(LeafHeader::exact_plane + layer_[plane])};
   }
 
-  /// For each face the first one that it is swapped with, and the extent of it that rays pass that start there; all faces of
+  /// For each face, the first one that it is swapped with, and the share of it that rays miss that start there; all faces of
   /// planes that were not tested.
   std::vector<CloseFaces> blurred() const {
     std::vector<Blurred> swapped, passed;
@@ -169,13 +169,13 @@ class Layers {
   /// Two faces that cover each other, and their planes.
   struct Pair {
     std::uint32_t lower, upper;            ///< planes, in any order
-    std::uint32_t lower_face, upper_face;  ///< one of each
+    std::uint32_t lower_face, upper_face;  ///< one face of each
     float least = 0, most = 0;             ///< how far apart
-    bool is_ordered = false;               ///< whether one is before the other everywhere
+    bool is_ordered = false;               ///< whether one is in front of the other everywhere
   };
   struct Blurred {
     std::uint32_t face;
-    double order;  ///< among those of the face
+    double order;  ///< order within the face's pairs
     CloseFaces faces;
   };
   static void add_first_of_each(std::vector<Blurred> blurred, std::vector<CloseFaces>& result) {
@@ -188,12 +188,12 @@ class Layers {
     }
   }
 
-  /// The smaller one.
+  /// The smaller of the two faces.
   std::uint32_t small_face(const Pair& pair) const {
     return is_smaller(faces_[pair.upper_face], faces_[pair.lower_face]) ? pair.upper_face : pair.lower_face;
   }
 
-  /// How much of a face rays that start on it, or on the other one, pass that one on.
+  /// The share of a face on which rays that start on it, or on the other face, miss the other one.
   static double passed_share(const Face& small, const Pair& pair) {
     const double least{pair.least}, most{pair.most}, passed = passed_by_starts(small);
     return passed >= most ? 1.0 : passed > least ? (passed - least) / (most - least) : 0.0;
@@ -233,7 +233,7 @@ class Layers {
     return true;
   }
 
-  /// From the first plane to those that cover it, and on from them; whatever these do not lead to faces as the first does.
+  /// Turns planes from the first one on to those that cover it, and so on; planes that are not connected to it face as it does.
   void turn_to_one_side() {
     std::vector<Places> beside(planes_.size());
     for (const Pair& pair : pairs_) {
@@ -258,7 +258,7 @@ class Layers {
     }
   }
 
-  /// Where a set goes round a strip with a twist two planes face each other whatever way they are turned.
+  /// In a set that goes round a twisted strip, two planes face each other however they are turned.
   void judge(Pair& pair, std::vector<Step>& steps) const {
     const Face &upper = faces_[pair.upper_face], &lower = faces_[pair.lower_face];
     const Rise rise = rise_of(upper, lower, up_[pair.lower]);
@@ -280,9 +280,9 @@ class Layers {
   std::vector<std::uint32_t> unordered_;  ///< planes
 };
 
-/// Level faces that the file has at different heights lie in two planes; others do where that is more than it, and we, have
-/// rounded off: this share of what a program may have that turned things again and again. Of 15,700 pairs that it had turned
-/// twice, and moved, none came to more than a tenth.
+/// Level faces at different heights in the file lie in two planes. Others do if their distance is more than the rounding by the
+/// program that wrote the file and by dmpc: this share of what a program may round that transforms objects repeatedly. Of 15,700
+/// pairs that were rotated twice and translated, none came to more than a tenth.
 constexpr double merged_share = 0.125;
 
 bool are_two_planes(const Face& face, const Face& base) {
@@ -292,7 +292,7 @@ bool are_two_planes(const Face& face, const Face& base) {
              : face.is_by_doubles && base.is_by_doubles && roundings_apart(face, base) > merged_share;
 }
 
-/// Faces that the file has in two planes, though nearer to each other than a ray could tell.
+/// Adds faces that lie in two planes in the file, though nearer to each other than a ray can resolve.
 void add_merged(std::span<const Face> faces, const Places& plane, const Face& base, std::vector<CloseFaces>& blurred) {
   for (const std::uint32_t place : plane) {
     if (are_two_planes(faces[place], base)) {

@@ -12,16 +12,16 @@
 namespace dmpc::core {
 namespace {
 
-/// Boxes that are held against another one, for each face.
+/// Box tests for each face.
 constexpr std::size_t looks_per_face = 4096;
 
-/// Planes that lean towards each other by no more than a quarter. Others cut each other in a line that rounding moves by no more
-/// than four times what it moves a corner by, which is said of primitives (core/picture/film/rounding_loss.h).
+/// The minimum cosine between planes that lean towards each other. Steeper planes intersect in a line that rounding moves by at
+/// most four times as much as a corner, which primitives account for (core/picture/film/rounding_loss.h).
 constexpr double leaning_cosine = 0.97;
 
 bool is_low(const Face& face) { return face.altitude < low_altitude; }
 
-/// Boxes of faces, sorted by their begin along an axis; as arrays, so that many are tested with one at once.
+/// The boxes of faces, sorted by their begin along an axis, as arrays, so that many are tested against one at once.
 class Boxes {
  public:
   Boxes(std::span<const Face> all, std::vector<std::uint32_t> some, std::size_t axis)
@@ -44,18 +44,19 @@ class Boxes {
 
   std::size_t size() const { return faces_.size(); }
   std::uint32_t face(std::size_t place) const { return faces_[place]; }
-  /// The first that begins where number `place` of others does, or after it.
+  /// The first box that begins at or after box `place` of `others`.
   std::size_t first_from(const Boxes& others, std::size_t place) const {
     const std::vector<float>& begins = low_[axis_];
     return static_cast<std::size_t>(std::lower_bound(begins.begin(), begins.end(), others.low_[axis_][place]) - begins.begin());
   }
-  /// The first that begins after number `place` of others has ended.
+  /// The first box that begins after box `place` of `others` has ended.
   std::size_t end_of(const Boxes& others, std::size_t place) const {
     const std::vector<float>& begins = low_[axis_];
     return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), others.high_[axis_][place]) - begins.begin());
   }
 
-  /// Hands those of [first, end), which meet number `place` of others along the axis, to `met` that meet it along the two others.
+  /// Of the boxes [first, end), which overlap box `place` of `others` along the axis, passes to `met` those that overlap it along
+  /// the other two axes as well.
   template <class Met>
   void for_each_that_meets(const Boxes& others, std::size_t place, std::size_t first, std::size_t end, const Met& met) const {
     constexpr std::size_t at_once = 64;
@@ -81,7 +82,7 @@ class Boxes {
   }
 
  private:
-  /// Larger than what near faces are apart, and than floats round off.
+  /// The face's box, padded by more than the distance of near faces and the rounding of floats.
   static Box box_of(const Face& face) {
     Box box;
     for (const Vec3d& corner : face.corner) {
@@ -136,7 +137,7 @@ class Meetings {
         others_(faces, std::move(others), axis),
         left_(looks_per_face * faces.size()) {}
 
-  /// From one of `from` at those of `at` that begin before it ends. False if there are too many.
+  /// Tests a face of `from` against those of `at` that begin before it ends. False if there are too many.
   bool look(const Boxes& from, std::size_t place, const Boxes& at, std::size_t first) {
     const std::size_t end = std::max(at.end_of(from, place), first);
     if (end - first > left_) {

@@ -12,16 +12,16 @@
 namespace dmpc::core {
 namespace {
 
-/// A bucket that some faces are in.
+/// A bucket that contains at least one face.
 struct Bucket {
   static constexpr std::uint32_t several = 0xffffffffU;
 
-  std::uint64_t key;     ///< its place; the lowest bits: the axis
-  std::uint32_t object;  ///< the object of its faces, if only one
+  std::uint64_t key;     ///< its position; the lowest bits are the axis
+  std::uint32_t object;  ///< the object of its faces if they have only one
   std::uint32_t count;   ///< number of its faces
 };
 
-/// That a face is in a bucket.
+/// The membership of a face in a bucket.
 struct Filing {
   std::uint32_t bucket, face;
 };
@@ -43,7 +43,7 @@ std::uint64_t key_of(std::size_t axis, std::int32_t slope, std::int32_t other_sl
   return ((bits(slope) << dimension_bits | bits(other_slope)) << dimension_bits | bits(height)) << 2U | axis;
 }
 
-/// Finds the buckets of faces, by a table of those that there are.
+/// Finds the buckets of faces with a hash table of the buckets in use.
 class BucketFiller {
  public:
   explicit BucketFiller(std::span<const Face> faces) : faces_(faces), slots_(std::bit_ceil(2 * faces.size() + 1), vacant) {
@@ -66,7 +66,7 @@ class BucketFiller {
     }
   }
 
-  /// Hands the faces of each bucket of several objects on, in an order that depends on the buckets' places alone.
+  /// Passes on the faces of each bucket with several objects, in an order that depends only on the buckets' positions.
   template <class Take>
   void take_shared(const Take& take) const {
     const std::vector<std::uint32_t> shared = shared_buckets();
@@ -121,7 +121,7 @@ class BucketFiller {
     }
   }
 
-  /// Where the bucket's number is, or is to be.
+  /// The table's slot that holds the bucket's number, or will hold it.
   std::uint32_t& slot_of(std::uint64_t key) {
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = (key * 0x9e3779b97f4a7c15U >> 32U) & mask;
@@ -156,7 +156,7 @@ class BucketFiller {
     return buckets;
   }
 
-  /// In which order they come.
+  /// The key by which buckets are ordered.
   static std::uint64_t mixed_key(std::uint64_t key) {
     const auto place = [&](std::uint32_t dimension) {
       constexpr std::uint64_t all = (std::uint64_t{1} << dimension_bits) - 1;
@@ -167,18 +167,18 @@ class BucketFiller {
   }
 
   std::span<const Face> faces_;
-  std::vector<std::uint32_t> slots_;  ///< numbers of buckets, as a table of open addresses
+  std::vector<std::uint32_t> slots_;  ///< bucket numbers, as an open-addressing hash table
   std::vector<Bucket> buckets_;
   std::vector<Filing> filings_;
 };
 
-/// Tells which buckets have the faces of one before them: planes at a bucket's border, and those that lean alike along two axes,
-/// are in several. What covers what can be seen along any of these.
+/// Detects buckets with the same faces as an earlier one: planes at a bucket's border, and planes that lean equally along two
+/// axes, are in several buckets. Coverage is the same along each of these axes.
 class SameFaces {
  public:
   explicit SameFaces(const PlaneBuckets& all) : all_(all) {}
 
-  /// Whether some bucket has these; else the one that is added next does.
+  /// Whether an earlier bucket has these faces; if not, the one added next does.
   bool are_known(std::span<const std::uint32_t> faces) {
     std::uint64_t hash = 0;
     for (const std::uint32_t face : faces) {

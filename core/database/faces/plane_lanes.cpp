@@ -17,7 +17,7 @@ template <std::size_t axis>
                     .rounded = rounded_[lane]};
     const double error = face.slope_error(size_);
     const bool is_seen = face.is_seen_along(axis, error, size_);
-    face.normal[axis] = is_seen ? face.normal[axis] : 1.0;  // any number that integers can hold what follows from
+    face.normal[axis] = is_seen ? face.normal[axis] : 1.0;  // any number with which the results fit integers
     const PlanePlace place = place_along(axis, face, is_seen ? error : 0.0, size_, around_);
     seen_[axis][lane] = is_seen ? 1 : 0;
     first_[axis][0][lane] = place.slopes.first;

@@ -22,14 +22,14 @@ struct Twin {
   auto operator<=>(const Twin&) const = default;
 };
 
-/// Finds, among triangles with the same floats, those in whose plane an earlier one lies for doubles. Takes many together, so
-/// that polygons that have twins of each other are divided once for all of them.
+/// Finds triangles with the same floats as an earlier one in whose plane they lie in double. Many are processed together, so that
+/// polygons with twins of each other are triangulated once for all of them.
 class TwinFinder {
  public:
   TwinFinder(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::vector<bool>& is_twin)
       : scene_(scene), frame_(frame), conversion_(conversion), is_twin_(is_twin) {}
 
-  /// `like`: the triangles, ascending.
+  /// `like`: triangles with the same floats, ascending.
   void add(std::span<const std::uint32_t> like) {
     for (const std::uint32_t id : like) {
       ids_.push_back(id);
@@ -39,7 +39,7 @@ class TwinFinder {
       }
     }
   }
-  /// Marks all that were added.
+  /// Marks all triangles that were added.
   void mark() {
     std::vector<std::uint32_t> sorted = ids_;
     std::sort(sorted.begin(), sorted.end());
@@ -58,7 +58,7 @@ class TwinFinder {
  private:
   static constexpr std::size_t together_max = 65536, kept_max = 64;
 
-  /// Whether one like it is; else it is from now on.
+  /// Whether an equal face is kept; if not, this one is from now on.
   bool is_kept(const Face& face) {
     const bool found = std::any_of(kept_.begin(), kept_.end(), [&](const Face& other) { return are_coplanar(face, other); });
     if (!found && kept_.size() < kept_max) {
@@ -72,8 +72,8 @@ class TwinFinder {
   const Conversion& conversion_;
   std::vector<bool>& is_twin_;
   std::vector<std::uint32_t> ids_;
-  std::vector<bool> is_first_;  ///< among equal ones
-  std::vector<Face> kept_;      ///< one for each set of equal ones
+  std::vector<bool> is_first_;  ///< among equal faces
+  std::vector<Face> kept_;      ///< one for each set of equal faces
 };
 
 }  // namespace

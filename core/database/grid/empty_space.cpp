@@ -8,7 +8,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Breadth first over 26 neighbours.
+/// A breadth-first search over 26 neighbours.
 class Measurement {
  public:
   Measurement(const std::array<std::int32_t, 3>& size, std::span<DirectoryEntry> directory)
@@ -59,7 +59,7 @@ class Measurement {
 
   std::array<std::int32_t, 3> size_;
   std::span<DirectoryEntry> directory_;
-  std::vector<Corner> reached_;  ///< cells of the last radius
+  std::vector<Corner> reached_;  ///< cells at the last radius
 };
 
 }  // namespace

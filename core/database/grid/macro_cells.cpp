@@ -11,11 +11,12 @@
 namespace dmpc::core {
 namespace {
 
-/// Macro cells that list a primitive, on average. The SPD's scenes need 1 to 1.2; four times the usual memory is for the worst.
+/// The maximum average number of macro cells that list a primitive. The SPD's scenes need 1 to 1.2; the limit bounds the worst
+/// case at four times the usual memory.
 constexpr std::size_t macro_cells_max = 3;
-/// Primitives that one thread lists at a time.
+/// The number of primitives that one thread lists at a time.
 constexpr std::size_t cells_chunk_size = 8192;
-/// So few cells are not halved.
+/// Ranges of up to this number of cells are not halved.
 constexpr std::int64_t cells_one_by_one = 16;
 
 }  // namespace
@@ -31,12 +32,12 @@ namespace {
 
 using CellPlace = std::array<std::int32_t, 3>;  ///< a macro cell's
 
-/// The first and the last macro cells that boxes touch.
+/// The first and the last macro cell that a box touches.
 struct CellRange {
   CellPlace first, last;
 };
 
-/// The cell along an axis, from `begin` to number `most`, with edges so long.
+/// The cell that contains `at` along an axis; cells begin at `begin`, have this edge, and are numbered up to `most`.
 [[gnu::always_inline]] inline std::int32_t cell_at(double at, double begin, double edge, double most) {
   const double place = (at - begin) / edge, within = place < 0.0 ? 0.0 : place;
   return static_cast<std::int32_t>(most < within ? most : within);
@@ -56,7 +57,7 @@ class MacroCells::Lister {
 
   std::size_t chunk_count() const { return ceil_divide(primitives_.size(), cells_chunk_size); }
 
-  /// Lists primitives of a chunk, from where it stopped; stops before one with which there would be more than `bound` touches.
+  /// Lists the primitives of a chunk from the last position on; stops before one that would bring more than `bound` touches.
   void list(std::size_t chunk, std::size_t bound, Listed& listed) const {
     const std::size_t end = std::min(primitives_.size(), (chunk + 1) * cells_chunk_size);
     listed.next = std::max(listed.next, chunk * cells_chunk_size);
@@ -72,7 +73,7 @@ class MacroCells::Lister {
   }
 
  private:
-  /// The cells that are touched by what is within the pad of a box.
+  /// The cells touched by the box, padded.
   CellRange range_of(const Box& box) const {
     CellRange range{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -82,7 +83,7 @@ class MacroCells::Lister {
     return range;
   }
 
-  /// Lists the primitive that comes next, unless there would be too many touches.
+  /// Lists the next primitive, unless there would be too many touches.
   void list(const PrimitiveValues& primitive, std::size_t bound, Listed& listed) const {
     const std::size_t before = listed.touches.size();
     if (primitive.kind != PrimitiveKind::instance) {
@@ -101,7 +102,7 @@ class MacroCells::Lister {
         directory_index(size_, {place[0] * finest_per_macro, place[1] * finest_per_macro, place[2] * finest_per_macro}));
   }
 
-  /// Ends as soon as there are more than `bound` touches.
+  /// Returns as soon as there are more than `bound` touches.
   void add(std::uint32_t id, const CellRange& range, std::size_t bound, std::vector<Touch>& touches) const {
     const auto& [first, last] = range;
     if (first == last) {
@@ -124,8 +125,8 @@ class MacroCells::Lister {
     }
   }
 
-  /// Where many cells are between `first` and `last`, halves that it does not touch are left out at once: a long primitive lies
-  /// in few of them.
+  /// If there are many cells between `first` and `last`, halves that it does not touch are left out at once: a long primitive
+  /// lies in few of them.
   void add_touched(std::uint32_t id, const Overlap& overlap, const CellPlace& first, const CellPlace& last, std::size_t bound,
                    std::vector<Touch>& touches) const {
     std::size_t longest = 0;
@@ -161,7 +162,7 @@ class MacroCells::Lister {
     }
   }
 
-  /// Whether it may touch one of the cells: never a false no, so a little larger than they are.
+  /// Whether the primitive may touch one of the cells; conservative, so the test uses slightly larger cells.
   bool may_touch(const Overlap& overlap, const CellPlace& first, const CellPlace& last) const {
     Vec3d middle, half;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -173,13 +174,13 @@ class MacroCells::Lister {
 
   std::span<const PrimitiveValues> primitives_;
   CellPlace size_;
-  Vec3d low_;  ///< where the grid begins
+  Vec3d low_;  ///< the grid's lower corner
   double edge_;
   double pad_;
   bool lists_boxes_;
 };
 
-/// No chunk goes on beyond four times its share of the bound before all have come so far, so that hopeless lists end early:
+/// No chunk continues beyond four times its share of the bound before all have reached that, so that hopeless lists end early:
 /// after four times the bound, whatever the number of chunks.
 std::optional<MacroCells> MacroCells::list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                            const Parallel& parallel, std::int64_t excess) {
@@ -188,7 +189,7 @@ std::optional<MacroCells> MacroCells::list(std::span<const PrimitiveValues> prim
   const auto listed = static_cast<std::int64_t>(primitives.size()) - boxes;
   const std::int64_t bound = std::int64_t{macro_cells_max} * (listed + 8) - excess;
   if (bound < listed) {
-    return std::nullopt;  // each is in some cell
+    return std::nullopt;  // each primitive is in at least one cell
   }
   return list_within(Lister(primitives, frame, pad), static_cast<std::size_t>(bound), 4 * macro_cells_max * cells_chunk_size,
                      frame, Order::morton, parallel);
@@ -222,7 +223,7 @@ bool MacroCells::is_within_one(const Box& box, const GridFrame& frame, double pa
   return Lister({}, frame, pad).is_within_one(box);
 }
 
-/// No chunk goes on beyond its share of the bound before all have come so far.
+/// No chunk continues beyond its share of the bound before all have reached theirs.
 std::optional<MacroCells> MacroCells::list_voxels(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                                   const VoxelRule& rule, const Parallel& parallel) {
   const Lister lister(primitives, frame, pad, rule.lists_boxes);
@@ -254,7 +255,7 @@ std::optional<MacroCells> MacroCells::list_within(const Lister& lister, std::siz
   return count > bound ? std::nullopt : std::optional(MacroCells(frame, chunks, order));
 }
 
-/// Sorts by counting.
+/// A counting sort.
 MacroCells::MacroCells(const GridFrame& frame, const std::vector<Listed>& chunks, Order order) {
   const auto size = macro_cells(frame);
   std::vector<std::uint32_t> counts(directory_entry_count(size));

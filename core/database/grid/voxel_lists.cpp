@@ -51,7 +51,7 @@ void VoxelLists::make_leaves(const Conversion& conversion) {
   }
 }
 
-/// As they are listed first. Every leaf is listed.
+/// In the order in which they are first listed. Every leaf is listed.
 void VoxelLists::sort_by_place() {
   std::vector<bool> is_there(leaves_.size());
   std::size_t next = 0;
@@ -64,7 +64,7 @@ void VoxelLists::sort_by_place() {
   expect(next == leaves_.size(), "every primitive touches a voxel");
 }
 
-/// What the normals of its triangles leave of a record's bytes.
+/// The bytes of a record without the normals of its triangles.
 std::size_t VoxelLists::share_of(const Leaf& leaf, const Conversion& conversion) const {
   std::size_t left = rule_.record_bytes;
   for (std::uint32_t id = leaf.first; id < leaf.first + leaf.shape.count; ++id) {

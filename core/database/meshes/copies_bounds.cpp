@@ -15,7 +15,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Places that one thread takes at a time.
+/// Instances in one thread's chunk.
 constexpr std::size_t places_a_chunk = 256;
 
 bool is_below(const Vec3d& v, double coordinate_max) {
@@ -25,8 +25,8 @@ bool is_below(const Vec3d& v, double coordinate_max) {
 /// Boxes of a mesh, in its own coordinates.
 struct MeshBoxes {
   Box all;
-  std::size_t run = 1;    ///< so many vertices, which a file has one after the other, lie in a box
-  std::vector<Box> runs;  ///< as many as a run has vertices, about
+  std::size_t run = 1;    ///< the number of consecutive vertices in a box
+  std::vector<Box> runs;  ///< about as many as a run has vertices
 
   explicit MeshBoxes(const std::vector<Vec3d>& vertices) : all(Box::around(vertices)) {
     run += static_cast<std::size_t>(std::sqrt(static_cast<double>(vertices.size())));
@@ -44,7 +44,7 @@ class CopiesBounds {
     }
   }
 
-  /// Instances that may reach farthest to each side come first, so that most of the others lie within.
+  /// Instances that may reach farthest to each side come first, so that most of the others lie within the result.
   void include_all(Box& box, const Parallel& parallel) const {
     for (const std::size_t place : farthest()) {
       include(box, kept_.places[place]);
@@ -70,7 +70,7 @@ class CopiesBounds {
   static bool holds(const Box& box, const Box& reach) { return box.holds(reach.low) && box.holds(reach.high); }
   Box reach(const BaseMeshInstance& place) const { return reach_of(own_[place.mesh].all, place.world); }
 
-  /// To each side of each axis.
+  /// The farthest instances to each side of each axis.
   std::vector<std::size_t> farthest() const {
     std::vector<std::size_t> places(6);
     Box known;
@@ -90,7 +90,7 @@ class CopiesBounds {
     return places;
   }
 
-  /// The corners of runs whose boxes reach out.
+  /// Includes the corners of the runs whose boxes extend beyond the result.
   void include(Box& box, const BaseMeshInstance& place) const {
     const std::vector<Vec3d>& vertices = kept_.meshes[place.mesh].vertices;
     const MeshBoxes& own = own_[place.mesh];

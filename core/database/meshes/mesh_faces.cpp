@@ -15,7 +15,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Records and planes of one mesh in its own grid, on the way to its own coordinates.
+/// Records and planes of one mesh in its own grid, before they are moved to the mesh's own coordinates.
 class MeshJudge {
  public:
   MeshJudge(const Scene& mesh, std::span<const Material> materials, double cells_per_primitive, const Parallel& parallel)
@@ -61,8 +61,8 @@ class MeshJudge {
   Vec3f own(const Vec3f& local) const { return Vec3f(own(Vec3d(local))); }
   float own(float size) const { return static_cast<float>(double{size} / frame_.scale); }
 
-  /// The number of a plane that a coordinate tells. Floats may make one of what doubles have at two heights, so only those that
-  /// have all of it at one are level wherever they are moved to.
+  /// The number of a plane that a coordinate identifies. Rounding to floats may merge two heights of doubles, so only faces whose
+  /// doubles all lie at one height are level wherever they are moved to.
   std::uint32_t level_plane(std::uint32_t id, std::vector<MeshPlane>& planes) {
     const auto& value = conversion_.primitives[id].value;
     std::size_t axis = 0;
@@ -88,7 +88,7 @@ class MeshJudge {
   Scene mesh_;
   GridFrame frame_;
   Conversion conversion_;
-  std::map<std::pair<std::size_t, float>, std::size_t> levels_;  ///< the numbers of level planes
+  std::map<std::pair<std::size_t, float>, std::size_t> levels_;  ///< numbers of level planes
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ bool MeshNeeds::add(const Region& region) {
   return !entry.empty() && add_below(bvh_node_at(entry.bvh_node()), region);
 }
 
-/// For the tree that has the boxes of instances.
+/// For the tree over the boxes of instances.
 bool MeshNeeds::add_below(const BvhNode& bvh_node, const Region& region) {
   bool has_any = false;
   for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
@@ -63,7 +63,7 @@ void MeshNeeds::add_whole(Address address) {
   }
 }
 
-/// Says whether some leaf below has a box that touches the region; where all is needed anyway, that one may.
+/// Whether some leaf below has a box that touches the region; may also be true if everything is needed anyway.
 bool MeshNeeds::add_part(Address address, const PlacedBoxes& boxes, const Region& region) {
   if (mark_of(address).is_whole) {
     return true;

@@ -13,10 +13,10 @@
 namespace dmpc::core {
 namespace {
 
-/// Boxes of BVH nodes hold what is in them; how far rays keep from them is the place's to say.
+/// Boxes of BVH nodes contain their primitives with this padding; the instance decides how far rays keep from them.
 constexpr double box_pad = 0x1p-30;
 
-/// A cell that has all of it.
+/// A grid whose single cell contains the mesh.
 GridFrame frame_around() {
   GridFrame frame;
   frame.low = {-2, -2, -2};
@@ -50,7 +50,7 @@ class MeshConverter {
  private:
   std::uint32_t id() const { return static_cast<std::uint32_t>(records_.conversion.primitives.size()); }
 
-  /// A copy without any is flat.
+  /// A copy without normals is flat.
   bool has_normals(const Object& object) const {
     const auto normals = std::span(mesh_.normals).subspan(object.first_normal, object.vertex_count);
     return std::any_of(normals.begin(), normals.end(), [](const Vec3d& normal) { return !(normal == Vec3d{}); });

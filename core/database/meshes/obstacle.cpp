@@ -15,9 +15,9 @@
 namespace dmpc::core {
 namespace {
 
-/// Limit for a mesh's largest coordinate, so that records, in units of it, keep all bits of floats.
+/// The limit for a mesh's largest coordinate: records, in units of it, then keep all bits of floats.
 constexpr int exponent_max = 100;
-/// Places that one thread takes at a time.
+/// Instances that one thread takes at a time.
 constexpr std::size_t places_a_part = 64;
 constexpr std::size_t meshes_named = 3;
 static_assert(base_mesh_triangles_max == 2'097'152, "text_of() says it");
@@ -31,7 +31,7 @@ bool has_normals_in_floats(const Scene& mesh) {
                      [](const TexturedCorner& corner) { return is_in_floats(corner.normal); });
 }
 
-/// Few meshes have to be looked at corner by corner.
+/// Few meshes have to be tested corner by corner.
 bool is_within_grids(const Scene& mesh, const Box& box, const Transform& world) {
   const Box reach = reach_of(box, world);
   return (usable(reach.low) && usable(reach.high)) ||

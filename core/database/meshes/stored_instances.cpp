@@ -17,12 +17,12 @@
 namespace dmpc::core {
 namespace {
 
-/// If the pad is larger than the mesh by this factor, its instance is copied: its boxes would tell no rays apart.
+/// If the pad is larger than the mesh by this factor, the instance is copied: its boxes would not distinguish rays.
 constexpr double pad_max = 0x1p20;
 
-/// How far along one of the mesh's axes the pad reaches that is so long along each of the grid's, in units of records.
+/// The length along one of the mesh's axes of a pad that is this long along each of the grid's axes, in units of records.
 double pad_in_mesh(const Transform& world, const GridFrame& frame, double unit, double pad) {
-  constexpr double rounded_up = 1 + 0x1p-20;  // far more than doubles round off the inverse of what can_be_instanced()
+  constexpr double rounded_up = 1 + 0x1p-20;  // far more than the rounding of the inverse of what can_be_instanced()
   const std::array<Vec3d, 3> columns = inverse_of(rows_in_grid(world, unit, frame));
   double most = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,7 +31,7 @@ double pad_in_mesh(const Transform& world, const GridFrame& frame, double unit, 
   return pad * most * rounded_up;
 }
 
-/// Brings primitives to other places.
+/// Moves primitives to other positions.
 class Keeper {
  public:
   Keeper(const Scene& scene, std::span<const MeshFaces> faces, const GridFrame& frame, double pad, Conversion& conversion)
@@ -81,7 +81,7 @@ class Keeper {
 
   void copy(std::size_t i) { from_.push_back(static_cast<std::uint32_t>(i)); }
 
-  /// Its copy begins at `i`; returns where that ends.
+  /// Adds the instance whose copy begins at `i`; returns where the copy ends.
   std::size_t add_place(const BaseMeshInstance& place, std::size_t i) {
     const MeshFaces& faces = faces_[place.mesh];
     const Scene& mesh = scene_.kept->meshes[place.mesh];
@@ -118,8 +118,8 @@ class Keeper {
   Conversion& conversion_;
   StoredInstances result_;
   MeshesRecords meshes_;
-  std::vector<bool> is_kept_;        ///< by place
-  std::vector<std::uint32_t> from_;  ///< where what comes at each place has been
+  std::vector<bool> is_kept_;        ///< by instance
+  std::vector<std::uint32_t> from_;  ///< for each new position, the old one
 };
 
 }  // namespace

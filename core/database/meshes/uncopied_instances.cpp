@@ -15,13 +15,13 @@
 namespace dmpc::core {
 namespace {
 
-/// Places that one thread takes at a time.
+/// Instances that one thread takes at a time.
 constexpr std::size_t places_together = 64;
-/// The number that is counted before the sum is tested.
+/// Triangles counted between tests of the sum.
 constexpr std::size_t places_a_group = 4096;
-/// Copies of more triangles would be records of more than 16 GiB.
+/// Copies of more triangles would need records of more than 16 GiB.
 constexpr std::uint64_t copied_triangles_end = std::uint64_t{1} << 28U;
-/// Ids that are no primitive's, and those of the boxes of places, have room behind.
+/// Ids from here on belong to no primitive; the range has space for those of the instances' boxes.
 constexpr std::uint64_t ids_max = 0xf0000000U;
 
 void check_ids(std::uint64_t count) {
@@ -31,7 +31,7 @@ void check_ids(std::uint64_t count) {
   }
 }
 
-/// What the copies of a box's corners are within, grid-local, as floats have them: rounding keeps their order.
+/// A box that contains the copies of a box's corners, grid-local, as floats: rounding keeps their order.
 Box local_reach(const Box& own, const BaseMeshInstance& place, const GridFrame& frame) {
   const Box reach = reach_of(own, place.world);
   return {Vec3d(coordinates_of((reach.low - frame.origin) * frame.scale)),
@@ -68,8 +68,8 @@ UncopiedInstances::UncopiedInstances(const Scene& scene, std::span<const MeshFac
   }
 }
 
-/// With fewer triangles the boxes around them fit better, and there are more of them. 128 fit well; a large mesh, which stands in
-/// few places, has as many groups as a group has triangles.
+/// Smaller groups have tighter boxes, but there are more of them. 128 triangles fit well; a large mesh, which has few instances,
+/// has as many groups as a group has triangles.
 std::vector<UncopiedInstances::Chunk> UncopiedInstances::chunks_of(std::size_t mesh) const {
   const std::vector<std::uint32_t>& ids = meshes_.records[meshes_.index[mesh]].tree.ids;
   const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(ids.size())));
@@ -89,8 +89,8 @@ std::vector<UncopiedInstances::Chunk> UncopiedInstances::chunks_of(std::size_t m
   return chunks;
 }
 
-/// Long triangles touch so many cells that to count them all would take minutes. Side by side a place is looked at until it has
-/// its share of what there may be, and then, if it has more, by itself: so that it ends where all have too many.
+/// Long triangles touch so many cells that counting all of them would take minutes. In parallel each instance is counted up to
+/// its share of the bound; one that has more is then counted by itself, so counting stops where the total is too large.
 std::int64_t UncopiedInstances::excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact,
                                        const Parallel& parallel) const {
   if (triangles_ > copied_triangles_end) {
@@ -118,7 +118,7 @@ std::int64_t UncopiedInstances::excess(const GridFrame& frame, double pad, std::
   return MacroCells::excess_of(all.touches, all.triangles);
 }
 
-/// What lies in one cell has no excess, however it is rounded.
+/// An instance in one cell has no excess, however it is rounded.
 UncopiedInstances::Touches UncopiedInstances::touches_of(const BaseMeshInstance& place, const GridFrame& frame, double pad,
                                                          std::uint64_t touches_max, bool is_exact) const {
   const Scene& mesh = scene_.kept->meshes[place.mesh];

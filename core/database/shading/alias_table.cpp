@@ -10,7 +10,7 @@ namespace dmpc::core {
 std::vector<EmitterChoice> alias_table(std::span<const double> weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0), count = static_cast<double>(weights.size());
   expect(sum > 0.0 && sum <= 1e300, "there is something to be drawn");
-  std::vector<double> left(weights.size());  // of each one's share, in places
+  std::vector<double> left(weights.size());  // what is left of each share, in slots
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < weights.size(); ++i) {
     left[i] = weights[i] / sum * count;
@@ -27,7 +27,7 @@ std::vector<EmitterChoice> alias_table(std::span<const double> weights) {
       small.push_back(donor);
     }
   }
-  // What is left over has a place of its own, except for rounding.
+  // Except for rounding, the remaining entries fill a slot of their own.
   for (const std::vector<std::uint32_t>& rest : {small, large}) {
     for (const std::uint32_t i : rest) {
       table[i] = {1.0F, i};

@@ -10,7 +10,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Relative to the mean power: an emitter with less would be drawn as often as the rounding of chances allows, not as it should.
+/// The minimum relative to the mean power: the rounding of probabilities would determine how often a weaker emitter is drawn.
 constexpr double share_min = 0x1p-20;
 
 struct Candidate {
@@ -51,7 +51,7 @@ class Chooser {
     return scene_.materials[conversion_.shading[primitive].material()];
   }
 
-  /// What other faces in its plane may leave nothing of.
+  /// Emitters that other faces in their plane may cover completely.
   std::vector<bool> find_covered() const {
     std::vector<bool> is_covered(conversion_.primitives.size());
     for (std::uint32_t primitive = 0; primitive < is_covered.size(); ++primitive) {
@@ -78,7 +78,7 @@ class Chooser {
     }
   }
 
-  /// The greatest, in the order of their ids.
+  /// Keeps the emitters with the most power, in the order of their ids.
   void keep(std::uint32_t count_max) {
     if (drawn_.size() > count_max) {
       std::nth_element(drawn_.begin(), drawn_.begin() + count_max, drawn_.end(), [](const Candidate& a, const Candidate& b) {
@@ -129,7 +129,7 @@ class Chooser {
     return record;
   }
 
-  /// Each material of theirs once more, in the order in which they come.
+  /// Repeats each of the emitters' materials once, in order of first use.
   void name_materials() {
     const auto first = static_cast<std::uint32_t>(scene_.materials.size());
     std::unordered_map<std::uint32_t, std::uint32_t> names;

@@ -16,7 +16,7 @@ std::uint64_t make_lights_spheres(Scene& scene, double radius) {
     return scene.lights.size();
   }
   const double diagonal = 2.0 * length(box.half());
-  std::vector<std::pair<PointLight, Vec3d>> spheres;  // with what they shine with
+  std::vector<std::pair<PointLight, Vec3d>> spheres;  // with their emission
   std::vector<PointLight> points;
   for (const PointLight& light : scene.lights) {
     const Vec3d intensity = intensity_of(light, scene);
@@ -25,7 +25,7 @@ std::uint64_t make_lights_spheres(Scene& scene, double radius) {
     if (is_cone || radius < small_light_share * diagonal || length(light.position - scene.view.from) <= radius ||
         distance > far_light_diagonals * diagonal) {
       points.push_back(light);
-      points.back().color = intensity;  // as bright as it was among the others
+      points.back().color = intensity;  // keeps its relative intensity
       points.back().has_color = true;
       continue;
     }

@@ -28,7 +28,7 @@ MaterialExtensionRecord extension_of(const Material& from) {
   return finish;
 }
 
-/// As a MaterialExtensionRecord, whose place it takes.
+/// The MicrofacetRecord as a MaterialExtensionRecord, whose slot it takes.
 MaterialExtensionRecord microfacets_of(const Material& from) {
   const Microfacets& facets = from.microfacets;
   return std::bit_cast<MaterialExtensionRecord>(

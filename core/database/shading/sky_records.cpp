@@ -11,14 +11,14 @@
 namespace dmpc::core {
 namespace {
 
-/// Relative to the mean strength: the minimum for all places, so that the weakest are drawn as often as they should be.
+/// The minimum for all cells relative to the mean strength, so that the weakest are drawn as often as they should be.
 constexpr double sky_share_min = 0x1p-20;
 
-/// Rows close, and beyond the poles is the row that ends there. What lies beyond the last cells is of no account.
+/// Rows wrap around, and beyond a pole the row that ends there is repeated. Texels beyond the last cells have no effect.
 TextureTile tile_at(const SkyTexels& sky, std::uint32_t tile_column, std::uint32_t tile_row) {
   TextureTile tile;
   for (std::uint32_t row = 0; row < tile_side; ++row) {
-    const std::uint32_t below = tile_row * sky_tile_cells + row;  // of the texel's row, which begin at 1
+    const std::uint32_t below = tile_row * sky_tile_cells + row;  // of the texel's row; rows begin at 1
     const std::uint32_t from_row = std::clamp(below, 1U, sky.height) - 1;
     for (std::uint32_t column = 0; column < tile_side; ++column) {
       const std::uint32_t from_column = (tile_column * sky_tile_cells + column) % sky.width;

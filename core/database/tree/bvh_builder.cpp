@@ -10,14 +10,15 @@
 namespace dmpc::core {
 namespace {
 
-/// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
+/// A million grids. Kernels cannot overflow within it, and rays that need more start so far away that floats cannot aim at the
+/// grid.
 constexpr double pad_max = 0x1p20;
 
-/// The most of one kind that the uppermost of `levels` of BVH nodes may divide as it likes: even if one child gets nearly all of
-/// them, the levels below hold them, cut evenly. That is 8 in each child of each BVH node.
+/// The maximum number of groups of one kind that may still be cut without regard to balance with this many `levels` of BVH nodes
+/// left. Even if one child gets nearly all of them, the levels below can hold them, cut evenly: 8 in each child of each BVH node.
 std::size_t carefree_count(int levels) { return std::size_t{1} << (3 * levels); }
 
-/// What a group counts: of faces that need planes each may need a leaf of its own.
+/// The weight of a group: each face that needs a plane may need a leaf of its own.
 std::size_t weight_of(const Group& group) { return group.count() * (group.needs_plane ? leaf_lanes : 1); }
 
 std::size_t weight_of(std::span<const Group> groups) {
@@ -28,13 +29,13 @@ std::size_t weight_of(std::span<const Group> groups) {
   return weight;
 }
 
-/// A part of two kinds is cut evenly into 7 groups of one and 1 of the other at worst, the largest of them a quarter of all, not
-/// an eighth.
+/// In the worst case a part of two kinds is cut evenly into 7 groups of one kind and 1 of the other, so the largest has a quarter
+/// of all, not an eighth.
 std::size_t carefree_count(const CutTree& tree, int levels) {
   return tree.kinds().size() == 1 ? carefree_count(levels) : carefree_count(levels) / 2;
 }
 
-/// Cuts groups into equal numbers until there are 8 or each fits a leaf.
+/// Cuts groups into equal numbers until there are 8 groups or each fits a leaf.
 void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
   const auto smaller = [](const Group& a, const Group& b) { return weight_of(a) < weight_of(b); };
   while (groups.size() < bvh_children_max) {
@@ -56,7 +57,7 @@ class BvhBuilder::Drafter {
   Drafter(Cutter& cutter, std::span<std::uint32_t> ids, double pad, const Parallel& parallel)
       : cutter_(cutter), ids_(ids), pad_(pad), parallel_(parallel) {}
 
-  /// `levels`: so many are left.
+  /// `levels` is the number of levels that are left.
   BvhNodeDraft draft(const CutTree& tree, int levels) const {
     expect(levels > 0, "a tree of BVH nodes is no deeper than a traversal can go");
     const bool too_deep = tree.levels() > levels && weight_of(tree.kinds()) > carefree_count(tree, levels);
@@ -77,11 +78,11 @@ class BvhBuilder::Drafter {
     return draft;
   }
 
-  /// With children of equal numbers, so that the levels left will do.
+  /// Gives children equal numbers, so that the remaining levels suffice.
   BvhNodeDraft draft_evenly(const CutTree& tree, int levels) const {
     std::vector<Group> groups = tree.kinds();
     for (const Group& group : groups) {
-      cutter_.sort_again(group);  // the tree was cut out of it
+      cutter_.sort_again(group);  // the tree was cut from it
     }
     cut_evenly(groups, cutter_);
     std::vector<CutTree> parts;
@@ -125,7 +126,7 @@ BvhTree BvhBuilder::build(const Corner& corner, std::span<const std::uint32_t> i
   return tree;
 }
 
-/// Leaves are of one kind, with planes or without, so the first cuts are between kinds.
+/// A leaf holds only one kind, with planes or without, so the first cuts separate kinds.
 CutTree BvhBuilder::cut(std::span<const Group> kinds, Cutter& cutter) const {
   auto tree = std::make_unique<CutTree>(cutter, kinds[0], *parallel_);
   for (const Group& kind : kinds.subspan(1)) {
@@ -143,7 +144,7 @@ Bounds BvhBuilder::cell_at(const Corner& corner) const {
   return Bounds::around(cell.padded({pad_, pad_, pad_}));
 }
 
-/// The groups of each kind: triangles, those that need planes, then the others.
+/// The groups by kind: triangles, then triangles that need planes, then the others.
 std::vector<Group> BvhBuilder::add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const {
   std::vector<Group> groups;
   std::size_t first = 0;
@@ -170,7 +171,7 @@ std::vector<Group> BvhBuilder::add_by_kind(const Bounds& cell, std::span<const s
   for (const PrimitiveKind kind :
        {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone, PrimitiveKind::instance}) {
     if (first == ids.size()) {
-      break;  // mostly all are of one kind
+      break;  // usually all are of one kind
     }
     add(kind, false);
     if (is_any_left && kind == PrimitiveKind::triangle) {

@@ -10,13 +10,13 @@ namespace {
 
 bool is_of_instances(const BvhNodeDraft::Leaf& leaf) { return leaf.count > 0 && leaf.kind == PrimitiveKind::instance; }
 
-/// Whether the traversal below the BVH node may lead into meshes.
+/// Whether traversal below the BVH node may enter meshes.
 bool is_open(const BvhNodeDraft& draft) {
   return std::any_of(draft.leaves.begin(), draft.leaves.end(), is_of_instances) ||
          std::any_of(draft.bvh_nodes.begin(), draft.bvh_nodes.end(), is_open);
 }
 
-/// What a subtree takes of a page, if it begins it: all of it, or what is open.
+/// The bytes in a page of a subtree that begins it: all of the subtree, or its open part.
 std::size_t subtree_bytes(const BvhNodeDraft& draft, bool of_open_alone = false) {
   std::size_t bytes = round_up(sizeof(BvhNode), record_alignment);
   for (const BvhNodeDraft::Leaf& leaf : draft.leaves) {
@@ -29,7 +29,7 @@ std::size_t subtree_bytes(const BvhNodeDraft& draft, bool of_open_alone = false)
   return bytes;
 }
 
-/// Allocates the children of a BVH node that are leaves and have no address: all, or those of instances.
+/// Allocates the leaf children of a BVH node that have no address: all, or only those of instances.
 void take_leaf_room(BvhNodeDraft& draft, RecordWriter& writer, bool of_instances_alone = false) {
   for (std::size_t i = 0; i < draft.bvh_node.child_count; ++i) {
     const BvhNodeDraft::Leaf& leaf = draft.leaves[i];
@@ -39,11 +39,11 @@ void take_leaf_room(BvhNodeDraft& draft, RecordWriter& writer, bool of_instances
   }
 }
 
-/// Leaves beside BVH nodes are of what is large, which many rays meet: they belong to the forest, lest one page be asked about by
-/// all.
+/// Leaves beside BVH nodes hold large primitives, which many rays meet: they belong to the forest, so that not all nodes request
+/// the same page.
 bool has_leaves_in_forest(const BvhNodeDraft& draft) { return !draft.bvh_nodes.empty(); }
 
-/// Allocates the BVH node if no page also holds what is below it, and recursively its children; returns whether.
+/// Allocates the BVH node, and recursively its children, if no page holds its whole subtree; returns whether it did.
 bool take_forest_room_for(BvhNodeDraft& draft, RecordWriter& writer, std::size_t page_size) {
   if (subtree_bytes(draft) <= page_size) {
     return false;
@@ -70,7 +70,7 @@ Address take_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   return address;
 }
 
-/// Allocates an open BVH node, its leaves of instances, and then its open BVH nodes.
+/// Allocates an open BVH node, then its leaves of instances, then its open children.
 void take_open_records(BvhNodeDraft& draft, RecordWriter& writer) {
   constexpr bool of_instances_alone = true;
   draft.address = writer.allocate(sizeof(BvhNode));
@@ -98,7 +98,7 @@ void take_open_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   }
 }
 
-/// Allocates what is below allocated BVH nodes.
+/// Allocates the subtrees below allocated BVH nodes.
 Address take_subtree_room_for(BvhNodeDraft& draft, RecordWriter& writer) {
   if (draft.address == no_address) {
     writer.keep_together(subtree_bytes(draft));

@@ -9,9 +9,9 @@
 namespace dmpc::core {
 namespace {
 
-/// Groups of more primitives than this are shared out among threads.
+/// Groups of more primitives than this are split among threads.
 constexpr std::uint32_t shared_count_min = 8192;
-/// Cuts that may come one below the other without care for balance: whatever lies where, the tree stays shallow.
+/// The maximum number of nested cuts without regard to balance, which keeps the tree shallow for any input.
 constexpr int careless_cuts_max = 64;
 
 }  // namespace
@@ -41,7 +41,7 @@ CutTree::CutTree(std::unique_ptr<CutTree> first, std::unique_ptr<CutTree> second
   weigh();
 }
 
-/// Finds the best choices from those of the parts.
+/// Finds the best choices from those of the two parts.
 void CutTree::weigh() {
   constexpr float worst = std::numeric_limits<float>::infinity();
   const auto best_share = [&](std::size_t count, float& least) {
@@ -82,7 +82,7 @@ std::vector<const CutTree*> CutTree::children() const {
   return found;
 }
 
-/// The parts that are children if this takes `count` of them.
+/// Collects the parts that become children if this node gets `count` of them.
 void CutTree::collect(std::size_t count, std::vector<const CutTree*>& found) const {
   while (count > 1 && share_[count] == 0) {
     --count;

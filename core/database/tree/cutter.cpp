@@ -10,27 +10,27 @@
 namespace dmpc::core {
 namespace {
 
-/// Groups up to this size are sorted and cut at the best of all places, larger ones between bins.
+/// Groups up to this size are sorted and cut at the best of all positions, larger ones between bins.
 constexpr std::uint32_t sorted_count_max = 64;
 constexpr std::size_t bin_count = 32;
 
 float leaves_for(std::uint32_t count) { return static_cast<float>(ceil_divide<std::uint32_t>(count, leaf_lanes)); }
 
-/// Where to cut, and what a ray that meets the whole pays for the two parts, except for a factor.
+/// A position for a cut, and the cost of the two parts for a ray that meets the whole, except for a factor.
 struct Cut {
   float cost = std::numeric_limits<float>::infinity();
   std::size_t axis = 0;
-  std::uint32_t place = 0;  ///< how many primitives, or bins, lie before it
+  std::uint32_t place = 0;  ///< number of primitives, or bins, before it
 };
 
 using Four = float __attribute__((vector_size(16)));
 using FourCounts = std::int32_t __attribute__((vector_size(16)));
 
-/// Bounds that grow in two registers, by name: left to itself, GCC takes numbers that are gathered in a loop one by one.
+/// Bounds that grow in two registers. They are named because GCC handles numbers gathered in a loop one by one.
 class Gathering {
  public:
   void include(const Bounds& bounds) { include(four(bounds.low), four(bounds.high)); }
-  /// A point twice as far as the middle: Bounds::middle().
+  /// Twice the center of the bounds: Bounds::middle().
   void include_middle(const Bounds& bounds) {
     const Four middle = four(bounds.low) + four(bounds.high);
     include(middle, middle);
@@ -58,7 +58,7 @@ class Gathering {
   Four high_{-Bounds::infinity, -Bounds::infinity, -Bounds::infinity, 0};
 };
 
-/// Where the middles of a group's primitives lie, twice: as Bounds::middle().
+/// The bounds of the doubled centers of a group's primitives: Bounds::middle().
 Bounds middles_of(std::span<const Bounds> items) {
   Gathering middles;
   for (const Bounds& item : items) {
@@ -83,7 +83,7 @@ std::size_t longest_axis(const Bounds& bounds) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-/// Slices of equal width of where the middles lie along each axis.
+/// Slices of equal width over the extent of the centers along each axis.
 struct Bins {
   struct Bin {
     Gathering bounds;
@@ -102,7 +102,7 @@ struct Bins {
     const auto slice = static_cast<std::int32_t>((item.middle(axis) - low[axis]) * scale[axis]);
     return std::min(slice, static_cast<std::int32_t>(bin_count - 1));
   }
-  /// By all axes.
+  /// The bin numbers along all axes.
   FourCounts of(const Bounds& item) const {
     const Four along = (std::bit_cast<Four>(item.low) + std::bit_cast<Four>(item.high) - low) * scale;
     const FourCounts slices = __builtin_convertvector(along, FourCounts),
@@ -117,7 +117,8 @@ struct Bins {
       ++bin.count;
     }
   }
-  /// Adds the items of both halves alternately: neighbours often go into one bin, and each would wait for the one before it.
+  /// Adds items of the two halves alternately: neighbours often fall into the same bin, where each would wait for the one before
+  /// it.
   [[gnu::always_inline]] void add_all(std::span<const Bounds> items) {
     const std::size_t half = items.size() / 2;
     for (std::size_t i = 0; i < half; ++i) {
@@ -129,7 +130,7 @@ struct Bins {
     }
   }
   Cut best_cut(std::uint32_t count) const;
-  /// The bounds of everything in the bins of an axis from `first` on, before `last`.
+  /// The bounds of the bins [first, last) of an axis.
   Bounds bounds_of(std::size_t axis, std::uint32_t first, std::uint32_t last) const {
     Gathering all;
     for (std::uint32_t i = first; i < last; ++i) {
@@ -139,7 +140,7 @@ struct Bins {
   }
 };
 
-/// One of what is listed along each axis, an axis a lane.
+/// One entry of a list for each axis, one axis per lane.
 struct Slices {
   std::array<Four, 3> low, high;  ///< by coordinate
 
@@ -157,7 +158,7 @@ struct Slices {
   }
 };
 
-/// What lies in several of them along each axis: bounds that grow.
+/// Growing bounds of several slices along each axis.
 class Sweep {
  public:
   void include(const Slices& slices) {
@@ -178,7 +179,7 @@ class Sweep {
   std::array<Four, 3> low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
 };
 
-/// The best cut along each axis. Of equal ones the first of the first axis.
+/// The best cut along each axis; among equal ones the first of the first axis.
 class LeastCuts {
  public:
   void take(const Four& cost, std::uint32_t place) { take(cost, place, FourCounts{-1, -1, -1, -1}); }
@@ -187,7 +188,7 @@ class LeastCuts {
     cost_ = is_better ? cost : cost_;
     place_ = is_better ? FourCounts{} + static_cast<std::int32_t>(place) : place_;
   }
-  /// `usual` where none costs less.
+  /// `usual` if none costs less.
   Cut best(Cut usual) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       usual = cost_[axis] < usual.cost ? Cut{cost_[axis], axis, static_cast<std::uint32_t>(place_[axis])} : usual;
@@ -201,7 +202,7 @@ class LeastCuts {
 };
 
 /// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), for
-/// the three axes side by side.
+/// the three axes in parallel.
 Cut Bins::best_cut(std::uint32_t count) const {
   const auto slices_of = [&](std::size_t i) {
     return Slices::of(bins[0][i].bounds.bounds(), bins[1][i].bounds.bounds(), bins[2][i].bounds.bounds());
@@ -233,8 +234,7 @@ Cut Bins::best_cut(std::uint32_t count) const {
   return least.best({});
 }
 
-/// The best of all cuts between primitives in their order along each axis, where item(axis, i) has them: `usual`, if none costs
-/// less than that.
+/// The best cut between primitives in their order along each axis, which item(axis, i) returns: `usual` if none costs less.
 template <class Item>
 [[gnu::always_inline]] inline Cut best_sorted_cut(std::uint32_t count, const Item& item, const Cut& usual) {
   const auto slices_at = [&](std::uint32_t i) { return Slices::of(item(0, i), item(1, i), item(2, i)); };
@@ -253,12 +253,12 @@ template <class Item>
   return least.best(usual);
 }
 
-/// Where the middles of a few primitives lie along an axis.
+/// The centers of a few primitives along an axis.
 struct Middles {
   alignas(64) std::array<float, sorted_count_max> along{};
-  std::array<std::int32_t, sorted_count_max> before{};  ///< how many come before it: of equal ones those that are listed before
+  std::array<std::int32_t, sorted_count_max> before{};  ///< number of centers before it; equal ones are in list order
 
-  /// By loops as compilers vectorise them.
+  /// The loops have a form that compilers vectorise.
   [[gnu::always_inline]] void count_before(std::int32_t count) {
     constexpr std::int32_t lanes = 16;
     const std::int32_t end = ceil_divide(count, lanes) * lanes;
@@ -326,7 +326,7 @@ void Cutter::sort_again(const Group& group) {
   }
 }
 
-/// The item at a place of a group: in its order along the axis, if it is sorted.
+/// The item at a position of a group, in order along the axis if the group is sorted.
 std::uint32_t Cutter::item_at(const Group& group, std::size_t axis, std::uint32_t place) const {
   return group.is_sorted ? group.base + orders_[axis][place] : place;
 }
@@ -347,7 +347,7 @@ std::pair<Group, Group> Cutter::halves(const Group& whole, std::uint32_t middle)
   return both;
 }
 
-/// Counts for each how many come before it: for so few the quickest way, since nothing has to be guessed.
+/// Counts for each item how many precede it: fastest for so few, since it has no unpredictable branches.
 void Cutter::sort(Group& group) {
   group.base = group.first;
   group.is_sorted = true;
@@ -364,7 +364,7 @@ void Cutter::sort(Group& group) {
   }
 }
 
-/// The best of all cuts between the primitives in their order along each axis.
+/// The best cut between primitives in their order along each axis.
 std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
   Cut best{.axis = longest_axis(whole.bounds), .place = whole.count() / 2};
   if (!balanced) {
@@ -381,7 +381,7 @@ std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
   return whole.first + best.place;
 }
 
-/// Separates the primitives in the plane of the first from the others.
+/// Separates the primitives in the plane of the first one from the others.
 std::uint32_t Cutter::cut_between_planes(const Group& whole) {
   std::uint64_t is_first = 0;
   for (std::uint32_t place = whole.first; place < whole.last; ++place) {
@@ -405,7 +405,7 @@ bool Cutter::lies_in_one(const Group& group) const {
   return true;
 }
 
-/// Brings items, a bit each, to the front of all orders.
+/// Moves the items whose bit is set to the front of all orders.
 void Cutter::divide(const Group& whole, std::uint64_t is_first) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::uint8_t* const order = orders_[axis].data();
@@ -423,7 +423,7 @@ void Cutter::divide(const Group& whole, std::uint64_t is_first) {
   }
 }
 
-/// What the bins hold tells the bounds of both parts.
+/// The bins determine the bounds of both parts.
 std::pair<Group, Group> Cutter::cut_between_bins(const Group& whole) {
   const auto items = std::span(bounds_).subspan(whole.first, whole.count());
   Bins bins(middles_of(items));
@@ -441,7 +441,7 @@ std::pair<Group, Group> Cutter::cut_between_bins(const Group& whole) {
   return both;
 }
 
-/// Equal numbers on both sides, along the axis on which the middles are farthest apart.
+/// Cuts into equal numbers along the axis with the largest extent of centers.
 std::uint32_t Cutter::cut_in_the_middle(const Group& whole) {
   const std::size_t axis = longest_axis(middles_of(std::span(bounds_).subspan(whole.first, whole.count())));
   std::vector<std::pair<float, std::uint32_t>> along;
@@ -454,8 +454,8 @@ std::uint32_t Cutter::cut_in_the_middle(const Group& whole) {
   return partition(whole, [&](std::uint32_t i) { return std::pair(bounds_[i].middle(axis), ids_[i]) < *middle; });
 }
 
-/// Brings the primitives for which is_first(place) holds to the front, and says where the others begin. Without branches, half of
-/// which would be guessed wrong.
+/// Moves the primitives for which is_first(place) holds to the front, and returns where the others begin. It has no branches,
+/// half of which would be mispredicted.
 template <class IsFirst>
 std::uint32_t Cutter::partition(const Group& whole, const IsFirst& is_first) {
   std::uint32_t middle = whole.first;

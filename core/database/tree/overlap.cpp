@@ -28,10 +28,10 @@ bool separates(const Vec3d& axis, const Vec3d& half, const Vec3d& p, const Vec3d
   return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
 }
 
-/// Whether a bound that lies `above` the box's face leaves the box: one in the face does not.
+/// Whether a bound that lies `above` the box's face is outside the box; one in the face is not.
 bool leaves(double above) { return above > 0.0; }
 
-/// Distance of a point to the segment from p to q, in a plane.
+/// The distance of a point to the segment from p to q, in a plane.
 double segment_distance(double x, double y, double px, double py, double qx, double qy) {
   const double dx = qx - px, dy = qy - py;
   const double s = std::clamp(((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
