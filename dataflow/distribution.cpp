@@ -7,7 +7,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// More nodes than this are not tried for a memory that is too small: the database is cut up anew for each.
+/// Larger node counts are not tried when the memory is too small: the database is divided anew for each.
 constexpr std::uint32_t node_count_tried_max = 256;
 
 bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make_shares) {
@@ -23,7 +23,7 @@ std::vector<core::Region> boxes_of(const Regions& regions, const std::vector<std
   return boxes;
 }
 
-/// Rays need not go to the owner of a region that holds nothing. `part` is that of the regions with these numbers.
+/// Marks regions that hold nothing, whose owners rays need not visit. `part` is that of the regions with these numbers.
 void mark_empty(Regions& regions, const std::vector<std::uint32_t>& indices, const core::DatabasePart& part,
                 const core::RenderSettings& settings) {
   for (std::size_t i = 0; settings.skips.empty_regions && i < indices.size(); ++i) {
@@ -33,7 +33,7 @@ void mark_empty(Regions& regions, const std::vector<std::uint32_t>& indices, con
   }
 }
 
-/// Instead of a part made anew, the pages of the whole database: addresses mean the same on every node.
+/// The pages of the whole database instead of a new part: addresses are then the same on every node.
 core::DatabasePart part_in_pages(const core::Database& database, const std::vector<core::Region>& regions,
                                  const std::vector<std::uint32_t>& pages, bool keeps_bytes) {
   core::DatabasePart part = core::measure_part(database, regions);
@@ -47,7 +47,7 @@ core::DatabasePart part_in_pages(const core::Database& database, const std::vect
   return part;
 }
 
-/// Gives each node the runs of its units, `runs`, one unit after the other.
+/// Gives each node the runs of its units; `runs` are sorted by unit.
 void assign_by_unit(Distribution& distribution, const std::vector<std::vector<PrimaryRun>>& runs) {
   const std::uint32_t node_count = distribution.regions.node_count();
   distribution.primaries.resize(node_count);
@@ -60,7 +60,7 @@ void assign_by_unit(Distribution& distribution, const std::vector<std::vector<Pr
   }
 }
 
-/// What each node has of what each unit has.
+/// The sum for each node over its units.
 std::vector<std::size_t> by_owner(const Regions& regions, const std::vector<std::size_t>& of_unit) {
   std::vector<std::size_t> of_node(regions.node_count());
   for (std::uint32_t unit = 0; unit < of_unit.size(); ++unit) {

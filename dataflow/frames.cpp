@@ -13,7 +13,7 @@ namespace {
 
 using nodes::TrafficByKind;
 
-/// Where a node's regions lie.
+/// Reports the positions of a node's regions.
 void report_regions(NodeReport& report, const Regions& regions, const std::vector<std::uint32_t>& indices) {
   const auto volume = [](const core::Region& box) {
     double product = 1;
@@ -36,7 +36,7 @@ void report_regions(NodeReport& report, const Regions& regions, const std::vecto
   report.region_share = cells / volume({.high = regions.grid_size()});
 }
 
-/// Whether every credit of a node, or of the host, is back where it started.
+/// Whether all credits of a node, or of the host, have come back.
 bool has_its_credits(const nodes::Node& node, const Plan& plan) {
   const std::uint32_t host = plan.node_count(), self = nodes::index_of(node.id());
   for (std::uint32_t peer = 0; peer <= host; ++peer) {
@@ -51,7 +51,7 @@ bool has_its_credits(const nodes::Node& node, const Plan& plan) {
   return true;
 }
 
-/// Adds what the node was assigned.
+/// Adds what was assigned to the node.
 void report_share(NodeReport& report, const Distribution& distribution, std::uint32_t index, const Share& share) {
   report.part_bytes = share.part_bytes;
   report.primitive_copies = distribution.parts[index].primitive_copies;
@@ -73,7 +73,7 @@ void check_rays(const Report& report) {
       "every primary ray was shot");
 }
 
-/// Every unit that was migrated was taken, and each is one node's.
+/// Every migrated unit was received, and each unit has one owner.
 void check_units(const Report& report) {
   const MovementCounters sum = report.movement();
   core::expect(sum.units_given == sum.units_taken, "every unit that was migrated was taken");
@@ -92,7 +92,7 @@ void check_packets(const Report& report) {
   nodes::expect_nothing_lost(report.ranks);
 }
 
-/// The owners that have got something since then.
+/// The owners that have received something since then.
 std::vector<SentToOwner> since(const std::vector<SentToOwner>& now, const std::vector<SentToOwner>& before) {
   std::vector<SentToOwner> changed;
   auto earlier = before.begin();
@@ -106,7 +106,7 @@ std::vector<SentToOwner> since(const std::vector<SentToOwner>& now, const std::v
   return changed;
 }
 
-/// What is counted, and not the most or the latest of something, is that of the frame.
+/// Counts, but not maxima and latest values, become those of the frame.
 ProgramReport since(const ProgramReport& now, const ProgramReport& before) {
   ProgramReport report = now;
   report.operations = core::counts_since(now.operations, before.operations);
@@ -151,7 +151,7 @@ Frames::Frames(const Prepared& prepared, const core::RenderSettings& first, cons
 
 Report Frames::render(const core::RenderSettings& settings, const core::FineDetail& detail, std::stop_token stop) {
   core::expect(options_.are_frames, "several frames are said to be several");
-  options_.continuation.start = nullptr;  // of the first frame
+  options_.continuation.start = nullptr;  // for the first frame only
   settings_ = settings;
   detail_ = detail;
   computer_->begin_frame(pictures::film_of(plan_.request, settings.shade.film_scale), settings_, &detail_);
@@ -182,7 +182,7 @@ Report Frames::render(std::stop_token stop) {
   return report;
 }
 
-/// Adds, for each node, its work for this frame and its assignment.
+/// Adds each node's work for this frame and its assignment.
 void Frames::add_shares(Report& report) {
   const Distribution& distribution = prepared_.distribution;
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();

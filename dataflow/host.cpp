@@ -9,7 +9,8 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// In a run of primary rays, where some must be done soon. A node has room for 120 runs: milliseconds of work, as a rule.
+/// The length of a run of primary rays, some of which must be finished soon. A node has space for 120 runs: usually milliseconds
+/// of work.
 constexpr std::uint64_t run_rays_max = 16;
 
 }  // namespace
@@ -50,7 +51,7 @@ void HostProgram::begin_frame(const core::FineDetail* detail) {
   assign_pass();
 }
 
-/// Finds whose the rays are of the pass's pixels that have no light yet, which from now on wait for assign_all().
+/// Finds the owners of the primary rays for the pass's pixels that have no light yet; these then wait for assign_all().
 void HostProgram::assign_pass() {
   const core::PixelMask done = with_light();
   std::optional<std::vector<std::vector<PrimaryRun>>> runs = assign_(refinement().pass(), done);
@@ -85,10 +86,10 @@ void HostProgram::receive(const nodes::Packet& packet) {
   }
 }
 
-/// Forwards all that it can; without a ray it passes on the token, and informs all when the end is detected.
+/// Forwards all that it can; without rays it passes on the token, and informs all when it detects termination.
 bool HostProgram::work() {
   if (is_cut_short_) {
-    return true;  // so that nobody takes the stillness for the end before the runner has seen the stop
+    return true;  // so that idleness is not taken for termination before the runner has seen the stop
   }
   assign_all();
   relay_throttle();
@@ -123,7 +124,7 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
   send_control(*node_, packet.source, Kind::credits, Credits{1});
 }
 
-/// Informs all nodes when the first of them asks the others to throttle primary rays, and when none does any more.
+/// Informs all nodes when the first of them asks to throttle primary rays, and when none asks any more.
 void HostProgram::relay_throttle() {
   if (relay_.is_due(relay_.holders())) {
     notify_children(*node_, termination_.place(), Kind::throttle, Throttle{relay_.announce(relay_.holders()) ? 1U : 0U});
@@ -180,7 +181,7 @@ void HostProgram::take_done(const Done& done) {
   end_pass();
 }
 
-/// All light of the pass is on the film: assigns the next, or stops all.
+/// All light of the pass is on the film: assigns the next pass, or stops all nodes.
 void HostProgram::end_pass() {
   if (!next_pass()) {
     notify_children(*node_, termination_.place(), Kind::stop, Stop{});
@@ -194,14 +195,14 @@ void HostProgram::end_pass() {
   begin_again();
 }
 
-/// No ray is left but those throttled: the pixels that have begun are done.
+/// Only throttled rays are left: the pixels that have begun are done.
 void HostProgram::go_on_dealing() {
   keep(pending_primaries_.begun());
   pending_primaries_.release();
   begin_again();
 }
 
-/// After the end of what was assigned.
+/// After the termination of what was assigned.
 void HostProgram::begin_again() {
   finishing_ = false;
   termination_.begin_again();
@@ -215,7 +216,7 @@ void HostProgram::assign_all() {
   }
 }
 
-/// Sends a node as many of its primary rays as it has memory for.
+/// Sends a node as many of its primary rays as fit its memory.
 void HostProgram::assign(std::uint32_t index) {
   while (pending_primaries_.has(index) && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
     node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), pending_primaries_.take(index));
@@ -223,7 +224,7 @@ void HostProgram::assign(std::uint32_t index) {
   }
 }
 
-/// In the sense of termination: has no ray to send, nor an announcement to take back.
+/// As termination detection defines it: has no ray to send, and no announcement to withdraw.
 bool HostProgram::is_passive() const {
   return host_is_passive(kept_.size(), relay_.is_settled()) && pending_primaries_.is_empty();
 }

@@ -28,28 +28,28 @@ using nodes::size_text;
 constexpr core::Field nodes_field = field_of<&nodes::ComputerRequest::node_count>(),
                       memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
-/// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
-/// fewer packets, but take 0.5 MB more of a node among 64.
+/// One packet in flight, one being processed, and twice that so that neither waits for the other's credit. Eight send a tenth
+/// fewer packets, but need 0.5 MB more per node with 64 nodes.
 constexpr std::uint32_t default_ray_credits = 4;
-/// Bundles are worked off faster than a sleeping node wakes, so few nodes, which have room for it, get more: two with 4 idle for
-/// a quarter of the time.
+/// Bundles are processed faster than a sleeping node wakes up, so a small number of nodes, which have the memory, get more: two
+/// nodes with 4 credits are idle for a quarter of the time.
 constexpr std::uint32_t few_nodes_ray_credits = 64;
-/// Among many nodes a node hears of few (5.7 of 1,024 on rings-4-t1), so room for all is a waste: places are shared. Among fewer
-/// it is affordable, and nobody has to ask.
+/// With many nodes, each receives from few (5.7 of 1,024 on rings-4-t1), so slots for all would waste memory: they are shared.
+/// With fewer nodes they are affordable, and nobody has to request them.
 constexpr std::uint32_t own_credits_nodes_max = 128;
 constexpr std::uint32_t default_ray_slots = 64;
-/// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
-/// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
+/// Where many nodes share a core, a receiver may not run for milliseconds, and the others continue until its announcement of a
+/// long queue arrives. 8 to 64 nodes on two cores with other load queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
 /// Packets of bundles are twice as long.
 constexpr std::uint32_t default_bundle_queue_packets = 256;
-/// Where places are shared memory is what counts, and packets are few: among 1,024 nodes they are seldom full.
+/// Where slots are shared, memory matters, and packets are few: with 1,024 nodes they are seldom full.
 constexpr std::uint32_t default_shared_queue_packets = 128;
-/// A node's share of the pixels would fill so many packets of film: light comes while the picture is made.
+/// The number of film packets that a node's share of the pixels would fill: light is sent while the picture is rendered.
 constexpr std::uint64_t film_packets_a_node = 16;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-/// Small packets of units that may be in a node's mailbox.
+/// The maximum number of small packets about units in a node's mailbox.
 std::uint32_t unit_slots_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   return others                                                    // UnitAsk: one from each other node
@@ -58,14 +58,15 @@ std::uint32_t unit_slots_of(const Plan& plan) {
          + others * (plan.shares_slots() ? 1 : plan.ray_credits);  // UnitMoved, beside each packet of credits
 }
 
-/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
+/// The capacity that a node's mailbox needs for any order of sends; the mailbox itself adds the slot of the packet being
+/// received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   const std::uint32_t assigned = plan.dealing_credits();
   const std::uint32_t moving = plan.is_moving() ? 1 : 0;
   const TerminationTree tree{plan.node_count()};
   return {.small_slots = others * plan.ray_credits             // credits back from each other node, at least one a packet
-                         + (plan.shares_slots() ? others : 0)  // requests for places: one from each other node
+                         + (plan.shares_slots() ? others : 0)  // requests for slots: one from each other node
                          + (plan.shares_slots() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
                          + plan.host_credits                                     // the same from the host
                          + (plan.shares_slots() ? 1 : others)  // Hold: one from each other node, or from the parent alone
@@ -77,7 +78,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + 1                                   // Stop
                          + moving * unit_slots_of(plan),
           .bulk_slots = others * plan.ray_credits  // rays: each other node's credits for this one
-                        + plan.ray_slots           // rays, or credits unused: the places that others share
+                        + plan.ray_slots           // rays, or unused credits: the slots that others share
                         + plan.host_credits        // forwarded rays: the host's
                         + assigned                 // primary rays assigned after the start
                         + moving,                  // unit_page or unit_primaries: the answer to this node's question
@@ -109,7 +110,7 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
       nodes::DelayedPackets::room_bytes(std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));
 }
 
-/// What may be given up where memory is scarce.
+/// What may be reduced where memory is scarce.
 struct Bounds {
   std::uint32_t ray_batch = 1, ray_credits = 1, ray_slots = 0, queue_packets = 0;
   bool bundles = false;
@@ -180,15 +181,16 @@ std::uint32_t default_queue(const PlanRequest& request) {
                                : default_queue_packets;
 }
 
-/// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
-/// three scenes. On a modelled machine nobody is woken. Bundles double that once more: 0.8 on two scenes; but not where places
-/// are shared: among 1,024 nodes packets of 4 KiB are a fifth full, and room for them is three quarters of a node's queues.
+/// Threads that share cores are woken less often with packets twice as long: 64 on two cores took 0.89 of the processor time for
+/// three scenes. On a modelled machine no thread is woken. For bundles the length is doubled once more (0.8 on two scenes), but
+/// not where slots are shared: with 1,024 nodes packets of 4 KiB are a fifth full, and their slots are three quarters of a node's
+/// queues.
 std::uint32_t default_batch(const PlanRequest& request) {
   const std::size_t times = request.computer.machine ? 1 : request.bundles && !shares_slots(request) ? 4 : 2;
   return rays_in(times * packet_bytes, request.rays.tested_objects);
 }
 
-/// As much as a node has of its own, on average: so any node may come to twice the mean.
+/// As many as a node has of its own, on average, so any node may grow to twice the mean.
 std::uint32_t default_spare_frames(const PlanRequest& request) {
   std::size_t pages = 0;
   for (const Share& share : request.shares) {
@@ -207,7 +209,7 @@ Bounds wanted(const PlanRequest& request) {
           .spare_frames = default_spare_frames(request)};
 }
 
-/// With the least of what the request leaves open.
+/// With the minimum of everything that the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
   const bool shares = shares_slots(request);
   return plan_with(request, {.ray_batch = request.rays.ray_batch.value_or(1),
@@ -216,8 +218,8 @@ Plan smallest_plan(const PlanRequest& request) {
                              .queue_packets = request.rays.queue_packets.value_or(0)});
 }
 
-/// Gives up queued packets first, then room for units, then credits or places, then bundles, then the length of packets, as far
-/// as the request leaves them open and the memory asks.
+/// Reduces queued packets first, then memory for units, then credits or slots, then bundles, then the packet length, as far as
+/// the request leaves them open and the memory requires it.
 Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   Bounds bounds = wanted(request);
   Plan plan = plan_with(request, bounds);

@@ -27,7 +27,7 @@ using nodes::Category;
 using nodes::LocalMemory;
 using Bytes = nodes::Room<std::byte>;
 
-/// Copies `value`, which has no default, into local memory.
+/// Copies `value`, which has no default constructor, into local memory.
 template <class T>
 T* keep(LocalMemory& memory, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -47,7 +47,7 @@ core::RenderSettings settings_for(const NodeAssignment& assign) {
   return settings;
 }
 
-/// What never changes except for whose the regions are, in local memory.
+/// Constants in local memory: everything except the ownership of regions.
 struct Constants {
   core::RenderSettings settings;  ///< header: the part's
   Regions regions;
@@ -65,19 +65,19 @@ RaysTask make_task(nodes::Node& node, const Plan& plan) {
   }
 }
 
-/// A ray that ends leaves light once; hits that glow, which are shaded side by side, do so together.
+/// A ray that ends leaves light once; emitting hits that are shaded together do so together.
 template <class RaysTask>
 std::uint32_t deposits_at_once(const core::DatabaseHeader& header) {
   static_assert(RaysTask::rays_max < film_packet_entries);
   return core::hits_glow(header) ? RaysTask::rays_max : 1;
 }
 
-/// `RaysTask` is RayTask or BundleTask, `Units` NoUnits or MovingUnits, as the plan says.
+/// `RaysTask` is RayTask or BundleTask, and `Units` is NoUnits or MovingUnits, depending on the plan.
 template <class RaysTask, class Units = NoUnits>
 class RayProgram final : public NodeProgram {
  public:
-  /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
-  /// quantum that works on a ray is that ray's pixel's; what rays cost when they come in, and sending what waits, is nobody's.
+  /// Takes all its memory and credits from `node`. `meter`, if any, gets the cost for each pixel: a quantum that works on a ray
+  /// counts for that ray's pixel; receiving rays and sending waiting packets count for none.
   RayProgram(nodes::Node& node, const Plan& plan, const NodeAssignment& assign,
              const std::optional<nodes::Meter>& meter = std::nullopt)
       : meter_(meter),
@@ -222,14 +222,14 @@ class RayProgram final : public NodeProgram {
   }
 
  private:
-  /// What is known of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
+  /// The ray that was last started, received or created; `sample`: that of the primary ray last started.
   struct Newest {
     std::uint32_t pixel = 0, sample = 0, depth = 1;
   };
   bool packet_waits() const { return gather_.waits() || film_.waits(); }
   bool has_primaries() const { return !primaries_.empty() || units_.primaries_left() > 0; }
 
-  /// A packet with rays has come: this pass has not ended, or the next has begun.
+  /// A packet with rays has come: this pass has not ended, or the next one has begun.
   void wake() {
     core::expect(!finishing_ || done_, "no ray comes after the end");
     finishing_ = false;
@@ -262,15 +262,15 @@ class RayProgram final : public NodeProgram {
             .has_backlog = !arrivals_.backlog().empty(),
             .has_primaries = has_primaries,
             .admits_primaries = throttling_.admits_primaries(gather_.queued()),
-            .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
+            .can_flush = !has_work && gather_.can_flush(),  // checks every owner
             .has_gathered = !gather_.empty(),
             .is_unacknowledged = !throttling_.is_settled(),
             .is_unanswered = gather_.is_unanswered(),
             .is_moving_units = !units_.is_settled() || (!has_work && !has_primaries && units_.wants_to_ask())};
   }
 
-  /// Bundles fill packets fast, so a node among many is soon without work, and its neighbours' rays may fill more: before it
-  /// sends packets that are not full it lets others run. Not twice in succession.
+  /// Bundles fill packets fast, so a node among many soon has no work, while its neighbours' rays may fill more packets: before
+  /// it sends partly filled packets, it lets others run, but not twice in succession.
   bool puts_off(Task task) {
     const bool is_first_flush = task == Task::flush && !flushes_;
     puts_off_flush_ = is_first_flush && RaysTask::rays_max > 1;
@@ -311,7 +311,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// A film packet that waits is sent as soon as the host acknowledges another.
+  /// A waiting film packet is sent as soon as the host acknowledges another.
   void send_waiting() {
     if (!gather_.waits()) {
       return;
@@ -367,8 +367,8 @@ class RayProgram final : public NodeProgram {
     });
   }
 
-  /// What a primary ray that needs not be traced comes to. With one sample a pixel nothing else falls on it. On a modelled
-  /// machine it is sent like other light: what packets take is part of every virtual time.
+  /// The light of a primary ray that need not be traced. With one sample a pixel, nothing else contributes to that pixel. On a
+  /// modelled machine it is sent like other light: the cost of packets is part of every virtual time.
   void leave_background(std::uint32_t pixel, std::uint32_t sample) {
     ++operations_.rays[static_cast<std::size_t>(core::RayKind::primary)];
     ++operations_.skipped.background;
@@ -394,7 +394,7 @@ class RayProgram final : public NodeProgram {
     trace();
   }
 
-  /// A fresh ray, if make(ray) makes one.
+  /// Adds a new ray if make(ray) makes one.
   template <class Make>
   void shoot(const Make& make) {
     if (const core::Ray* const ray = task_.shoot_made(make)) {
@@ -403,7 +403,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// The ray goes on in a region of this node's, or of another's.
+  /// The ray continues in a region of this node, or of another.
   void go_to_stop() {
     const nodes::NodeId owner = constants_->regions.owner_at(task_.stop());
     if (owner == node_->id()) {
@@ -418,7 +418,7 @@ class RayProgram final : public NodeProgram {
     send_waiting();
   }
 
-  /// Rays that do not start in this region may go on in it, but none comes back.
+  /// Rays that do not start in this region may continue in it, but none returns.
   void trace() {
     while (task_.has_rays() || task_.has_ended()) {
       if (!task_.has_ended()) {
@@ -452,7 +452,7 @@ class RayProgram final : public NodeProgram {
     ++counters_.ended;
   }
 
-  /// A ray has met its nearest hit, or a shadow ray any; or that is proved where nothing is.
+  /// A ray has found its nearest hit, or a shadow ray any hit; or it is certain that there is none.
   void end_hit() {
     if (task_.ray().kind == core::RayKind::shadow) {
       end_blocked();
@@ -464,7 +464,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// A hit is known to be the nearest where its record is not, or not at hand.
+  /// A hit proved to be the nearest where its record is not available, or not at hand.
   void shade_at_finder(const RayMessage& hit) {
     const nodes::NodeId finder{hit.finder};
     if (finder == node_->id()) {
@@ -476,7 +476,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// This node shades the hit of a ray, and no other does.
+  /// This node, and no other, shades the hit of a ray.
   void count_claim(core::RayKind kind) {
     ++counters_.ended;
     ++(kind == core::RayKind::primary ? operations_.primary_hits : operations_.secondary_hits);
@@ -488,7 +488,7 @@ class RayProgram final : public NodeProgram {
     leave_light(ray, settings.asks_sky(ray) ? light_of_sky(ray) : settings.light_of_miss(ray));
   }
 
-  /// Every node has all of a sky's picture: rays leave the scene anywhere.
+  /// Every node has the whole sky picture, since rays may leave the scene anywhere.
   core::Color light_of_sky(const core::Ray& ray) {
     const core::RenderSettings& settings = constants_->settings;
     const std::byte* const tile = tracer_.find(core::sky_record(ray, settings.header));
@@ -512,7 +512,7 @@ class RayProgram final : public NodeProgram {
     send_waiting();
   }
 
-  /// Nothing to do until a packet comes: keeps nobody's credit.
+  /// Nothing to do until a packet comes: returns all credits.
   void rest() {
     ++counters_.rests;
     arrivals_.give_all_back();
@@ -525,7 +525,7 @@ class RayProgram final : public NodeProgram {
     }
   }
 
-  /// Keeps no token, and once the end is proved no light.
+  /// Keeps no token and, once termination is proved, no light.
   void be_passive() {
     if (const std::optional<TokenHandover> handover = termination_.hand_on()) {
       send_tokens(*node_, *handover);
@@ -577,9 +577,9 @@ class RayProgram final : public NodeProgram {
   DoneBelow below_;
   core::Operations operations_;
   RayCounters counters_;
-  Newest newest_;                ///< the current or last quantum's, if it works on a ray
-  bool finishing_ = false;       ///< the host has proved that no ray of the pass is left
-  bool flushes_ = false;         ///< or would have, in the last quantum
+  Newest newest_;                ///< of the current or last quantum, if it works on a ray
+  bool finishing_ = false;       ///< the host has proved that the pass has no rays left
+  bool flushes_ = false;         ///< or would have done so, in the last quantum
   bool puts_off_flush_ = false;  ///< until it is known that no packet comes soon
   bool done_ = false;
   bool stopped_ = false;

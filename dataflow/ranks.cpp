@@ -26,12 +26,12 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
   return request;
 }
 
-/// What a node is assigned except for its records, which its program reads itself, behind it.
+/// The assignment of a node, except for its records, which follow it and which its program reads itself.
 struct Assigned {
   core::DatabaseHeader header;
   std::size_t record_bytes = 0;
   std::vector<PrimaryRun> primaries;
-  std::vector<std::uint32_t> pages, runs_of_unit;  ///< where regions move
+  std::vector<std::uint32_t> pages, runs_of_unit;  ///< if regions move
 };
 
 std::string assigned_bytes(const Distribution& distribution, std::uint32_t node) {
@@ -53,10 +53,10 @@ Assigned assigned_from(std::string_view bytes) {
   return {header, record_bytes, std::move(primaries), std::move(pages), flat.take_all<std::uint32_t>()};
 }
 
-/// What a rank without the host makes its nodes of.
+/// The data from which a rank without the host creates its nodes.
 class Job {
  public:
-  /// Makes the plan anew and expects it to be the same.
+  /// Recomputes the plan and expects it to be equal.
   Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const nodes::WorkerCallbacks& /*following*/)
       : plan_(make_plan(take_request(flat, ranks))), regions_(flat.take<Regions>()) {
     proxy_.header = flat.take<core::DatabaseHeader>();
@@ -82,7 +82,7 @@ class Job {
  private:
   Plan plan_;
   Regions regions_;
-  core::DatabasePart proxy_;  ///< its header and bytes alone
+  core::DatabasePart proxy_;  ///< only its header and bytes
 };
 
 }  // namespace

@@ -13,16 +13,15 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// Reports by pixel need single rays; and the nodes of a modelled machine compute as those of the article
-/// did.
+/// Reports by pixel need single rays, and the nodes of a modelled machine compute as those of the article did.
 bool walks_in_bundles(const RunOptions& options) { return !options.computer.machine && !options.watching.is_metered(); }
 
-/// What was assigned before the start would have to be done before anything can be kept.
+/// Work assigned before the start would have to be finished before anything can be kept.
 bool is_assigned_on_the_way(const RunOptions& options) {
   return options.are_frames || options.continuation.start != nullptr || options.continuation.keep;
 }
 
-/// What regions have, by number, summed up for each node.
+/// The sum for each node of a quantity given by region.
 std::vector<double> by_node(const Regions& regions, const std::vector<double>& by_region) {
   std::vector<double> loads(regions.node_count());
   for (std::uint32_t index = 0; index < by_region.size(); ++index) {
@@ -31,8 +30,8 @@ std::vector<double> by_node(const Regions& regions, const std::vector<double>& b
   return loads;
 }
 
-/// Regions on their nodes, and the predicted load of each node if there is one. `loads` are those of a subsampled picture, if
-/// regions are made from one.
+/// The assignment of regions to nodes, with each node's predicted load if there is one. `loads` are those of a subsampled
+/// picture, if regions are made from one.
 Balanced regions_for(std::uint32_t node_count, const ColumnLoads& loads, const core::RenderSettings& settings,
                      const RunOptions& options) {
   if (options.make_regions) {

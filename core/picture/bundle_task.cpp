@@ -5,7 +5,7 @@
 
 namespace dmpc::core {
 
-/// The first rays are shot by run(), as all others are.
+/// run() generates the first rays, as all others.
 template <class Bundle>
 void BundleTaskWith<Bundle>::start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps,
                                    const RenderSettings& settings, Operations&) {
@@ -24,7 +24,7 @@ void BundleTaskWith<Bundle>::start(std::span<const std::uint32_t> pixels, std::s
   bundle_.count = 0;
 }
 
-/// With no hit left to shade: the next samples, if there are any.
+/// When no hit is left to shade, goes on with the next samples, if there are any.
 template <class Bundle>
 bool BundleTaskWith<Bundle>::next_samples(const RenderSettings& settings, Operations& operations) {
   if (next_place_ == pixel_count_) {
@@ -56,14 +56,14 @@ void BundleTaskWith<Bundle>::shoot_primary(std::uint32_t place, std::uint32_t sa
   deposit(sums_[place], ray, settings.light_of_miss(ray), settings, operations);
 }
 
-/// The ray behind the others, which has been set.
+/// The next ray of the bundle, which has been set.
 template <class Bundle>
 void BundleTaskWith<Bundle>::add_ray(std::uint32_t place, Operations& operations) {
   ++operations.rays[static_cast<std::size_t>(bundle_.rays[bundle_.count].kind)];
   place_[bundle_.count++] = static_cast<std::uint8_t>(place);
 }
 
-/// Returns whether there are rays to be traced, which become the current bundle.
+/// Returns whether there are rays to trace, which become the current bundle.
 template <class Bundle>
 bool BundleTaskWith<Bundle>::begin_tracing() {
   tracing_ = bundle_.count > 0;
@@ -71,7 +71,7 @@ bool BundleTaskWith<Bundle>::begin_tracing() {
   return tracing_;
 }
 
-/// The place of the next ones, which is that of those that wait for nothing more.
+/// The slot for the next hits, that of those which need nothing more.
 template <class Bundle>
 BundleHit& BundleTaskWith<Bundle>::fresh_hits() {
   stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_));
@@ -80,7 +80,7 @@ BundleHit& BundleTaskWith<Bundle>::fresh_hits() {
   return stack_[stack_size_];
 }
 
-/// What traced rays leave: light on the film, or hits on the stack.
+/// Handles traced rays: deposits light on the film, or pushes hits on the stack.
 template <class Bundle>
 void BundleTaskWith<Bundle>::end_rays(const RenderSettings& settings, Operations& operations) {
   const bool is_shadow = bundle_.rays[0].kind == RayKind::shadow;

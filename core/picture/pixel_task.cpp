@@ -39,7 +39,7 @@ void PixelTaskWith<RayCursor>::shoot(const Ray& ray, Operations& operations) {
   ++operations.rays[static_cast<std::size_t>(ray.kind)];
 }
 
-/// In the place of those that wait for nothing more.
+/// The slot of a hit that needs nothing more.
 template <class RayCursor>
 void PixelTaskWith<RayCursor>::push(const HitState& hit) {
   stack_size_ = waiting_count(stack_, stack_size_);
@@ -47,7 +47,7 @@ void PixelTaskWith<RayCursor>::push(const HitState& hit) {
   stack_[stack_size_++] = hit;
 }
 
-/// What a traced ray leaves: light on the film, or a hit on the stack.
+/// Handles a traced ray: deposits light on the film, or pushes a hit on the stack.
 template <class RayCursor>
 void PixelTaskWith<RayCursor>::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
@@ -61,7 +61,7 @@ void PixelTaskWith<RayCursor>::end_ray(Traced result, const RenderSettings& sett
   }
 }
 
-/// With no hit left to shade: the next sample, if there is one.
+/// When no hit is left to shade, goes on with the next sample, if there is one.
 template <class RayCursor>
 bool PixelTaskWith<RayCursor>::next_sample(const RenderSettings& settings, Operations& operations) {
   if (++sample_ == sample_end_) {

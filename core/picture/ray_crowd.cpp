@@ -10,7 +10,7 @@ namespace dmpc::core {
 namespace {
 
 constexpr std::uint64_t looked_at = 64;
-/// Odd and near to what is left of the golden ratio: its multiples go all over the picture.
+/// Odd and near to the fractional part of the golden ratio, so its multiples spread over the whole picture.
 constexpr std::uint64_t stride = 2'654'435'761;
 
 /// For a material with an extension the record does not say whether it has alpha, so it may transmit light.
@@ -21,7 +21,8 @@ bool can_send_two(const MaterialRecord& material) {
 bool can_send_two(const Database& database) {
   const DatabaseHeader& header = database.header();
   const LocalRecords records(database.bytes());
-  for (std::uint32_t i = 0; i < header.material_count; ++i) {  // finishes come last, and none is looked at before its material
+  for (std::uint32_t i = 0; i < header.material_count;
+       ++i) {  // extensions come last, and a material is tested before its extension
     if (can_send_two(read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord)))))) {
       return true;
     }
@@ -40,7 +41,7 @@ std::uint8_t find_one_child_depth(const Database& database, const RenderSettings
     return 0;
   }
   RenderSettings all = settings;
-  all.skips = {};  // what is left out changes no film, so neither may what is counted
+  all.skips = {};  // skipped rays change no film, so they must not change the counts either
   LocalRecords records(database.bytes());
   GridTracer tracer(records, all.header, all.skips);
   std::vector<HitState> stack(static_cast<std::size_t>(all.shade.depth_max));

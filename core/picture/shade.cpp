@@ -25,12 +25,12 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// That a ray's record can hold.
+/// The maximum depth that a ray's record can hold.
 constexpr int depth_limit = 255;
 
 TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 
-/// What its two children count for.
+/// The combined weight of the two children.
 float both_shares(const HitState& state) { return mirrored_share(state) + state.surface.material.transmittance; }
 
 std::uint64_t bits_of(const Vec3f& vector) {
@@ -38,22 +38,22 @@ std::uint64_t bits_of(const Vec3f& vector) {
   return mix(mix(word(vector.x) << 32U | word(vector.y)) + word(vector.z));
 }
 
-/// A mirror's corners come the other way round.
+/// A mirrored instance has its corners in reverse order.
 void turn_places(const HitState& state, TexturedNormals& triangle) {
   if (state.is_in_mirror) {
     std::swap(triangle.place[0], triangle.place[2]);
   }
 }
 
-/// From 0 to 1, of a ray: its own, whoever shades its hit, and when.
+/// A random number from 0 to 1 for a ray, independent of who shades its hit, and when.
 double chance_of(const Ray& ray) {
   const std::uint64_t place = std::uint64_t{ray.pixel} << 32U | ray.sample;
   const std::uint64_t bits = mix(mix(mix(place) + bits_of(ray.origin) + ray.depth) + bits_of(ray.direction));
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
-/// Light of a microfacet surface, otherwise diffuse plus Phong's highlight (NFF), for light at this cosine; `highlight`:
-/// lobe_cosine() to the power of the shine.
+/// Light reflected for a light source at this cosine: by a microfacet surface, or diffuse plus Phong's highlight (NFF);
+/// `highlight` is lobe_cosine() to the power of the shininess.
 Color reflected_light(const HitState& state, const LightRecord& light, const LightFall& fall, double highlight) {
   const MaterialRecord& material = state.surface.material;
   if (material.has_microfacets()) {
@@ -66,15 +66,15 @@ Color reflected_light(const HitState& state, const LightRecord& light, const Lig
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
-/// Leaves a share of the surface there: through the rest the ray goes on.
+/// Keeps a share of the surface; the ray continues through the rest.
 void cover(MaterialRecord& material, float share) {
   material.diffuse *= share;
   material.specular *= share;
   material.transmittance = material.transmittance * share + (1.0F - share);
 }
 
-/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 except for rounding, for the sake of
-/// which no ray is sent, and no texel of just the cutoff is cut away.
+/// The coverage that alpha leaves with this cutoff. The weights of a look-up add up to 1 except for rounding, which must neither
+/// send a ray nor cut away a texel of exactly the cutoff.
 float share_left(std::uint16_t cutoff, float alpha) {
   constexpr float rounding = 0x1p-16F;
   const float share = alpha > 1.0F - rounding ? 1.0F : alpha < rounding ? 0.0F : alpha;
@@ -84,18 +84,18 @@ float share_left(std::uint16_t cutoff, float alpha) {
   return share * float{MaterialExtensionRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
 }
 
-/// Applies it to a hit, and returns the coverage.
+/// Applies alpha to a hit and returns the coverage.
 float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_index) {
   MaterialRecord& material = state.surface.material;
   const float share = share_left(cutoff, state.coverage());
-  material.refraction_index = share > 0.0F ? refraction_index : 1.0F;  // a hole bends nothing
+  material.refraction_index = share > 0.0F ? refraction_index : 1.0F;  // a hole does not refract
   if (share < 1.0F) {
     cover(material, share);
   }
   return share;
 }
 
-/// Makes a surface's record, which is that of one without metal, what a texture says. What alpha leaves out is no metal.
+/// Applies a texture to a surface's record, which is that of one without metal. The part that alpha leaves out is no metal.
 void multiply(const HitState::FacetShares& shares, MicrofacetRecord& facets, MaterialRecord& material) {
   facets.metallic *= std::min(shares.metallic, 1.0F);  // the weights of a look-up add up to 1 except for rounding
   facets.alpha *= std::min(shares.roughness * shares.roughness, 1.0F);
@@ -104,7 +104,7 @@ void multiply(const HitState::FacetShares& shares, MicrofacetRecord& facets, Mat
   material.transmittance = absent + std::max(material.transmittance - absent, 0.0F) * dielectric;
 }
 
-/// Highlight and mirror, the surface's own colour being that of the material.
+/// Highlight and mirror; the surface's own colour is that of the material.
 HitState::Gloss gloss_of(MaterialRecord& material, const MaterialExtensionRecord& finish) {
   const Color color = finish.specular + material.color * material.specular;
   material.specular = std::max({color.x, color.y, color.z});
@@ -115,17 +115,17 @@ HitState::Gloss gloss_of(MaterialRecord& material, const MaterialExtensionRecord
   return gloss;
 }
 
-/// Where metal and roughness of its material come from, if that is a texture.
+/// The texture of metal and roughness of a material, if there is one.
 const Texture* facet_texture(const Scene& scene, const Material& material) {
   return material.microfacets.have_texture() ? &scene.textures[material.microfacets.texture] : nullptr;
 }
 
-/// What a texture multiplies the material's colour by at most.
+/// The maximum factor that a texture applies to the material's colour.
 double texture_max(const Scene& scene, const Material& material) {
   return material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
 }
 
-/// Whether the last hit of a path sends a ray of its own to look for light that is found where that ends.
+/// Whether the last hit of a path sends a BSDF-sampled ray whose end may be emitting.
 bool is_bsdf_sampled(const DatabaseHeader& header) { return header.has_emission != 0 || has_sky_picture(header); }
 
 }  // namespace
@@ -164,11 +164,11 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
     passed_on = std::max(passed_on, scattered + (material.alpha == AlphaUse::none ? share : std::max(share, 1.0)));
   }
   if (transport.is_by_paths()) {
-    passed_on = std::max(passed_on, 1.0);  // who survives roulette counts for others
+    passed_on = std::max(passed_on, 1.0);  // the survivors of roulette count for others
   }
   const double background = std::max({brightest(scene.background), double{brightest(transport.zenith)}, sky});
   double bound = std::max(background, direct);
-  const int looks = transport.is_by_paths() ? 1 : 0;  // for the last hit, by light sampling of the sky or of emitters
+  const int looks = transport.is_by_paths() ? 1 : 0;  // for the last hit's light sampling of the sky or of emitters
   for (int depth = depth_max + looks; depth > 2; --depth) {
     bound = std::max(background, direct + passed_on * bound);
   }
@@ -189,9 +189,9 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
   return 1.0 / std::sqrt(static_cast<double>(count));
 }
 
-/// How wide, grid-local, what the ray stands for is where it hits. Of a primary ray: along the film, which is a pixel's side
-/// there. Of all others: across the ray, by the shorter of the sides in which its pixel is seen from the eye: so wide a cone
-/// covers nothing that the pixel does not, and what it does not cover other samples do, whose difference an estimate of the error
+/// The width, grid-local, of the ray's footprint at the hit. For a primary ray it is measured along the film, where it is the
+/// side of a pixel. For all others it is measured across the ray, by the shorter side of the pixel as seen from the eye: a cone
+/// of that width covers nothing that the pixel does not, and other samples cover the rest, whose difference an error estimate
 /// sees.
 double Shader::width_at_hit(const HitState& state) const {
   const Ray& ray = state.ray;
@@ -227,8 +227,8 @@ void Shader::begin_texture(HitState& state, const TexturedNormals& textured) con
   state.stage = Stage::texture;
 }
 
-/// Metal and roughness are looked up before the colour, of which there is more to keep. Both have the footprint that the ray has
-/// on the finer of their textures.
+/// Metal and roughness are looked up before the colour, which has more to store. Both use the ray's footprint on the finer of the
+/// two textures.
 void Shader::begin_facets(HitState& state, const FacetedNormals& triangle) const {
   ++operations_.texture_lookups;
   const TextureReference &color = triangle.textured.texture, &facets = triangle.facets;
@@ -245,7 +245,7 @@ void Shader::begin_facets(HitState& state, const FacetedNormals& triangle) const
   state.stage = Stage::texture;
 }
 
-/// The colour's look-up begins where that of metal and roughness has ended.
+/// The colour's look-up begins when that of metal and roughness has ended.
 void Shader::turn_to_color(HitState& state, const std::byte* record) const {
   ++operations_.texture_lookups;
   const auto textured = read<TexturedNormals>(record);
@@ -269,7 +269,7 @@ void Shader::step_texture(HitState& state, const std::byte* record) const {
   }
 }
 
-/// The colours of a triangle's corners, between which lies that of the hit as what a texture would give.
+/// Interpolates the colours of a triangle's corners for the hit, as if from a texture.
 void Shader::read_corners(HitState& state, const TexturedNormals& corners) const {
   const std::array<double, 3> weight{1.0 - state.u - state.v, state.u, state.v};
   std::array<double, 4> sum{};
@@ -287,7 +287,7 @@ void Shader::read_corners(HitState& state, const TexturedNormals& corners) const
   state.stage = Stage::textured_material;
 }
 
-/// Blends the vertex normals, turned to the winding's side and then to the ray's.
+/// Blends the vertex normals, flipped to the winding's side and then to the ray's.
 void Shader::blend_normals(HitState& state, const std::array<Vec3f, 3>& normals) const {
   const Vec3d blend = Vec3d(normals[0]) * (1.0 - state.u - state.v) + Vec3d(normals[1]) * state.u + Vec3d(normals[2]) * state.v;
   const double size = length(blend);
@@ -298,7 +298,7 @@ void Shader::blend_normals(HitState& state, const std::array<Vec3f, 3>& normals)
   }
 }
 
-/// Keeps the normals of a base mesh, until its instance is read once more.
+/// Keeps the normals of a base mesh until its instance is read once more.
 void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
   if (!normals.is_textured()) {
     state.shading = ShadingReference::flat(normals.material());
@@ -309,7 +309,7 @@ void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
   state.stage = Stage::placed_normals;
 }
 
-/// What the converter makes of a copy's normals.
+/// Computes the same normals as the converter computes for a copy.
 void Shader::place_normals(HitState& state, const std::byte* instance) const {
   const auto two = std::bit_cast<std::array<Vec3f, 2>>(state.normal);
   const CutEllipse ellipse = state.of_mesh.ellipse;
@@ -366,7 +366,7 @@ Stage Shader::after_reflection(const HitState& state) const {
   return refracts(state) && !sends_one(state) ? Stage::refracted : Stage::finished;
 }
 
-/// What shines by itself is looked for by a ray of the path's own, as long as a ray can be as deep.
+/// At the last depth the path sends a ray of its own to find emitters, as long as rays may be as deep.
 bool Shader::is_at_last_depth(const HitState& state) const {
   return state.ray.depth >= ray_depth_max(options_, header_) ||
          (state.ray.depth >= options_.depth_max && !is_bsdf_sampled(header_));
@@ -377,7 +377,7 @@ Stage Shader::after_lights_of_path(const HitState& state) const {
   return finds_light ? Stage::continued : Stage::finished;
 }
 
-/// The number of lights that are sampled. A path beyond its last bounce only looks for emitters.
+/// The number of lights that are sampled. A path beyond its last bounce only samples emitters.
 std::uint32_t Shader::light_count(const HitState& state) const {
   const bool asks = !options_.transport.is_by_paths() || state.ray.depth <= options_.depth_max;
   return asks ? header_.light_count : 0;
@@ -404,7 +404,7 @@ void Shader::judge_refraction(HitState& state) const {
   operations_.total_internal_reflections += !state.has_refraction && state.surface.material.transmittance > 0.0F ? 1 : 0;
 }
 
-/// Which children the hit may have, and which it does not have since their share is nothing.
+/// Determines which children the hit may have, and which are omitted because their weight is 0.
 void Shader::judge_children(HitState& state) const {
   judge_refraction(state);
   operations_.skipped.zero_terms += reflects(state) ? 0 : 1;
@@ -428,7 +428,7 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
   }
 }
 
-/// The surface shines by itself as far as it is there.
+/// The emission is scaled by the surface's coverage.
 void Shader::read_extension(HitState& state, const std::byte* record) const {
   if (state.has_microfacets()) {
     return read_microfacets(state, record);
@@ -439,7 +439,7 @@ void Shader::read_extension(HitState& state, const std::byte* record) const {
   come_to_lights(state, finish.emission * (share * mis_weight(state, finish.emission)));
 }
 
-/// No highlight and no mirror is left of the material.
+/// The material's highlight and mirror are removed.
 void Shader::read_microfacets(HitState& state, const std::byte* record) const {
   auto facets = read<MicrofacetRecord>(record);
   if (facets.has_texture != 0) {
@@ -469,7 +469,7 @@ void Shader::come_to_lights(HitState& state, const Color& emission) const {
   }
 }
 
-/// To the emitter that is drawn, if one is, else to what comes behind.
+/// Goes on to the emitter that is sampled, if there is one, else to the stage after emitters.
 void Shader::end_point_lights(HitState& state) const {
   if (aims_at_emitter(state)) {
     begin_emitter(state);
@@ -478,7 +478,7 @@ void Shader::end_point_lights(HitState& state) const {
   }
 }
 
-/// Whether a ray that brings `weight` from a light is left out, and why. The paper's convention shoots all.
+/// Whether a ray that brings `weight` from a light is omitted, and why. The paper's convention traces all of them.
 bool Shader::leaves_out(bool is_lit, const Color& weight) const {
   if (options_.convention == Convention::paper || !(weight == Color{})) {
     return false;
@@ -529,7 +529,7 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
   return is_worth_it(child);
 }
 
-/// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
+/// A reflected or refracted ray's cone keeps its parent's width and angle; the effect of curvature is ignored.
 void Shader::widen(const HitState& state, Ray& child) const {
   if (options_.pixel_share > 0) {
     const bool is_primary = state.ray.kind == RayKind::primary;
@@ -572,11 +572,11 @@ Ray Shader::continued_ray(const HitState& state, const Vec3d& towards, RayKind k
   return ray;
 }
 
-/// A shadow ray without an end brings the sky's light.
+/// A shadow ray of infinite length brings the sky's light.
 bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child) const {
   child = continued_ray(state, step.towards, RayKind::shadow, state.ray.weight * step.weight);
   if (has_sky_picture(header_)) {
-    return false;  // beyond the last depth that rays can have
+    return false;  // beyond the maximum depth of rays
   }
   child.weight = child.weight * sky_light(options_.transport, header_.background, child.direction);
   return !leaves_out(true, child.weight);
@@ -592,7 +592,8 @@ bool Shader::send_on(HitState& state, Ray& child) const {
   if (is_at_last_depth(state)) {
     return look_at_sky(state, *step, child);
   }
-  const RayKind kind = state.ray.depth < options_.depth_max ? step->kind : RayKind::scattered;  // no backdrop for the last one
+  const RayKind kind =
+      state.ray.depth < options_.depth_max ? step->kind : RayKind::scattered;  // the last one shows no background
   if (is_for_nothing(kind)) {
     return false;
   }
@@ -602,14 +603,14 @@ bool Shader::send_on(HitState& state, Ray& child) const {
   return true;
 }
 
-/// Its light would be 0, however long it goes on.
+/// The ray's light would be 0, however far it goes.
 bool Shader::is_for_nothing(RayKind kind) const {
   const bool leaves = skips_.zero_terms && !may_find_light(header_, options_.transport, kind);
   operations_.skipped.zero_terms += leaves ? 1 : 0;
   return leaves;
 }
 
-/// What it can bring to its sample at most, in any channel, is not below the cutoff.
+/// Whether its maximum contribution to its sample, in any channel, is not below the cutoff.
 bool Shader::is_worth_it(const Ray& child) const {
   const double bound = brightest(Vec3d(child.weight)) * (child.kind == RayKind::shadow ? 1.0 : options_.radiance_bound);
   const bool is_cut = options_.cutoff > 0 && bound < options_.cutoff;

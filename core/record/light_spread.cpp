@@ -25,7 +25,7 @@ double place_of(std::uint16_t bits) { return bits * (2.0 / place_steps) - 1.0; }
 
 double with_sign_of(double value, double sign) { return sign < 0.0 ? -value : value; }
 
-/// The lower half of the octahedron is folded outwards over the corners of the square.
+/// Folds the lower half of the octahedron outwards over the corners of the square.
 std::array<double, 2> folded(double x, double y) {
   return {with_sign_of(1.0 - std::fabs(y), x), with_sign_of(1.0 - std::fabs(x), y)};
 }

@@ -30,7 +30,7 @@ bool shines(const Scene& mesh, const std::vector<Material>& materials) {
 }
 
 bool can_be_instanced(const Transform& world) {
-  // Placed normals are off by what doubles round off products of two of the rows, beside the volume of what the three span.
+  // Transformed normals are off by the rounding of products of two rows in double, relative to the volume that the three span.
   constexpr double share_least = 0x1p-24, size_least = 0x1p-200, size_max = 0x1p200;
   double square = 0;
   for (const Vec3d& row : world.rows) {

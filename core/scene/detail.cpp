@@ -12,21 +12,21 @@
 namespace dmpc::core {
 namespace {
 
-/// Objects that are looked at, evenly spread over all, copies of meshes among them.
+/// The number of objects that are examined, evenly spread over all, including copies of meshes.
 constexpr std::size_t objects_max = 65536;
-/// Objects count as no smaller than this share of the scene: next to that doubles tell nothing apart.
+/// Objects count as no smaller than this share of the scene: below it doubles distinguish nothing.
 constexpr double least_share = 0x1p-40;
 
-/// So much of the detail must lie close together.
+/// The share of the detail that must lie close together.
 constexpr double close_part = 0.75;
-/// Slices of a scene, each twice as wide as detail may be away from the place about which it lies, and room for two more.
+/// Slices of a scene, each twice as wide as the maximum distance of detail from its center, plus two.
 constexpr std::size_t slice_count = static_cast<std::size_t>(0.5 / close_share) + 2;
 
 struct Weighted {
   double value, weight;
 };
 
-/// The least value up to which this share of the weight lies.
+/// The least value such that this share of the weight lies at or below it.
 double quantile(std::vector<Weighted>& all, double share) {
   std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
   double wanted = 0;
@@ -64,7 +64,7 @@ struct Detail {
   double weight;
 };
 
-/// The details of all objects but those that are left out of the bounds, being degenerate or too far away.
+/// The details of all objects except those that the bounds exclude as degenerate or too far away.
 std::vector<Detail> details_of(const Scene& scene, const Box& bounds, double extent) {
   std::vector<Detail> details;
   const PlacedObjects objects(scene);
@@ -81,10 +81,10 @@ std::vector<Detail> details_of(const Scene& scene, const Box& bounds, double ext
   return details;
 }
 
-/// Whether no cube of half side `reach` can hold the close part of all details: along some axis no two slices side by side do,
-/// each of which is as wide as the cube. That shows of most scenes that their detail is spread, and takes no sorting.
+/// Whether no cube of half side `reach` can hold the close part of all details: along some axis no two adjacent slices do, each
+/// as wide as the cube. That rules out most scenes, whose detail is spread, without sorting.
 bool are_spread(const std::vector<Detail>& details, const Box& bounds, double reach) {
-  constexpr double rounding = 0x1p-20;  // far more than slices and sums of so few are off by
+  constexpr double rounding = 0x1p-20;  // far more than the rounding of slices and sums
   const double slices = 1 / (2 * reach * (1 + rounding));
   for (std::size_t axis = 0; axis < 3 && std::isnormal(slices); ++axis) {
     std::array<double, slice_count> weight{};

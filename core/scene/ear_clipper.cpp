@@ -10,15 +10,15 @@
 namespace dmpc::core {
 namespace {
 
-/// A corner that turns right by more is no better than another.
+/// Corners that turn right by more than this are all equally bad.
 constexpr double turn_min = -1;
 
 constexpr std::uint32_t leaf_corners = 8;
-/// Fewer are looked through one by one. A box leaves out what rounding alone puts into a triangle, and small polygons stay what
-/// they have always been.
+/// Smaller polygons are searched linearly. A box excludes points that rounding alone puts into a triangle, and small polygons
+/// keep their results.
 constexpr std::uint32_t listed_corners = 64;
 
-/// What sums of a few products may lose; far more than doubles do.
+/// The maximum rounding error of sums of a few products; far more than that of doubles.
 constexpr double rounding = 0x1p-44;
 
 }  // namespace
@@ -42,11 +42,11 @@ CornerTriangle EarClipper::triangle_at(std::uint32_t corner) const {
 void EarClipper::measure(std::uint32_t corner) {
   const auto [before, at, after] = triangle_at(corner);
   const double turn = polygon_.turn(before, at, after);
-  corners_[corner].turn = turn > turn_min ? turn : -std::numeric_limits<double>::infinity();  // no number neither
+  corners_[corner].turn = turn > turn_min ? turn : -std::numeric_limits<double>::infinity();  // a NaN counts as such, too
   by_turn_.emplace(corners_[corner].turn, corner);
 }
 
-/// Whether it is an ear.
+/// Tests whether the corner is an ear.
 void EarClipper::look_at(std::uint32_t corner) {
   ears_.erase(corner);
   if (!(corners_[corner].turn > 0)) {
@@ -133,7 +133,7 @@ CornerTree::Box CornerTree::box_of(std::uint32_t first, std::uint32_t end) const
   return box;
 }
 
-/// In the middle of its longer side, into halves.
+/// Splits the box into halves in the middle of its longer side.
 void CornerTree::split(std::uint32_t node) {
   nodes_[node].is_one_place = std::all_of(order_.begin() + nodes_[node].first, order_.begin() + nodes_[node].end,
                                           [&](std::uint32_t i) { return polygon_.same_place(i, order_[nodes_[node].first]); });

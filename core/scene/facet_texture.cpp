@@ -11,7 +11,7 @@
 namespace dmpc::core {
 namespace {
 
-/// What was taken for light on a curve is what its bytes say; floats are as they are.
+/// Undoes the sRGB decoding of bytes; floats are unchanged.
 std::uint32_t as_numbers(TexelFormat format, std::uint32_t texel) {
   const bool had_curve = format != TexelFormat::shared_exponent;
   return encoded(had_curve ? TexelFormat::srgb : TexelFormat::linear, Vec3d(decoded(format, texel)));
@@ -46,7 +46,7 @@ void take_mean(Microfacets& facets, const Texture& texture) {
   facets.use = FacetTexture::placed;
 }
 
-/// Colours keep their order, and stand before numbers, of which those that no material has are left out.
+/// Colours keep their order and precede numbers; numbers that no material uses are removed.
 void arrange(Scene& scene) {
   std::vector<bool> used(scene.textures.size());
   for (const Material& material : scene.materials) {

@@ -9,20 +9,20 @@ namespace dmpc::core {
 namespace {
 
 constexpr double flat_share = 1e-4;
-/// Margin in cells between the grid's first plane and the scene.
+/// The margin in cells between the grid's first plane and the scene.
 constexpr double margin_cells = 0.3137 / 4;
 constexpr double cells_min = 1.0;
-/// The least extent, as a share of the largest coordinate: far more than what a double rounds off coordinates and radii, so that
-/// the grid holds what its records say.
+/// The minimum extent as a share of the largest coordinate: far more than the rounding of coordinates and radii in double, so
+/// that the grid contains what its records describe.
 constexpr double far_share = 0x1p-36;
-/// The extent given to a scene that is one point.
+/// The extent of a scene that is a single point.
 constexpr double point_extent = 1e-6;
-/// What is smaller than this is given it: its scale, and the edges of its cells, would be no normal numbers.
+/// The minimum extent: for smaller ones the scale and the edges of cells would be denormal.
 constexpr double extent_min = 0x1p-1000;
 
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
-/// How many cubic cells of edge `cell` cover the extent, margins included.
+/// The number of cubic cells of edge `cell` that cover the extent, margins included.
 std::array<std::int32_t, 3> cells_along(const Vec3d& extent, double cell) {
   std::array<std::int32_t, 3> count{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,7 +31,7 @@ std::array<std::int32_t, 3> cells_along(const Vec3d& extent, double cell) {
   return count;
 }
 
-/// The edge of a cell: cubic, about `wanted` of them over the box, with a bound for boxes that are flat or long.
+/// The edge of a cubic cell such that about `wanted` cells cover the box; bounded for flat or long boxes.
 double cell_edge(const Vec3d& extent, double wanted) {
   double cell = exponential(natural_log(extent.x * extent.y * extent.z / wanted) / 3);  // the cube root
   for (;;) {
@@ -43,7 +43,7 @@ double cell_edge(const Vec3d& extent, double wanted) {
   }
 }
 
-/// Whose square does not vanish, in the same direction; as it is unless it is tiny.
+/// Scales a tiny vector, in the same direction, so that its square does not vanish.
 Vec3d enlarged(const Vec3d& way) { return largest_component(way) < 0x1p-500 ? way * 0x1p550 : way; }
 
 }  // namespace
@@ -69,12 +69,12 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
   int exponent = 0;
   std::frexp(size, &exponent);
   frame.scale = std::ldexp(1.0, -exponent);
-  // In units of the scene, so that one scaled by a power of two gets the same grid to the last bit.
+  // In units of the scene, so that a scene scaled by a power of two gets the same grid to the last bit.
   const double cell = cell_edge(extent * frame.scale, wanted) / frame.scale;
   frame.resolution = cells_along(extent, cell);
   frame.finest_cell = static_cast<float>(cell * frame.scale / finest_per_cell);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double slack = (extent[axis] - (bounds.high[axis] - bounds.low[axis])) / 2;  // a flat scene lies in the middle
+    const double slack = (extent[axis] - (bounds.high[axis] - bounds.low[axis])) / 2;  // centers a flat scene
     frame.origin[axis] = bounds.low[axis] - slack - margin_cells * cell;
   }
   return frame;
@@ -83,7 +83,7 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
 double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers) {
   const double finest = double{frame.finest_cell};
   const double extent = finest * finest_per_cell * *std::max_element(frame.resolution.begin(), frame.resolution.end());
-  const double farthest = extent * (1.0 + distance);  // infinite for an eye that is too far for a double
+  const double farthest = extent * (1.0 + distance);  // infinite if the eye is too far away for a double
   const double by_layers = layers > 0 ? 0x1p-23 * farthest * layers : 0.0;
   return std::max(1e-3 * finest, 0x1p-21 * farthest) + by_layers + 1e-6 * extent;
 }

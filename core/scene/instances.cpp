@@ -34,7 +34,7 @@ std::uint64_t triangle_count(std::span<const Object> objects) {
   return count;
 }
 
-/// Which meshes are kept: those that are large and stand in several places that can keep them.
+/// Which meshes become base meshes: large ones with several instances that allow it.
 std::vector<bool> base_meshes(const Scene& scene, const Instances& instances) {
   std::vector<std::uint64_t> uses(instances.meshes.size());
   for (const Instance& place : instances.places) {
@@ -49,7 +49,7 @@ std::vector<bool> base_meshes(const Scene& scene, const Instances& instances) {
   return kept;
 }
 
-/// With all places that `counts` says of.
+/// With all instances of which `counts` is true.
 template <class Counts>
 ExpandedSize size_with(const Scene& scene, const Instances& instances, const Counts& counts) {
   std::vector<ExpandedSize> meshes;
@@ -70,7 +70,7 @@ ExpandedSize size_with(const Scene& scene, const Instances& instances, const Cou
 
 constexpr std::uint32_t nowhere = 0xffffffffU;
 
-/// Takes a mesh out of a scene by itself, and decides what its normals say: both have none where those are the faces' own.
+/// Extracts a mesh from a scene, and decides on its normals: where they equal those of the faces, object and mesh have none.
 class MeshTaker {
  public:
   explicit MeshTaker(Scene& scene) : scene_(scene) {}
@@ -124,12 +124,12 @@ class MeshTaker {
   Scene& scene_;
 };
 
-/// One pool after the other, so that but one is there twice at a time. Copies of base meshes are left out.
+/// Pools are processed one after the other, so that only one exists twice at a time. Copies of base meshes are left out.
 class Expansion {
  public:
   Expansion(Scene& scene, const Instances& instances) : scene_(scene), instances_(instances) {}
 
-  /// Returns what is kept.
+  /// Returns the base meshes.
   BaseMeshes run() {
     const ExpandedSize size = settled_size(scene_, instances_, Copies::left_out);
     size.check();
@@ -144,7 +144,7 @@ class Expansion {
   }
 
  private:
-  /// While they still have all that they need.
+  /// While the objects still have all that the meshes need.
   void keep_meshes() {
     const std::vector<bool> are_instanced = base_meshes(scene_, instances_);
     stored_as_.assign(are_instanced.size(), nowhere);
@@ -157,8 +157,8 @@ class Expansion {
     }
   }
 
-  /// Calls `own` with each object that stands where it is, `placed` with each of an instance's and its CopyPlacing, and `left`
-  /// with each instance whose mesh is kept, and as what, in order.
+  /// In order, calls `own` with each object that is not in an instance, `placed` with each object of an instance and its
+  /// CopyPlacing, and `left` with each instance of a base mesh and the mesh's index.
   template <class Left, class Own, class Placed>
   void for_each(const Left& left, const Own& own, const Placed& placed) const {
     auto place = instances_.places.begin();
@@ -216,7 +216,7 @@ class Expansion {
         });
   }
 
-  /// Normals, corners, and of which kind an object is with them.
+  /// Normals, corners, and the resulting kind of each object.
   void expand_shading(const ExpandedSize& size) {
     const std::vector<Vec3d> normals = std::exchange(scene_.normals, {});
     const std::vector<TexturedCorner> corners = std::exchange(scene_.corners, {});
@@ -248,7 +248,7 @@ class Expansion {
     pool.insert(pool.end(), more.begin(), more.end());
   }
 
-  /// Fills placed_ by `normal(i)`, or leaves it empty where `result` looks the same without.
+  /// Fills placed_ by `normal(i)`, or leaves it empty where `result` looks the same without normals.
   template <class Normal>
   void place_normals(const Object& result, const CopyPlacing& placing, const Normal& normal) {
     placed_.clear();

@@ -11,8 +11,8 @@ namespace {
 
 bool has_corners(const Object& object) { return object.kind < ObjectKind::sphere; }
 
-/// The objects and pools of a scene as one after the other adds to them. Vertices come with the objects, shading may come later,
-/// so that not all pools need be there twice.
+/// The objects and pools of a scene, to which objects are added one by one. Vertices come with the objects; shading may come
+/// later, so that not all pools must exist twice.
 class PoolWriter {
  public:
   explicit PoolWriter(Scene& to) : to_(to) {}
@@ -53,7 +53,7 @@ std::vector<bool> all_places(const Scene& scene) {
   return std::vector<bool>(scene.kept == nullptr ? 0 : scene.kept->places.size(), true);
 }
 
-/// In the file's order, with those of `places` alone.
+/// In the file's order, limited to the instances in `places`.
 template <class Take>
 void for_each_left_out(const Scene& scene, const std::vector<bool>& places, const Take& take) {
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -63,7 +63,7 @@ void for_each_left_out(const Scene& scene, const std::vector<bool>& places, cons
   }
 }
 
-/// Marks the copies of `places` as put.
+/// Marks the copies of the instances in `places` as put.
 void mark_copies(BaseMeshes& kept, const std::vector<bool>& places) {
   std::uint32_t left_out = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -95,7 +95,7 @@ void PlacedObjects::add_place(const BaseMeshInstance& place) {
   count_ = end;
 }
 
-/// Up to this one of the scene's.
+/// Adds the scene's own objects before `until`.
 void PlacedObjects::add_own(std::size_t until) {
   if (own_ < until) {
     runs_.push_back({count_, count_ + (until - own_), own_, nullptr});

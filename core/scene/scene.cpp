@@ -23,7 +23,7 @@ std::uint32_t pool_index(std::size_t index) {
   return static_cast<std::uint32_t>(index);
 }
 
-/// Adding 0 makes -0 and 0, which are equal, hash alike.
+/// Adding 0 makes -0 and 0, which are equal, hash equally.
 std::size_t mix(std::size_t hash, double value) {
   return (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U ^ (hash >> 29U);
 }

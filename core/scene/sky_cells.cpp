@@ -23,12 +23,12 @@ double mean_of(double top_left, double top_right, double bottom_left, double bot
   return ((top_left + top_right) + (bottom_left + bottom_right)) * 0.25;
 }
 
-/// Where a row of cells begins, as an angle from the upper pole.
+/// The angle from the upper pole at which a row of cells begins.
 double angle_above(const SkyReference& sky, std::uint32_t row) {
   return pi * std::clamp(row - 0.5, 0.0, static_cast<double>(sky.height)) / sky.height;
 }
 
-/// A number of whole cells and the rest, of something from 0 to less than `count`, except for rounding.
+/// The integer part, below `count`, and the fraction of a value in [0, count), which rounding may have moved out of the range.
 struct Split {
   std::uint32_t cell;
   double rest;

@@ -9,7 +9,7 @@
 namespace dmpc::core {
 namespace {
 
-/// The brightest texel lies below 2 to the power of this, the next above what a texel holds.
+/// The brightest texel lies below 2 to this power; the next power exceeds a texel's range.
 constexpr int brightest_exponent = 15;
 
 }  // namespace

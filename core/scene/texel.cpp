@@ -24,7 +24,7 @@ constexpr std::array<float, 256> curve() {
 }
 constexpr std::array<float, 256> light_of_byte = curve();
 
-/// fine_srgb: four steps to each of a byte's.
+/// fine_srgb: four steps for each step of a byte.
 constexpr std::uint32_t fine_bits = 10, fine_mask = (1U << fine_bits) - 1, fine_steps = 4 * 255;
 
 constexpr std::array<float, fine_mask + 1> fine_curve() {
@@ -36,7 +36,7 @@ constexpr std::array<float, fine_mask + 1> fine_curve() {
 }
 constexpr std::array<float, fine_mask + 1> light_of_step = fine_curve();
 
-/// The light half-way, on the curve's scale, between each step and the next.
+/// The linear value half-way, on the curve's scale, between each step and the next.
 constexpr std::array<double, fine_steps> fine_limits() {
   std::array<double, fine_steps> limits{};
   for (std::size_t step = 0; step < limits.size(); ++step) {
@@ -60,7 +60,7 @@ float mantissa(std::uint32_t texel, std::uint32_t channel) {
   return static_cast<float>(texel >> channel * mantissa_bits & ((1U << mantissa_bits) - 1));
 }
 
-/// What a format can hold of a channel.
+/// The channel clamped to the format's range.
 double bounded(double channel, double largest) { return channel > 0 ? std::min(channel, largest) : 0; }
 
 std::uint32_t encoded_bytes(const Vec3d& color) {
@@ -114,7 +114,7 @@ Color decoded(TexelFormat format, std::uint32_t texel) {
   if (format == TexelFormat::linear) {
     return {share_of(texel, 0), share_of(texel, 1), share_of(texel, 2)};
   }
-  constexpr std::uint32_t float_bias = 127, float_mantissa_bits = 23;  // 2 to a power that is no denormal's
+  constexpr std::uint32_t float_bias = 127, float_mantissa_bits = 23;  // a power of 2 that is not denormal
   const auto unit =
       std::bit_cast<float>(((texel >> 3 * mantissa_bits) + float_bias - exponent_bias - mantissa_bits) << float_mantissa_bits);
   return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;

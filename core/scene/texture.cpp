@@ -15,13 +15,13 @@
 namespace dmpc::core {
 namespace {
 
-/// The texels of one side that a coarser texel covers: `first` and the following ones, each by its share.
+/// The texels along one side that a coarser texel covers: `first` and the following ones, each with its share.
 struct Cover {
   std::uint32_t first = 0;
   std::vector<double> share;  ///< they add up to 1
 };
 
-/// What texel `index` of `coarse` covers on a side that has `fine`.
+/// The range that texel `index` of `coarse` covers on a side of `fine` texels.
 Cover cover_of(std::uint32_t index, std::uint32_t coarse, std::uint32_t fine) {
   const double width = static_cast<double>(fine) / coarse, low = index * width, high = (index + 1) * width;
   Cover cover{.first = static_cast<std::uint32_t>(low), .share = {}};
@@ -39,7 +39,7 @@ std::vector<Cover> covers_of(std::uint32_t coarse, std::uint32_t fine) {
   return covers;
 }
 
-/// The mean of the light and, where the format says what of it is there, of alpha: then each counts by that.
+/// The mean of the light and, if the format has it, of alpha, which then weights the light.
 std::uint32_t mean_of(const TextureLevel& level, TexelFormat format, const Cover& columns, const Cover& rows) {
   Vec3d sum;
   double alpha = 0;
@@ -97,7 +97,7 @@ double brightest_of(const TextureLevel& level, TexelFormat format) {
 constexpr std::uint32_t alpha_max = 255;
 constexpr unsigned alpha_shift = 24;
 
-/// Texels by their alpha.
+/// The number of texels for each alpha.
 using AlphaCounts = std::array<std::size_t, alpha_max + 1>;
 
 AlphaCounts alpha_counts(const TextureLevel& level) {
@@ -112,7 +112,8 @@ std::size_t count_from(const AlphaCounts& counts, std::size_t least) {
   return std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(least), counts.end(), std::size_t{0});
 }
 
-/// The alpha from which on a level is to be there, so that as nearly as can be `share` of it is: one beyond all for nothing.
+/// The least alpha to keep so that `share` of a level is kept as nearly as possible; one more than the maximum if nothing is to
+/// be kept.
 std::uint32_t least_to_keep(const AlphaCounts& counts, double share) {
   const double wanted = share * static_cast<double>(count_from(counts, 0));
   std::uint32_t best = 0;
@@ -127,16 +128,16 @@ std::uint32_t least_to_keep(const AlphaCounts& counts, double share) {
   return best;
 }
 
-/// Has the level cut where its alpha comes up to `least`, as a cut at `cut` of 255 is to do, and keeps the order of all alphas.
+/// Scales alpha so that a cut at `cut` of 255 falls where alpha reaches `least`; the order of all alphas is kept.
 void move_cut(TextureLevel& level, const AlphaCounts& counts, std::uint32_t least, std::uint32_t cut) {
-  std::uint32_t first = least, below = std::max(least, 1U) - 1;  // the nearest that there are
+  std::uint32_t first = least, below = std::max(least, 1U) - 1;  // the nearest values that occur
   while (first <= alpha_max && counts[first] == 0) {
     ++first;
   }
   while (below > 0 && counts[below] == 0) {
     --below;
   }
-  const double scale = 2.0 * cut / std::max(first + below, 1U);  // the cut comes halfway between both
+  const double scale = 2.0 * cut / std::max(first + below, 1U);  // the cut lies halfway between both
   for (std::uint32_t& texel : level.texels) {
     const std::uint32_t alpha = texel >> alpha_shift;
     const auto scaled = static_cast<std::uint32_t>(std::min<double>(alpha * scale + 0.5, alpha_max));

@@ -23,8 +23,8 @@ bool is_fan(const FlatPolygon& seen, std::uint32_t count) {
       return false;
     }
   }
-  // Every corner turns left, but a star may go round twice: then the fan has a triangle that turns right. Nor does a fan do where
-  // a corner lies on a straight edge: a triangle without area would be dropped and leave a crack.
+  // Every corner turns left, but a star may wind twice: then the fan has a triangle that turns right. A fan also fails where a
+  // corner lies on a straight edge: a triangle without area would be dropped and leave a crack.
   for (std::uint32_t i = 1; i + 1 < count; ++i) {
     if (!(seen.turn(0, i, i + 1) > 0)) {
       return false;
@@ -33,9 +33,9 @@ bool is_fan(const FlatPolygon& seen, std::uint32_t count) {
   return true;
 }
 
-/// Below it squares of areas may vanish, which are four such sizes multiplied.
+/// Below this size squares of areas, products of four such sizes, may underflow.
 constexpr double size_min = 0x1p-240;
-/// Brings them nearer to where they do not, and none so far that they are infinite.
+/// Scales such sizes so that they do not underflow, and none of them overflows.
 constexpr double enlargement = 0x1p480;
 
 double size_of(std::span<const Vec3d> vertices) {
@@ -61,7 +61,7 @@ std::vector<Vec3d> enlarged_copy(std::span<const Vec3d> vertices) {
 
 }  // namespace
 
-/// One product decides for a triangle, unless it is so small that the product vanishes.
+/// One product decides for a triangle, unless it is so small that the product underflows.
 bool has_area(std::span<const Vec3d> vertices) {
   if (vertices.size() == 3) {
     const Vec3d normal = cross(vertices[1] - vertices[0], vertices[2] - vertices[0]);

@@ -1,5 +1,5 @@
-// A bundle's rays and one record, many rays at a time. What is done here is what core/trace/kernel does for one ray, number by
-// number.
+// Intersects the rays of a bundle with one record, many rays at a time. Each ray gets exactly the numbers that
+// core/trace/kernel.h computes for a single ray.
 #include <algorithm>
 #include <bit>
 
@@ -36,7 +36,7 @@ HWY_INLINE Bounds bounds_of(const BvhNode& bvh_node) {
   return bounds;
 }
 
-/// A BVH node's planes as some rays come to them: bound * slope + offset.
+/// A BVH node's planes as a group of rays sees them: bound * slope + offset.
 struct BoxPlanes {
   Vector slope[3], offset[3], t_low, t_high;
 };
@@ -55,7 +55,7 @@ HWY_INLINE BoxPlanes planes_of(const RayBundle& bundle, const BvhNode& bvh_node,
   return planes;
 }
 
-/// Where rays enter the box of a child, and which of them do.
+/// Where rays enter a child's box, and which of them do.
 template <bool OneOctant>
 HWY_INLINE RayMask meet_box(const RayBundle& bundle, const Bounds& bounds, const BoxPlanes& planes, std::size_t child,
                             float* t_enter) {
@@ -78,7 +78,7 @@ HWY_INLINE RayMask meet_box(const RayBundle& bundle, const Bounds& bounds, const
   return bits_of(tag, hn::Le(enter, leave));
 }
 
-/// Moves the last child that waits before those that are no nearer, from place `start` on.
+/// Moves the last waiting child before those that are no nearer, from position `start` on.
 HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
   std::uint32_t place = waiting.count - 1;
   const float nearest = waiting.nearest[place];
@@ -100,7 +100,7 @@ HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
   waiting.t_enter[place] = t_enter;
 }
 
-/// The children that some rays meet, from the first on: a pass that branches nowhere, before those are put in order.
+/// Collects the children that some rays meet in a branch-free pass, before they are sorted.
 template <bool OneOctant>
 HWY_INLINE std::array<RayMask, bvh_children_max> meet_boxes(const RayBundle& bundle, const BvhNode& bvh_node, RayMask rays,
                                                             std::array<Row<float>, bvh_children_max>& t_enter) {
@@ -126,7 +126,7 @@ HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMas
   alignas(64) std::array<Row<float>, bvh_children_max> t_enter;
   const std::array<RayMask, bvh_children_max> met = meet_boxes<OneOctant>(bundle, bvh_node, rays, t_enter);
   const std::uint32_t start = waiting.count;
-  std::array<std::uint8_t, bvh_children_max> child_at;  // of those that are added, in their order
+  std::array<std::uint8_t, bvh_children_max> child_at;  // of the added ones, in order
   for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
     if (met[child] == 0) {
       continue;
@@ -148,7 +148,7 @@ HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMas
   }
 }
 
-/// One ray and all boxes.
+/// One ray against all boxes.
 HWY_INLINE void meet_apart(RayBundle& bundle, const BvhNode& bvh_node, std::size_t ray, bool in_order, std::uint32_t start) {
   const hn::CappedTag<float, bvh_children_max> tag;
   const hn::Rebind<std::int32_t, decltype(tag)> integers;
@@ -198,7 +198,7 @@ void meet_children(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, boo
   }
 }
 
-/// The rays of `rays` that enter the box of a waiting child before their best hit.
+/// Those of `rays` that enter the box of a waiting child before their best hit.
 HWY_INLINE RayMask still_want(const RayBundle& bundle, std::size_t child, RayMask rays) {
   const Row<float>& t_enter = bundle.waiting.t_enter[child];
   if ((rays & (rays - 1)) == 0) {
@@ -241,7 +241,7 @@ std::uint64_t count_wanted(const RayBundle& bundle, RayMask rays) {
 
 // --- Triangles ---
 
-/// How a ray is sheared.
+/// The shear of a ray.
 struct Shear {
   std::size_t axis;
   bool is_down;
@@ -253,15 +253,15 @@ HWY_INLINE Shear shear_of(const RayBundle& bundle, std::size_t ray) {
   return {is(along[1][0] | along[1][1]) + 2 * is(along[2][0] | along[2][1]), is(along[0][1] | along[1][1] | along[2][1]) != 0};
 }
 
-/// Rays that are sheared alike, one in each lane, or one in all of them, and the triangles of a leaf as they take them.
+/// Rays with the same shear, one per lane or one in all lanes, and the triangles of a leaf in their order of axes.
 template <class Tag>
 struct ShearedRays {
-  const float *x, *y, *z;     ///< the rows that play which, of the first corner
-  std::size_t corner_stride;  ///< to those of the next
+  const float *x, *y, *z;     ///< the rows of the first corner for these axes
+  std::size_t corner_stride;  ///< from one corner to the next
   hn::Vec<Tag> origin_x, origin_y, origin_z, minus_shear_x, minus_shear_y;
 };
 
-/// values(row): those of a bundle's row that the rays have.
+/// values(row) returns those of a bundle's row for the rays.
 template <class Tag, class Values>
 HWY_INLINE ShearedRays<Tag> sheared_rays(Tag, const RayBundle& bundle, const TriangleRows& triangles, const Shear& shear,
                                          const Values& values) {
@@ -278,13 +278,13 @@ HWY_INLINE ShearedRays<Tag> sheared_rays(Tag, const RayBundle& bundle, const Tri
           hn::Neg(values(bundle.shear_y))};
 }
 
-/// A vertex as those rays see it.
+/// A vertex relative to those rays.
 template <class Tag>
 struct SeenVertices {
   hn::Vec<Tag> x, y, z;
 };
 
-/// load(row): of one triangle for all rays, or of some for one ray.
+/// load(row) returns the values of one triangle for all rays, or of several for one ray.
 template <class Tag, class Load>
 HWY_INLINE SeenVertices<Tag> shear(const ShearedRays<Tag>& rays, std::size_t corner, const Load& load) {
   const std::size_t skipped = corner * rays.corner_stride;
@@ -298,7 +298,7 @@ HWY_INLINE hn::Vec<Tag> edge(const SeenVertices<Tag>& a, const SeenVertices<Tag>
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-/// The lanes of `asked`, whose ray passes the triangle, for which floats may be wrong, and some more: the scalar twin decides.
+/// The lanes of `asked` whose ray passes the triangle and for which floats may be wrong, and some more: the scalar twin decides.
 template <class Tag>
 HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
                                    const SeenVertices<Tag>& c, const hn::Vec<Tag>& margin) {
@@ -310,7 +310,7 @@ HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices
   return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
-/// The lanes of these that doubles decide.
+/// Those of the lanes that doubles decide.
 template <class Tag>
 HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
                             const SeenVertices<Tag>& c, hn::Vec<Tag> least, hn::Vec<Tag> greatest) {
@@ -322,7 +322,7 @@ HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVe
   return HWY_LIKELY(asked == 0) ? 0 : within_rounding<Tag>(bundle.rest_most, asked, a, b, c, hn::Min(hn::Neg(least), greatest));
 }
 
-/// Takes a ray's hit, if it is nearer than what it has.
+/// Stores a ray's hit if it is nearer than the current one.
 HWY_INLINE void take_nearer(RayBundle& bundle, std::size_t ray, const Hit& hit) {
   if (nearer(hit.t, hit.primitive, bundle.best.of(ray))) {
     bundle.best.set(ray, hit);
@@ -330,7 +330,7 @@ HWY_INLINE void take_nearer(RayBundle& bundle, std::size_t ray, const Hit& hit) 
   }
 }
 
-/// A hit in doubt, in the scalar twin.
+/// Computes a doubtful hit with the scalar twin.
 HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address leaf, std::size_t lane, std::uint32_t id,
                           std::size_t ray) {
   const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
@@ -339,7 +339,7 @@ HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Addr
   }
 }
 
-/// One triangle and some of the rays from `first` on.
+/// One triangle against some of the rays from `first` on.
 HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays, std::size_t first, RayMask active,
                              const TriangleRows& triangles, Address leaf, std::size_t lane) {
   const Floats tag;
@@ -382,7 +382,7 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays,
   }
 }
 
-/// Rays that are sheared alike, and all triangles, one after the other.
+/// Rays with the same shear against all triangles, one after the other.
 HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays, const Shear& shear) {
   for (std::size_t first = 0; first < bundle_rays_max; first += step) {
     RayMask active = rays >> first & first_bits(step);
@@ -403,7 +403,7 @@ HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, A
 
 using LeafFloats = hn::CappedTag<float, leaf_lanes>;
 
-/// One ray and the triangles of `active`, from `first` on: the nearest one that it hits.
+/// One ray against the triangles of `active`, from `first` on: finds the nearest hit.
 HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<LeafFloats>& rays, std::size_t ray, std::size_t first,
                           RayMask active, const TriangleRows& triangles, Address leaf) {
   const LeafFloats tag;
@@ -441,7 +441,7 @@ HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<LeafFloats>& rays
   }
 }
 
-/// Each of those rays and all triangles.
+/// Each of the rays against all triangles.
 HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays, const Shear& shear) {
   const RayMask tested = first_bits(triangles.count) & ~triangles.left_out;
   for (; rays != 0; rays &= rays - 1) {
@@ -455,7 +455,8 @@ HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles,
   }
 }
 
-/// A ray and all triangles cost about what a triangle and all rays do, so the fewer of the two go one by one.
+/// One ray against all triangles costs about as much as one triangle against all rays, so the loop runs over the fewer of the
+/// two.
 void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays) {
   while (rays != 0) {
     const Shear shear = shear_of(bundle, static_cast<std::size_t>(std::countr_zero(rays)));

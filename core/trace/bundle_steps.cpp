@@ -1,5 +1,5 @@
-// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/cell_traversal does for one ray, number
-// by number.
+// Moves the rays of a bundle from cell to cell, many at a time. Each ray gets exactly the numbers that
+// core/trace/cell_traversal.h computes for a single ray.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -26,13 +26,13 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 using Four = hn::CappedTag<float, 4>;
 
-/// Where each ray has four floats. Behind the last ray stands the first, so that no lane computes with what nobody has set.
+/// The four floats of each ray. The first ray is repeated after the last one, so that no lane computes with uninitialised values.
 HWY_INLINE const float* floats_of(const RayBundle& bundle, std::size_t ray, std::size_t offset) {
   const auto* bytes = reinterpret_cast<const std::byte*>(&bundle.rays[ray < bundle.count ? ray : 0]) + offset;
   return reinterpret_cast<const float*>(bytes);
 }
 
-/// Four floats of each ray to four rows.
+/// Transposes four floats of each ray to four rows.
 HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* row0, float* row1, float* row2, float* row3) {
 #if HWY_TARGET == HWY_SCALAR
   for (std::size_t i = 0; i < bundle_rays_max; ++i) {
@@ -57,7 +57,7 @@ HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* ro
 #endif
 }
 
-/// The largest rest of all rays' origins; what is no number counts as none.
+/// The largest rest of all rays' origins; NaN is ignored.
 HWY_INLINE float largest_rest(const RayBundle& bundle) {
   const Four tag;
   alignas(16) float each[4] = {};
@@ -82,7 +82,7 @@ HWY_INLINE void load(RayBundle& bundle) {
   bundle.rest_most = largest_rest(bundle);
 }
 
-/// No ray has a candidate that has not brought one along.
+/// Rays have no candidate unless they brought one along.
 HWY_INLINE void clear_hits(RayBundle& bundle) {
   bundle.found = 0;
   if (bundle.arrived == 0) {
@@ -107,7 +107,7 @@ HWY_INLINE void clear(RayBundle& bundle) {
   bundle.sheared_along = {};
 }
 
-/// ShearedRay's constructor, of the rays from `first` on.
+/// ShearedRay's constructor for the rays from `first` on.
 HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
   const Floats tag;
   const auto d = [&](std::size_t axis) { return hn::Load(tag, bundle.direction[axis].data() + first); };
@@ -133,14 +133,14 @@ HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
   }
 }
 
-/// Where rays start along an axis, from where the grid begins.
+/// The starts of rays along an axis, relative to the grid's begin.
 HWY_INLINE hn::Vec<Doubles> from_grid(const RayBundle& bundle, std::size_t axis, std::size_t first) {
   const Doubles tag;
   const HalfFloats half;
   return hn::Sub(hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first)), hn::Set(tag, bundle.grid_low[axis]));
 }
 
-/// Walk's constructor, of the rays from `first` on.
+/// CellTraversal's constructor for the rays from `first` on.
 HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size_t first) {
   const Doubles tag;
   const HalfFloats half;
@@ -164,8 +164,8 @@ HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size
   }
 }
 
-/// Which rows of a BVH node's bounds all rays come to first, if all go the same way along each axis. -0 and what counts as 0 go
-/// as their sign says, as a reciprocal does.
+/// Finds the rows of a BVH node's bounds that all rays reach first, if all have the same direction along each axis. -0 and values
+/// that count as 0 have the direction of their sign, like a reciprocal.
 HWY_INLINE void find_octant(RayBundle& bundle) {
   const Floats tag;
   const RayMask all = bundle.all();
@@ -184,25 +184,25 @@ HWY_INLINE void find_octant(RayBundle& bundle) {
 
 // --- Planes and cells ---
 
-/// Walk::plane().
+/// CellTraversal::plane().
 HWY_INLINE hn::Vec<Doubles> plane(const RayBundle& bundle, std::size_t axis, std::size_t first, std::int32_t index) {
   const Doubles tag;
   return hn::Add(hn::Mul(hn::Set(tag, static_cast<double>(index)), hn::Load(tag, bundle.slope[axis].data() + first)),
                  hn::Load(tag, bundle.offset[axis].data() + first));
 }
 
-/// Walk::crossed().
+/// CellTraversal::crossed().
 bool crossed(const RayBundle& bundle, std::size_t ray, std::size_t axis, std::int32_t index, double t, std::size_t entry_axis) {
   const double at = static_cast<double>(index) * bundle.slope[axis][ray] + bundle.offset[axis][ray];
   return at < t || (at == t && (axis < entry_axis || entry_axis == traversal_starts));
 }
 
-/// Finest cells along an axis that a search is kept to.
+/// The finest cells along an axis to which a search is limited.
 struct Cells {
   std::int32_t low, high;
 };
 
-/// Walk::locate(), from a guess on.
+/// CellTraversal::locate(), starting from a guess.
 std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, double t, std::int32_t cell, const Cells& among,
                     std::size_t entry_axis) {
   const std::int32_t step = (bundle.forward[axis] >> ray & 1U) != 0 ? 1 : (bundle.backward[axis] >> ray & 1U) != 0 ? -1 : 0;
@@ -210,7 +210,7 @@ std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, 
                 [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); });
 }
 
-/// RayPlanes::place(), of the rays from `first` on.
+/// RayPlanes::place() for the rays from `first` on.
 HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std::size_t first, hn::Vec<Doubles> t) {
   const Doubles tag;
   const HalfFloats half;
@@ -221,7 +221,7 @@ HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std
   return hn::Mul(along, hn::Set(tag, bundle.finest_cells));
 }
 
-/// Walk::locate_macro() along an axis, of those of the rays from `first` on that are wanted.
+/// CellTraversal::locate_macro() along an axis, for the wanted rays from `first` on.
 HWY_INLINE void locate_macro(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
                              const Cells& among, std::size_t entry_axis) {
   const Doubles tag;
@@ -249,8 +249,9 @@ HWY_INLINE void locate_macro(RayBundle& bundle, std::size_t axis, std::size_t fi
   }
 }
 
-/// Walk::finest_cell_of() along an axis, of the rays wanted, which are where they enter their cells: into `arrival`. Planes at
-/// equal t are crossed before that by those of `ties`. Found in all of the grid, as every limit around the one cell would do.
+/// CellTraversal::finest_cell_of() along an axis, for the wanted rays where they enter their cells; stored in `arrival`. Planes
+/// of the axes in `ties` at equal t are crossed first. The search covers the whole grid, since any limits around the one cell
+/// give the same result.
 HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted, RayMask ties) {
   const Doubles tag;
   const HalfIntegers integers;
@@ -281,14 +282,14 @@ HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted,
   }
 }
 
-/// Notes through which plane rays enter their cells.
+/// Stores the plane through which rays enter their cells.
 HWY_INLINE void set_entry(RayBundle& bundle, RayMask rays, std::size_t axis) {
   for (; rays != 0; rays &= rays - 1) {
     bundle.entry_axis[static_cast<std::size_t>(std::countr_zero(rays))] = static_cast<std::uint8_t>(axis);
   }
 }
 
-/// The rays of `rays` whose macro cell lies completely in the region.
+/// Those of `rays` whose macro cell lies completely in the region.
 HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
   const Integers tag;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -303,8 +304,8 @@ HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
   return rays;
 }
 
-/// Whether the finest cells in which rays from `first` on are at t are certain to lie within `among`, by a guess that is off by
-/// less than a finest cell.
+/// Whether the finest cells of rays from `first` on at t certainly lie in `among`, by a guess that is off by less than a finest
+/// cell.
 HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::size_t first, const Cells& among) {
   const Doubles tag;
   const auto t = hn::Load(tag, bundle.t_enter.data() + first);
@@ -314,7 +315,7 @@ HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::
   return bits_of(tag, hn::And(is_inside, hn::Lt(t, hn::Set(tag, near_t_max))));
 }
 
-/// The rays of `rays` that are certain to be in the region, though their macro cells are not.
+/// Those of `rays` that are certainly in the region, although their macro cells are not.
 RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   for (std::size_t axis = 0; axis < 3 && rays != 0; ++axis) {
     const Cells among{bundle.region.low[axis], bundle.region.high[axis]};
@@ -334,7 +335,7 @@ RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_a
   return rays;
 }
 
-/// The rays of `rays` whose finest cell, in `arrival`, lies in the region.
+/// Those of `rays` whose finest cell, in `arrival`, lies in the region.
 HWY_INLINE RayMask arrived_inside(const RayBundle& bundle, RayMask rays) {
   const Integers tag;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -349,7 +350,7 @@ HWY_INLINE RayMask arrived_inside(const RayBundle& bundle, RayMask rays) {
   return rays;
 }
 
-/// Walk::stays(): those of `rays` that have not left the region. Notes where the others have gone.
+/// CellTraversal::stays(): those of `rays` that have not left the region. Stores where the others have gone.
 RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   if (rays == 0) {
     return 0;
@@ -374,7 +375,7 @@ RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32
   return inside;
 }
 
-/// Walk::enter(), of the rays from `first` on: those that meet the grid.
+/// CellTraversal::enter() for the rays from `first` on: those that hit the grid.
 HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
   const Doubles tag;
   const HalfFloats half;
@@ -430,7 +431,7 @@ void enter(RayBundle& bundle, const GridFrame& frame, const Region& region) {
   bundle.alive |= bundle.arrived;
 }
 
-/// How far along the way of the first ray a cell lies.
+/// The position of a cell along the direction of the first ray.
 HWY_INLINE hn::Vec<Integers> progress(const RayBundle& bundle, std::size_t first) {
   const Integers tag;
   auto sum = hn::Zero(tag);
@@ -469,7 +470,7 @@ void next_group(RayBundle& bundle) {
   bundle.group = candidates;
 }
 
-/// Walk::exit_through(), of the rays from `first` on; t_at(axis) is where they come to their plane of an axis.
+/// CellTraversal::exit_through() for the rays from `first` on; t_at(axis) is where they reach their plane of an axis.
 template <class TAt>
 HWY_INLINE hn::Vec<Doubles> exit_through(RayBundle& bundle, std::size_t first, const TAt& t_at) {
   const Doubles tag;
@@ -521,7 +522,7 @@ void find_box_exits(RayBundle& bundle, RayMask rays, const PlaneRows& planes) {
   }
 }
 
-/// The rays of `leaving` that do not end with a hit before their exit, or at a light; if they are equal, the next cell may hold a
+/// Those of `leaving` that do not end with a hit before their exit, or at a light; if both are equal, the next cell may hold a
 /// hit at the same t with a lower id.
 HWY_INLINE RayMask goes_on(const RayBundle& bundle, RayMask leaving) {
   const Doubles tag;
@@ -539,7 +540,7 @@ HWY_INLINE RayMask goes_on(const RayBundle& bundle, RayMask leaving) {
   return on & leaving;
 }
 
-/// Takes rays through a plane of `axis` to the cells behind it.
+/// Moves rays through a plane of `axis` to the cells behind it.
 HWY_INLINE void cross(RayBundle& bundle, RayMask rays, std::size_t axis, std::int32_t cell, const Region* around) {
   const Doubles tag;
   const HalfIntegers integers;
@@ -559,7 +560,7 @@ HWY_INLINE void cross(RayBundle& bundle, RayMask rays, std::size_t axis, std::in
   }
 }
 
-/// Macro cells between where rays were and are, beside one each.
+/// The number of macro cells that rays passed on the way, not counting one step for each ray.
 std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
   std::uint64_t passed = 0;
   for (; rays != 0; rays &= rays - 1) {
@@ -573,7 +574,7 @@ std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
   return passed;
 }
 
-/// Walk::leave().
+/// CellTraversal::leave().
 std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around) {
   const RayMask on = goes_on(bundle, leaving);
   RayMask entered = 0, kept = 0;
@@ -595,7 +596,7 @@ std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead
   return around != nullptr ? cells_passed(bundle, entered) : 0;
 }
 
-/// Takes rays through their planes of `axis` to the cells behind, as far as the grid goes: those of `rays` that it has taken.
+/// Moves rays through their planes of `axis` to the cells behind, within the grid; returns those of `rays` that it has moved.
 HWY_INLINE RayMask cross_planes(RayBundle& bundle, RayMask rays, std::size_t axis, const Row<std::int32_t>& planes) {
   const Integers tag;
   RayMask crossing = 0;

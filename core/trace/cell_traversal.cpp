@@ -7,13 +7,13 @@
 namespace dmpc::core {
 namespace {
 
-/// Spelt out, since a comparison of arrays is a call.
+/// Written out, since a comparison of arrays is a function call.
 bool is_whole(const Region& region, const Corner& size) {
   return (region.low[0] | region.low[1] | region.low[2]) == 0 && region.high[0] == size[0] && region.high[1] == size[1] &&
          region.high[2] == size[2];
 }
 
-/// Macro cells from one to another, from neighbour to neighbour.
+/// The number of macro cells on the way from one to another, from neighbour to neighbour.
 std::int32_t macro_cells_between(const Corner& from, const Corner& to) {
   return (std::abs(to[0] - from[0]) + std::abs(to[1] - from[1]) + std::abs(to[2] - from[2])) / finest_per_macro;
 }
@@ -43,12 +43,13 @@ std::int32_t CellTraversal::locate(std::size_t axis, double t, std::int32_t low,
   return settle(cell, low, high, planes_.step(axis), [&](std::int32_t index) { return crossed(axis, index, t, entry_axis); });
 }
 
-/// The lower corner of the macro cell that holds the ray at t, of those with finest cells in [low, high).
+/// The lower corner of the macro cell that holds the ray at t, among those with finest cells in [low, high).
 std::int32_t CellTraversal::locate_macro(std::size_t axis, double t, std::int32_t low, std::int32_t high,
                                          std::uint8_t entry_axis) const {
   const double guess = std::clamp(planes_.place(axis, t), static_cast<double>(low), static_cast<double>(high - 1));
   const auto cell = static_cast<std::int32_t>(guess);
-  // A guess is off by 2^-31 of the scene at most, less than a finest cell is wide, so only one next to a border can be wrong.
+  // The guess is off by at most 2^-31 of the scene, less than the width of a finest cell, so it can be wrong only next to a
+  // border.
   const std::int32_t inside = cell & (finest_per_macro - 1);
   const bool is_certain = inside > 0 && inside < finest_per_macro - 1 && t < near_t_max;
   return (is_certain ? cell : locate(axis, t, low, high, entry_axis)) & -finest_per_macro;
@@ -67,7 +68,7 @@ bool CellTraversal::enter(const Ray& ray, Cursor& cursor) const {
   return true;
 }
 
-/// Leaves the box of empty cells nearer than `radius` to the cursor's in one step.
+/// Leaves the box of empty cells nearer than `radius` to the cursor's cell in one step.
 bool CellTraversal::jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations& operations) const {
   const std::int32_t reach = radius * finest_per_macro;
   const Corner from = cursor.cell;
@@ -86,7 +87,7 @@ void CellTraversal::leave_region(const Ray& ray, const Corner& cell, Cursor& cur
   leave(ray, region_exit(), &region_, cursor, operations);
 }
 
-/// The finest cell that the ray enters with the cursor's cell, through the plane beside finest index `face` of the entry axis.
+/// The finest cell that the ray enters with the cursor's cell, through the plane at finest index `face` of the entry axis.
 Corner CellTraversal::finest_cell_of(const Cursor& cursor, std::int32_t face) const {
   Corner finest;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,7 +97,7 @@ Corner CellTraversal::finest_cell_of(const Cursor& cursor, std::int32_t face) co
   return finest;
 }
 
-/// Whether the cell just entered is this region's; if not, notes where the ray has gone.
+/// Whether the cell just entered belongs to this region; if not, stores where the ray has gone.
 bool CellTraversal::stays(Cursor& cursor, std::int32_t face) const {
   if (region_.contains(cursor.cell, finest_per_macro)) {
     return true;

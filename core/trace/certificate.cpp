@@ -57,7 +57,7 @@ constexpr double gamma(int n) { return n * unit_rounding * (1 + 0x1p-19); }
 
 Reals exactly(const Vec3f& v) { return {Interval(double{v.x}), Interval(double{v.y}), Interval(double{v.z})}; }
 
-/// Directions whose reciprocals neither overflow nor are denormal: those of rays of about unit length are.
+/// Whether the direction's reciprocals neither overflow nor are denormal; this holds for rays of about unit length.
 bool has_usual_direction(const Ray& ray) {
   constexpr float least = 0x1p-100F, most = 0x1p100F;
   const float largest = largest_component(ray.direction);
@@ -65,7 +65,7 @@ bool has_usual_direction(const Ray& ray) {
          is_finite(ray.origin_rest);
 }
 
-/// A ray and a triangle in reals, the triangle as seen from the ray's full origin.
+/// A ray and a triangle in reals; the triangle is relative to the ray's full origin.
 struct RealTriangle {
   RealTriangle(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane)
       : direction(exactly(ray.direction) + exactly(ray.direction_rest)) {
@@ -78,7 +78,7 @@ struct RealTriangle {
     }
   }
 
-  /// So that no float overflows on the way.
+  /// Whether no float can overflow in between.
   bool is_near() const {
     constexpr double far = 0x1p40;
     return std::all_of(seen.begin(), seen.end(),
@@ -101,15 +101,15 @@ Interval solve(const RealTriangle& real, Certificate& certificate) {
   return determinant;
 }
 
-/// A number of the kernel's: what it is exactly, of the ray in full, and how far off floats may have it.
+/// A number of the kernel: its exact value for the ray in full, and the maximum error of the float.
 struct Rounded {
   Interval exact, error;
 
-  /// More than either is from 0.
+  /// An upper bound of the magnitude of both.
   Interval most() const { return magnitude(exact) + error; }
 };
 
-/// A triangle as the kernels shear it, its errors with it.
+/// A triangle sheared as in the kernels, with its errors.
 class KernelTriangle {
  public:
   KernelTriangle(const Ray& ray, const RealTriangle& real) : ray_(ray), sheared_(ray), real_(real) {}
@@ -127,7 +127,7 @@ class KernelTriangle {
     return {real_.seen[corner][axis] - full_slope * real_.seen[corner][z], by_rounding + magnitude(by_rests)};
   }
 
-  /// F of the edge opposite `corner`, 2. above.
+  /// F of the edge opposite `corner`; see 2. above.
   Interval edge_error(std::size_t corner) const {
     const std::size_t b = (corner + 1) % 3, c = (corner + 2) % 3;
     const Rounded bx = sheared(b, sheared_.axis_x), by = sheared(b, sheared_.axis_y);
@@ -135,7 +135,7 @@ class KernelTriangle {
     return product_error(bx, cy) + product_error(by, cx) + 4 * denormal_unit;
   }
 
-  /// How far the float t of 4. may be off; `area` is |N| and `edge_error` are F.
+  /// The maximum error of the float t of 4.; `area` is |N| and `edge_error` are F.
   Interval distance_error(const Interval& t, const Interval& area, const std::array<Interval, 3>& edge_error) const {
     const std::uint32_t z = sheared_.axis_z;
     const Interval exact_z = t * real_.direction[z];
@@ -155,7 +155,7 @@ class KernelTriangle {
     return by_rounding + by_rest + (magnitude(origin_rest(z)) + by_edges) / magnitude(real_.direction[z]);
   }
 
-  /// The bound of what judged() errs by, 5. above: SeenTriangle::plane_distance() in intervals.
+  /// The bound of the error of judged(), 5. above: SeenTriangle::plane_distance() in intervals.
   Interval judged_error(const Interval& t) const {
     const Reals shear{Interval(double{sheared_.shear_x}), Interval(double{sheared_.shear_y}), Interval(1.0)};
     const std::array<Reals, 3> at{in_order(0), in_order(1), in_order(2)};
@@ -212,7 +212,7 @@ Certificate certify_triangle(const Ray& ray, const float* rows, std::size_t stri
   return certificate;
 }
 
-/// f above, and half its slope: above 0 where a ray gets out.
+/// f above, and half its slope, which is positive where a ray leaves the sphere.
 struct RealSphere {
   RealSphere(const Ray& ray, const CurvedValues& sphere)
       : direction(exactly(ray.direction) + exactly(ray.direction_rest)), radius(sphere.value(3)) {
@@ -232,7 +232,7 @@ struct RealSphere {
   Interval radius;
 };
 
-/// The sign of all that an interval holds; 0 if they have none in common.
+/// The sign of all numbers in an interval; 0 if they have none in common.
 int sign_of(const Interval& a) { return a.low > 0.0 ? 1 : a.high < 0.0 ? -1 : 0; }
 
 struct RealCone {
@@ -251,7 +251,7 @@ struct RealCone {
   }
 
   Reals at(const Interval& t) const { return from_base + direction * t; }
-  /// L times the radius there.
+  /// L times the radius at this point.
   Interval wide(const Reals& at) const { return radius * axis_squared + widening * dot(at, axis); }
   Interval value(double t) const {
     const Reals point = at(Interval(t)), across = cross(point, axis);
@@ -261,12 +261,12 @@ struct RealCone {
     const Reals point = at(t);
     return axis_squared * dot(cross(point, axis), across_rate) - wide(point) * widening * rise;
   }
-  /// The root that is not `t`.
+  /// The root other than `t`.
   Interval other_root(const Interval& t) const {
     const Interval bend = axis_squared * dot(across_rate, across_rate) - widening * rise * (widening * rise);
     return -2.0 * (half_slope(Interval(0.0)) / bend) - t;
   }
-  /// Beyond doubt, of all its reals: between the cone's ends; before or behind them.
+  /// For certain, for all reals in `t`: between the cone's ends; before or behind them.
   bool is_between_ends(const Interval& t) const {
     const Interval height = dot(at(t), axis);
     return height.low >= 0.0 && (axis_squared - height).low >= 0.0;
@@ -280,7 +280,7 @@ struct RealCone {
   Interval radius, widening, axis_squared, rise;
 };
 
-/// An interval about `t` at whose ends f surely has the signs `before` and -`before`; everything if none is found.
+/// An interval about `t` at whose ends f certainly has the signs `before` and -`before`; all reals if none is found.
 template <class Curved>
 Interval root_about(const Curved& curved, double t, int before) {
   constexpr int widenings = 24;
@@ -296,7 +296,7 @@ Interval root_about(const Curved& curved, double t, int before) {
   return Interval::everything();
 }
 
-/// The certificate of a root that doubles found and rounded to float.
+/// The certificate of a root that doubles found and that was rounded to float.
 Certificate of_root(const Interval& t) {
   Certificate certificate;
   if (t.is_bounded()) {
@@ -313,7 +313,7 @@ Certificate certify_sphere(const Ray& ray, const float* rows, std::size_t stride
     return {};
   }
   const bool is_outside_visible = sphere.radius.low > 0.0;
-  // Where the outside is visible the far root is the answer only if the ray starts inside.
+  // If the outside is visible, the far root is the answer only if the ray starts inside.
   const int start_sign = sign_of(sphere.value(0.0));
   const bool is_near = is_outside_visible && start_sign > 0;
   if (is_outside_visible && start_sign == 0) {
@@ -322,7 +322,7 @@ Certificate certify_sphere(const Ray& ray, const float* rows, std::size_t stride
   return of_root(root_about(sphere, t, is_near ? 1 : -1));
 }
 
-/// Whether the other root, beyond doubt, is none that counts before `t`. Of two roots a ray gets in at one and out at the other.
+/// Whether the other root certainly does not count before `t`. A ray enters at one of two roots and leaves at the other.
 bool is_first(const RealCone& cone, const Interval& t, bool gets_out, bool is_inside_visible_only) {
   const Interval other = cone.other_root(t);
   return other.low > t.high || other.high <= 0.0 || (gets_out && is_inside_visible_only) ||
@@ -355,7 +355,7 @@ Certificate certify(const Ray& ray, PrimitiveKind kind, const float* rows, std::
     case PrimitiveKind::sphere:
       return certify_sphere(ray, rows, stride, lane);
     case PrimitiveKind::cone:
-    case PrimitiveKind::instance:  // is no primitive
+    case PrimitiveKind::instance:  // not a primitive
       break;
   }
   return certify_cone(ray, rows, stride, lane);

@@ -13,7 +13,7 @@
 namespace dmpc::core {
 namespace {
 
-/// The first `count`.
+/// Copies the first `count` children.
 void copy(const BundleChildren& from, BundleChildren& to) {
   to.count = from.count;
   std::copy_n(from.t_enter.begin(), from.count, to.t_enter.begin());
@@ -22,7 +22,7 @@ void copy(const BundleChildren& from, BundleChildren& to) {
   std::copy_n(from.rays.begin(), from.count, to.rays.begin());
 }
 
-/// Moves the last child that waits before those that are no nearer, from place `first` on.
+/// Moves the last waiting child before those that are no nearer, from position `first` on.
 void put_in_order(BundleChildren& waiting, std::uint32_t first) {
   for (std::uint32_t place = waiting.count - 1; place > first && waiting.nearest[place - 1] < waiting.nearest[place]; --place) {
     std::swap(waiting.t_enter[place], waiting.t_enter[place - 1]);
@@ -118,12 +118,12 @@ void InstanceBundle::meet_instances(const std::byte* leaf, bool in_order) {
 
 BvhNode padded(const BvhNode& bvh_node, double pad) {
   if (bvh_node.child_count == 0) {
-    return bvh_node;  // where a node has no record it has one of nothing, whose unit is 0
+    return bvh_node;  // a node without the record has one of zeros, whose unit is 0
   }
   const auto steps = static_cast<std::uint64_t>(std::ceil(pad / double{bvh_node.unit}));
   const int doublings = std::max(0, static_cast<int>(std::bit_width(2 * steps + 255)) - 8);
   const std::uint64_t rounding = (std::uint64_t{1} << doublings) - 1;
-  // Once more if what is rounded up needs another bit.
+  // Halves once more if rounding up needs another bit.
   const int shift = ((2 * steps + 255 + rounding) >> doublings) > 255 ? doublings + 1 : doublings;
   const std::uint64_t up = (std::uint64_t{1} << shift) - 1;
   BvhNode larger = bvh_node;

@@ -1,4 +1,5 @@
-// The only file with SIMD. Targets from AVX2 up: below, Highway's MulAdd is not fused, so older processors take the scalar twin.
+// The only file with SIMD. Targets start at AVX2: below it Highway's MulAdd is not fused, so older processors use the scalar
+// twin.
 #include "core/trace/kernel.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ HWY_INLINE Vector floats(const std::array<std::uint8_t, 8>& row) {
   return hn::ConvertTo(Tag(), hn::PromoteTo(integers, hn::LoadU(bytes, row.data())));
 }
 
-/// One of at least two children met; the others wait.
+/// Takes one of at least two children that were hit; the others wait.
 HWY_INLINE BvhChild take_one(std::uint32_t met, const BvhNode& bvh_node, const float* t_enter, bool in_order,
                              MetChildren& waiting) {
   const auto next = [&] {
@@ -119,7 +120,7 @@ HWY_INLINE Vertices shear(const ShearedRay& ray, const float* vertex, std::size_
 
 HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-/// The triangles of `asked`, which the ray passes, for which floats may be wrong.
+/// Those of the triangles in `asked` that the ray passes for which floats may be wrong.
 HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
                                          const Vector& margin, hn::Mask<Tag> asked) {
   const Tag tag;
@@ -131,7 +132,7 @@ HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& 
   return hn::And(asked, hn::Le(margin, bound));
 }
 
-/// The triangles of these that doubles decide.
+/// Those of these triangles that doubles decide.
 HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c, Vector least,
                                   Vector greatest, hn::Mask<Tag> outside) {
   const Tag tag;
@@ -154,7 +155,7 @@ std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& leaf, std::ui
   const auto outside = hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero));
   const auto on_edge = hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero));
   const auto in_doubt = hn::Or(on_edge, doubtful(ray, a, b, c, least, greatest, outside));
-  const auto real = hn::FirstN(tag, count);  // lanes behind the row's end hold other rows' values
+  const auto real = hn::FirstN(tag, count);  // lanes after the row's end hold values of other rows
   if (hn::AllFalse(tag, hn::And(real, hn::Or(hn::Not(outside), in_doubt)))) {
     return 0;
   }

@@ -10,8 +10,8 @@
 namespace dmpc::core {
 namespace {
 
-/// What floats round off a plane of a box and where a ray comes to it, as a share of how far away that is and of the mesh's size:
-/// eight roundings of 2^-24 each.
+/// The rounding error of floats for a box's plane and for the ray's distance to it, as a share of that distance and of the mesh's
+/// size: eight roundings of 2^-24 each.
 constexpr double rounding_pad = 0x1p-20;
 
 }  // namespace
@@ -60,7 +60,7 @@ BvhChild MeshRay::meet(const BvhNode& bvh_node, float t_low, float t_high, bool 
       for (std::size_t child = 0; child < bvh_children_max; ++child) {
         const float from = static_cast<float>(near_bounds[child]) * slope + near_offset,
                     to = static_cast<float>(far_bounds[child]) * slope + far_offset;
-        enter[child] = from > enter[child] ? from : enter[child];  // of no number nothing follows
+        enter[child] = from > enter[child] ? from : enter[child];  // comparisons with NaN change nothing
         leave[child] = to < leave[child] ? to : leave[child];
       }
     }

@@ -71,13 +71,14 @@ void PlacedLeaf::place_corners(const float* rows, std::size_t count, const Place
     }
   });
   for (std::size_t row = 0; row < to.size(); ++row) {
-    const std::size_t corner = row / 3, placed = place.is_mirrored() ? 2 - corner : corner;  // a mirror's faces are turned back
+    const std::size_t corner = row / 3,
+                      placed = place.is_mirrored() ? 2 - corner : corner;  // the faces of a mirrored instance are flipped back
     std::memcpy(record_.data() + sizeof(LeafHeader) + (3 * placed + row % 3) * count * sizeof(float), to[row].data(),
                 count * sizeof(float));
   }
 }
 
-/// As the converter numbers planes.
+/// Numbers planes as the converter does.
 void PlacedLeaf::place_plane(const std::byte* record, const PlacedMesh& place) {
   auto header = read<LeafHeader>(record);
   const MeshPlane plane{plane_of(header, record), header.plane, header.plane == LeafHeader::level_plane};

@@ -17,7 +17,7 @@ std::uint32_t largest_axis(const Vec3f& d) {
   return x > y ? (x > z ? 0U : 2U) : (y > z ? 1U : 2U);
 }
 
-/// One vertex of a triangle in the sheared frame; z is not scaled yet.
+/// A vertex of a triangle in the sheared frame; z is not scaled yet.
 struct ShearedVertex {
   float x, y, z;
 
@@ -35,10 +35,10 @@ float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
   return static_cast<float>(double{a.x} * double{b.y} - double{a.y} * double{b.x});
 }
 
-/// Whether the edge functions differ in sign; zeros are on either side, so an edge belongs to both its triangles.
+/// Whether the edge functions differ in sign; a zero has either sign, so an edge belongs to both of its triangles.
 bool outside(float u, float v, float w) { return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F); }
 
-/// A vertex as seen from the ray's origin, in the ray's order of axes: exact except for double's rounding.
+/// A vertex relative to the ray's origin, in the ray's order of axes: exact except for the rounding of doubles.
 Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {
   const auto along = [&](std::uint32_t axis) {
     return double{vertex[axis * stride]} - double{ray.origin[axis]} - double{ray.origin_rest[axis]};
@@ -46,7 +46,7 @@ Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride
   return {along(ray.axis_x), along(ray.axis_y), along(ray.axis_z)};
 }
 
-/// A triangle as seen from where the ray starts in full, sheared in double.
+/// A triangle relative to the ray's full origin, sheared in double.
 struct SeenTriangle {
   SeenTriangle(const ShearedRay& ray, const float* rows, std::size_t stride)
       : shear{double{ray.shear_x}, double{ray.shear_y}, 1.0},
@@ -55,21 +55,21 @@ struct SeenTriangle {
         b(seen_vertex(ray, rows + 3 * stride, stride)),
         c(seen_vertex(ray, rows + 6 * stride, stride)) {}
 
-  /// t of its plane, no farther than the triangle reaches: a ray that nearly lies in the plane crosses it anywhere. Not finite
-  /// for a ray parallel to it.
+  /// t of its plane, clamped to the triangle's extent: a ray that nearly lies in the plane crosses it anywhere. Not finite for a
+  /// ray parallel to it.
   double plane_distance() const {
     const Vec3d normal = cross(b - a, c - a);
     const double depth = dot(normal, a) / dot(normal, shear);
     const auto [least, greatest] = std::minmax({a.z, b.z, c.z});
     return (std::isfinite(depth) ? std::clamp(depth, least, greatest) : depth) * scale_z;
   }
-  /// Edges belong to both their triangles.
+  /// An edge belongs to both of its triangles.
   bool is_crossed() const {
     const double u = turn(c, b), v = turn(a, c), w = turn(b, a);
     return !((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0));
   }
 
-  /// Between which depths the ray is in the triangle's box and `box_reach` around it; in the wrong order if it never is.
+  /// The depths between which the ray is in the triangle's box, padded by `box_reach`; in reverse order if it never is.
   std::pair<double, double> depths_in_box() const {
     std::pair<double, double> depths{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -87,7 +87,7 @@ struct SeenTriangle {
   Vec3d a, b, c;
 
  private:
-  /// Changes its sign, and nothing else, with its vertices.
+  /// Only its sign changes when the vertices are swapped.
   double turn(const Vec3d& from, const Vec3d& to) const {
     const double from_x = from.x - shear.x * from.z, from_y = from.y - shear.y * from.z;
     const double to_x = to.x - shear.x * to.z, to_y = to.y - shear.y * to.z;
@@ -95,12 +95,12 @@ struct SeenTriangle {
   }
 };
 
-/// Distances that differ by less than this share are the same except for rounding.
+/// Distances that differ by less than this share are equal except for rounding.
 constexpr double same_distance = 0x1p-20;
 
 float rounded(double t) { return static_cast<float>(t); }
 
-/// A t next to 0, of a triangle that floats let the ray cross, as doubles have it.
+/// A t near 0, recomputed in double, of a triangle that the ray crosses according to floats.
 float judged(float t, const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
   if (!(exact > 0.0) || (exact < double{near_edge} && !seen.is_crossed())) {
@@ -109,7 +109,7 @@ float judged(float t, const SeenTriangle& seen) {
   return std::fabs(exact - double{t}) <= same_distance * exact ? t : rounded(exact);
 }
 
-/// The t of a triangle that floats let the ray pass at an edge.
+/// The t of a triangle that, according to floats, the ray passes at an edge.
 float judged_outside(const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
   return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
@@ -134,9 +134,9 @@ struct ShearedTriangle {
     determinant = u + v + w;
   }
 
-  /// By floats.
+  /// According to floats.
   bool is_passed() const { return outside(u, v, w); }
-  /// Whether floats may be wrong about a triangle that the ray passes where doubles judge: see near_edge.
+  /// Whether floats may be wrong about a triangle that the ray passes where doubles decide: see near_edge.
   bool is_doubtful(const ShearedRay& ray) const {
     if (!(std::min(std::min(a.z, b.z), c.z) < near_edge && std::max(std::max(a.z, b.z), c.z) > -near_edge)) {
       return false;
@@ -146,8 +146,8 @@ struct ShearedTriangle {
     const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
     return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
   }
-  /// The depth of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow
-  /// far too soon.
+  /// The depth of the hit, not scaled yet. Each weight is divided before the sum: a product of third degree in length would
+  /// overflow and underflow far too early.
   float depth() const { return std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z)); }
 
   ShearedVertex a, b, c;
@@ -184,7 +184,7 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
 
 namespace {
 
-/// How fast the ray rises above a plane along the axis on which it is sheared.
+/// The rate at which the ray rises above a plane along the axis on which it is sheared.
 double approach_of(const ShearedRay& ray, const FacePlane& plane) {
   return plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} +
          plane.normal[ray.axis_z];
@@ -238,11 +238,11 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
 
 namespace {
 
-/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem: `size` is the sum of their
-/// coordinates, of which all their rests are a share except for those next to zero.
+/// In a quick test with floats, ray and surface may be nearer to each other than they appear. `size` is the sum of their
+/// coordinates; rests are a share of it, except for coordinates near zero.
 double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
 
-/// For certain: the ray's line passes the sphere.
+/// Conservative: the ray's line passes the sphere.
 bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const Vec3d center = LeafLane{rows, stride, lane}.vector(0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
   const Vec3d away = cross(to_origin, d);
@@ -251,7 +251,7 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
   return dot(away, away) > reach * reach * dot(d, d);
 }
 
-/// For certain: the ray's line passes the cone's axis at more than its largest radius.
+/// Conservative: the ray's line passes the cone's axis at more than its largest radius.
 bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const LeafLane cone{rows, stride, lane};
   const float base_radius = rows[3 * stride + lane], apex_radius = rows[7 * stride + lane];
@@ -264,7 +264,7 @@ bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::siz
   return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
 }
 
-/// Rays of the eye alone may start on a surface: others start off it. One that does has a root next to its start, however much it
+/// Only rays from the eye may start on a surface: others start off it. Such a ray has a root near its start, however much it
 /// grazes the surface.
 bool may_start_on(const Ray& ray, double first_root, double second_root) {
   constexpr double next_to_start = 0x1p-13;
@@ -298,7 +298,7 @@ float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, st
 
 namespace {
 
-/// A cone as quantities that a ray changes linearly: X(t) = across + t * across_rate, r(t), h(t) in [0, 1].
+/// A cone as quantities that are linear in t: X(t) = across + t * across_rate, r(t), h(t) in [0, 1].
 struct ConeLine {
   Vec3d across, across_rate;
   double radius, radius_rate;
@@ -309,7 +309,7 @@ struct ConeLine {
     const Vec3d normal = across + across_rate * t - axis * ((radius + radius_rate * t) * taper);
     return dot(d, normal) > 0.0;
   }
-  /// Whether an eye, which is there at this t, is on the surface.
+  /// Whether an eye, which is at this t, is on the surface.
   bool has_eye(const CurvedValues& cone, double t) const {
     const Vec3d at = across + across_rate * t;
     const double there = radius + radius_rate * t,
@@ -338,8 +338,8 @@ bool solve(double a, double b, double c, double& first, double& second) {
 
 }  // namespace
 
-/// Around the ray's nearest point to the base; a flat cone is almost a plane, and so is its twin beyond the apex, which can only
-/// be distinguished where the ray crosses that plane.
+/// Computed relative to the ray's nearest point to the base. A flat cone is almost a plane, as is its mirror image beyond the
+/// apex, which can be distinguished only where the ray crosses that plane.
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues cone(PrimitiveKind::cone, rows, stride, lane);
   const auto [base, signed_base_radius] = cone.four(0);

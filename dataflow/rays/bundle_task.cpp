@@ -32,7 +32,7 @@ void BundleTask::shoot(const core::Ray& ray) {
   });
 }
 
-/// From where it lies: what is copied from copies has to wait for them.
+/// Reads directly from the message: copying from a copy would have to wait for it.
 void BundleTask::enter(std::span<const std::byte> message) {
   core::expect(count_ < (has_ended() ? ended_ : rays_max), "a bundle has room for its rays");
   core::expect(message.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
@@ -53,7 +53,7 @@ void BundleTask::resume_hit(const RayMessage& message) {
   push(message.ray, message.best);
 }
 
-/// Moves waiting rays after those that have been taken up since, each to its own place or an earlier one.
+/// Moves waiting rays after those that were resumed since, each to its own slot or an earlier one.
 void BundleTask::gather_waiting() {
   for (; waiting_ > 0; --waiting_, ++count_, ++traced_) {
     bundle_->rays[count_] = bundle_->rays[traced_];
@@ -62,7 +62,7 @@ void BundleTask::gather_waiting() {
   }
 }
 
-/// Chooses the region of the first ray; keeps the one before if the ray starts where the node has none.
+/// Chooses the region of the first ray; keeps the previous one if the ray starts outside the node's regions.
 void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame) {
   if ((entered_ & 1U) != 0) {
     const bool is_here = tracer.enter_taken_up(flights_->entry[0].passage.cell);
@@ -72,7 +72,7 @@ void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame)
   }
 }
 
-/// Puts the rays that enter another region behind the others, where they wait.
+/// Moves the rays that enter another region to the end, where they wait.
 void BundleTask::part_others(const core::Region& region) {
   for (std::uint32_t i = 0; i < count_;) {
     if ((entered_ >> i & 1U) == 0 || region.contains(flights_->entry[i].passage.cell)) {
@@ -134,7 +134,7 @@ void BundleTask::shade_hit() {
   push(ray(), bundle_->hit(ended_));
 }
 
-/// In the place of those that wait for nothing more.
+/// Uses the slot of hits that need nothing more.
 void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
   if (fresh_hits_ == 0) {
     depth_ = core::waiting_count(stack_, depth_);
@@ -165,7 +165,7 @@ RayMessage BundleTask::leaving() const {
   return message;
 }
 
-/// Each value once: what is copied from copies has to wait for them.
+/// Writes each value once: copying from a copy would have to wait for it.
 void BundleTask::put_leaving(std::span<std::byte> place) const {
   core::expect(place.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
   const core::RayBundle& bundle = *bundle_;

@@ -73,7 +73,7 @@ bool Gather::wants_to_ask(NodeId owner) const {
   return asks(has_rays_for(target), has_credit(owner), target.has_asked == 1);
 }
 
-/// Or puts it off, if as many are asked as may be.
+/// Defers the request if the maximum number is outstanding.
 void Gather::ask(NodeId owner) {
   if (!may_ask(asked_, asks_max_)) {
     has_put_off_asking_ = true;
@@ -84,7 +84,7 @@ void Gather::ask(NodeId owner) {
   send_control(*node_, owner, Kind::ask, Ask{});
 }
 
-/// One of those who were asked has answered: asks whom that was put off of, those behind it first, so that each has its turn.
+/// An owner has answered a request: sends the deferred requests, beginning after that owner, so that each has its turn.
 void Gather::ask_others(NodeId answering) {
   if (!std::exchange(has_put_off_asking_, false)) {
     return;
@@ -98,7 +98,7 @@ void Gather::ask_others(NodeId answering) {
   }
 }
 
-/// After whatever changes what is here for `owner`, or its credit. Says whether a credit went back.
+/// Called after any change of the rays here for `owner`, or of its credit. Returns whether a credit went back.
 bool Gather::ask_or_decline(NodeId owner) {
   if (!shares_slots_) {
     return false;
@@ -113,7 +113,7 @@ bool Gather::ask_or_decline(NodeId owner) {
   return goes_back;
 }
 
-/// Where the next ray for the owner goes.
+/// The slot for the next ray for the owner.
 std::span<std::byte> Gather::place_for(NodeId owner) {
   core::expect(!waits(), "no ray is gathered while a packet waits");
   core::expect(owner != node_->id() && owner != host_, "a ray leaves for another node");
@@ -127,7 +127,7 @@ std::span<std::byte> Gather::place_for(NodeId owner) {
   return ray_bytes_in(packet_in(open), slot_at(open).count, tested_objects_);
 }
 
-/// It is there.
+/// The ray has been written.
 void Gather::added(NodeId owner, core::RayKind kind) {
   Slot& slot = slot_at(owner_at(owner).open);
   ++size_;
@@ -140,7 +140,7 @@ void Gather::added(NodeId owner, core::RayKind kind) {
   ask_or_decline(owner);
 }
 
-/// An open packet is not sent by way of the host as long as it can wait for its owner's credit.
+/// An open packet is not sent by way of the host while it can wait for its owner's credit.
 bool Gather::may_leave(NodeId owner) const { return owner_at(owner).open != none && (has_credit(owner) || !are_nodes_joined_); }
 
 bool Gather::can_flush() const {
@@ -167,7 +167,7 @@ void Gather::set_open(NodeId owner, std::uint16_t slot) {
   open_[i / 64] = slot == none ? open_[i / 64] & ~bit : open_[i / 64] | bit;
 }
 
-/// The one of the owners that `may` is true of whose open packet has most rays.
+/// Among the owners for which `may` is true, the one whose open packet has most rays.
 template <class May>
 std::optional<NodeId> Gather::fullest(const May& may) const {
   std::optional<NodeId> found;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr float never = std::numeric_limits<float>::infinity();
 
-/// As above, in a proxy whose cells are cubes of several voxels. Each of their planes is a plane of voxels, crossed at the same
-/// t, since doubling is exact; they may extend beyond the voxels.
+/// As above, in a proxy whose cells are cubes of several voxels. Each of their planes is a plane of voxels and is crossed at the
+/// same t, since doubling is exact; the cubes may extend beyond the voxels.
 float first_in_cubes(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                      core::Operations& operations) {
   core::LocalRecords records = surroundings.records;
@@ -31,7 +31,7 @@ float first_in_cubes(const core::Ray& ray, const core::Passage& passage, const S
   return core::RayTraversal(ray, cursor, records, operations).first_leaf(walk, cubes);
 }
 
-/// Where the ray may first meet anything; in no region before that.
+/// Where the ray may first meet anything; it meets nothing in regions before that.
 float first_meeting(const core::Ray& ray, const core::CellTraversal& walk, const core::Passage& passage,
                     const Surroundings& surroundings, core::Operations& operations) {
   if (!surroundings.has_proxy()) {
@@ -92,7 +92,7 @@ void for_each(RayMask rays, const Visit& visit) {
   }
 }
 
-/// The ways of a bundle's rays from region to region.
+/// The paths of a bundle's rays from region to region.
 class Ways {
  public:
   Ways(RayBundle& bundle, const Surroundings& surroundings, nodes::NodeId here, core::Operations& operations,
@@ -119,12 +119,12 @@ class Ways {
   }
 
  private:
-  /// Finds the regions that the rays have come to. Returns those that are not this node's.
+  /// Finds the regions that the rays have reached. Returns the rays whose region is not this node's.
   RayMask enter_regions(RayMask rays) {
     RayMask elsewhere = 0;
     for_each(rays, [&](std::size_t ray) {
       const core::Corner cell{bundle_.arrival[0][ray], bundle_.arrival[1][ray], bundle_.arrival[2][ray]};
-      if (!found_.box.contains(cell)) {  // most go where the one before goes
+      if (!found_.box.contains(cell)) {  // most rays go where the previous one goes
         found_ = regions_.find(cell);
       }
       region_[ray] = found_.index;
@@ -139,7 +139,7 @@ class Ways {
     return elsewhere;
   }
 
-  /// Where rays may first meet anything: those of `rays` that may. The ways of the others end.
+  /// Finds where rays may first meet anything: returns those of `rays` that may. The paths of the others end.
   RayMask find_first_meetings(RayMask rays) {
     if (!surroundings_.has_proxy()) {
       for_each(rays, [&](std::size_t ray) { first_[ray] = static_cast<float>(bundle_.t_enter[ray]); });
@@ -158,7 +158,7 @@ class Ways {
     return met;
   }
 
-  /// Takes rays through their regions where they meet nothing. Returns those that have come to others.
+  /// Moves rays through regions where they meet nothing. Returns those that have reached others.
   RayMask pass_regions(RayMask rays) {
     const core::BundleSteps& steps = core::fastest_bundle_steps;
     steps.find_box_exits(bundle_, rays, planes_);
@@ -181,12 +181,12 @@ class Ways {
   core::Operations& operations_;
   Row<std::uint32_t>& region_;
   FoundRegion found_;                     ///< that of the last ray
-  RayMask empty_ = 0;                     ///< rays whose regions hold nothing
+  RayMask empty_ = 0;                     ///< rays whose regions are empty
   alignas(64) core::PlaneRows planes_{};  ///< where rays may leave their regions
-  Row<float> first_{};                    ///< in no region before that a ray meets anything
+  Row<float> first_{};                    ///< a ray meets nothing in regions before that
 };
 
-/// A proxy of cubes has another grid than the bundle.
+/// A proxy of cubes has a different grid from the bundle.
 void find_next_stops_alone(RayBundle& bundle, const Surroundings& surroundings, nodes::NodeId here, core::Operations& operations,
                            Row<std::uint32_t>& region) {
   for_each(bundle.left, [&](std::size_t ray) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
-/// Goes through the rays of a pass. Calls begin(partition, node, number) where a partition's run of consecutive rays of one node
-/// begins, with `nobody` for rays that are not assigned and, in the end, behind the last.
+/// Iterates over the rays of a pass. Calls begin(partition, node, number) where a partition's run of consecutive rays of one node
+/// begins, with `nobody` for unassigned rays and, at the end, after the last ray.
 template <class Begin>
 void assign(const core::RenderSettings& settings, std::span<const Regions> partitions, const core::Pass& pass,
             const core::PixelMask& done, const std::stop_token& stop, const PixelOrder& order, const Begin& begin) {
@@ -25,8 +25,8 @@ void assign(const core::RenderSettings& settings, std::span<const Regions> parti
     }
   };
   const core::SampleRange numbered = numbered_samples(pass);
-  std::uint64_t end = 0;    // behind the ray before
-  bool follows_on = false;  // there is one that is assigned
+  std::uint64_t end = 0;    // after the previous ray
+  bool follows_on = false;  // whether an assigned run is open
   for (std::uint32_t place = 0; place < settings.camera.pixel_count() && !stop.stop_requested(); ++place) {
     const std::uint32_t pixel = order.pixel_at(place);
     if (done.has(pixel) || !pass.has(pixel)) {
@@ -48,7 +48,7 @@ void assign(const core::RenderSettings& settings, std::span<const Regions> parti
   begin_each(follows_on ? owners.all_partitions() : 0, end, false);
 }
 
-/// As many of the first of `partitions` as one lattice may be of. Cuts that do not go on in each other's make many cells.
+/// The number of the first `partitions` that share a lattice. Cuts that do not continue each other create many cells.
 std::size_t joint_count(std::span<const Regions> partitions) {
   constexpr std::size_t owners_max = std::size_t{1} << 21U;
   std::size_t count = 1;

@@ -83,8 +83,8 @@ core::Traced RayTask::walk(PartTracer& tracer, core::Operations& operations) {
   return tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, *cursor_, operations);
 }
 
-/// A leaf on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
-/// node where it proves to be the hit is to meet it itself, so that it need not go back to its finder.
+/// A leaf on the list is not tested again. The candidate's leaf is not put there, though the ray may meet it again in another
+/// voxel: the node where it proves to be the hit then meets it itself, and the ray need not return to its finder.
 core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {
   const core::ShearedRay sheared(flight_->ray);
   const auto test = [&](const std::byte* record, core::Address address, core::Hit& best) {
@@ -101,7 +101,7 @@ core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& oper
   return tracer.trace(flight_->ray, *cursor_, operations, test);
 }
 
-/// Whether the ray starts in a region of the node's. If not, it has left that, or misses the grid.
+/// Whether the ray starts in a region of the node. If not, it has left the region, or misses the grid.
 bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
   const auto passage = core::first_passage(flight_->ray, header.frame);
   flight_->finder = self_;
@@ -119,7 +119,7 @@ void RayTask::shade_hit() {
   push(flight_->ray, cursor_->best);
 }
 
-/// In the place of those that wait for nothing more.
+/// Uses the slot of hits that need nothing more.
 void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
   depth_ = core::waiting_count(stack_, depth_);
   core::expect(depth_ < stack_.size(), "the ray stack holds the hits that wait");

@@ -26,7 +26,7 @@ void check(const BalanceOptions& options) {
 }  // namespace
 
 CutAxes axes_facing(const core::Camera& camera) {
-  // Opposite corners of the picture: what they have in common is the direction in which the camera looks.
+  // The common part of the directions of opposite corners of the picture is the camera's viewing direction.
   const core::Vec3f first = camera.primary_ray(0, 0).direction, last = camera.primary_ray(camera.pixel_count() - 1, 0).direction;
   const core::Vec3f forward = first + last;
   std::size_t along = 0;

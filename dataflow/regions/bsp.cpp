@@ -11,11 +11,11 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// What a finest column's area counts beside its load, as a share of the mean load of a finest column: too little to disturb a
-/// balance, enough to put a cut through empty space in its middle.
+/// The weight of a finest column's area beside its load, as a share of the mean load of a finest column: too little to disturb
+/// the balance, but enough to put a cut through empty space in its middle.
 constexpr double area_share = 1e-6;
 
-/// A rectangle of finest columns, half-open, along the two cut axes.
+/// A half-open rectangle of finest columns along the two cut axes.
 struct Rectangle {
   std::array<std::int32_t, 2> low{}, high{};
 
@@ -23,13 +23,13 @@ struct Rectangle {
   std::int64_t area() const { return std::int64_t{length(0)} * length(1); }
 };
 
-/// How much of column `index` lies in [low, high) along `along`, in [0, 1].
+/// The share, in [0, 1], of column `index` along `along` that lies in [low, high).
 double share_within(const ColumnLattice& lattice, std::size_t along, std::int32_t index, std::int32_t low, std::int32_t high) {
   const std::int32_t first = lattice.line(along, index), end = lattice.line(along, index + 1);
   return static_cast<double>(std::min(end, high) - std::max(first, low)) / static_cast<double>(end - first);
 }
 
-/// The load of the part of column `index` along `along` that lies in the rectangle: summed across the other axis.
+/// The load of the part of column `index` along `along` that lies in the rectangle, summed across the other axis.
 double strip_load(const ColumnLoads& loads, const Rectangle& in, std::size_t along, std::int32_t index) {
   const ColumnLattice& lattice = loads.lattice;
   const std::size_t across = 1 - along;
@@ -160,10 +160,10 @@ Bsp Bsp::by_unit() const {
   return units;
 }
 
-/// Cuts one box after the other, the larger share of the regions always on the high side.
+/// Cuts boxes recursively; the larger share of the regions is always on the high side.
 class BspBuilder {
  public:
-  /// `loads` are those of the lattice's columns; null if there is none anywhere.
+  /// `loads` are those of the lattice's columns; null if there are none.
   BspBuilder(const ColumnLattice& lattice, const ColumnLoads* loads, std::uint32_t region_count, const BspOptions& options,
              std::uint32_t units_a_node = 1)
       : lattice_(lattice), options_(options), bsp_(lattice.grid_size()) {
@@ -201,7 +201,7 @@ class BspBuilder {
                            [](double sum, std::uint64_t load) { return sum + static_cast<double>(load); });
   }
 
-  /// Where column `index` begins.
+  /// The begin of column `index`.
   std::int32_t line(std::size_t along, std::int32_t index) const { return lines_[along][static_cast<std::size_t>(index)]; }
 
   void cut(const Rectangle& box, std::uint32_t first, std::uint32_t count, std::size_t depth) {
@@ -209,7 +209,7 @@ class BspBuilder {
       return;
     }
     const std::uint32_t low_count = bsp_.low_count_of(count);
-    const std::uint32_t together = count > bsp_.units_each_ ? bsp_.units_each_ : 1;  // as if nodes had one region
+    const std::uint32_t together = count > bsp_.units_each_ ? bsp_.units_each_ : 1;  // as if each node had one region
     const Place place = choose(box, low_count / together, (count - low_count) / together, depth);
     bsp_.cuts_[first + low_count - 1] = {place.at, lattice_.axes()[place.along]};
     Rectangle low = box, high = box;
@@ -218,8 +218,8 @@ class BspBuilder {
     cut(high, first + low_count, count - low_count, depth + 1);
   }
 
-  /// The preferred axis if it has a cut that leaves each region some columns, else the other one, with fewer columns as it must
-  /// be.
+  /// The preferred axis if it has a cut that leaves each region some columns; else the other axis, if necessary with fewer
+  /// columns.
   Place choose(const Rectangle& box, std::uint32_t low_count, std::uint32_t high_count, std::size_t depth) const {
     const std::size_t preferred = preferred_axis(box, depth);
     for (const std::int64_t columns_each : {4, 2, 1}) {
@@ -231,7 +231,7 @@ class BspBuilder {
         }
       }
     }
-    // More regions than columns: the middle; some regions will be empty.
+    // More regions than columns: cuts in the middle; some regions will be empty.
     return {preferred, box.low[preferred] + box.length(preferred) / 2};
   }
 
@@ -249,7 +249,7 @@ class BspBuilder {
     return load + area_weight_ * static_cast<double>(high - low) * box.length(1 - along);
   }
 
-  /// Where the low side has its share of the box's load, as near as the range allows.
+  /// The position where the low side has its share of the box's load, as nearly as the range allows.
   std::int32_t median(const Rectangle& box, std::size_t along, std::uint32_t low_count, std::uint32_t high_count,
                       const CutRange& range) const {
     const std::int32_t first = lattice_.column_at(along, box.low[along]);
@@ -270,8 +270,8 @@ class BspBuilder {
     return std::clamp(place_in_column(box, along, column, missing, inside, region_load), range.least, range.most);
   }
 
-  /// On the nearer of the column's two lines, or inside it if that misses the share by too much. `missing` of the column's load
-  /// `inside` the box belongs to the low side.
+  /// The nearer of the column's two lines, or a position inside if that misses the share by too much. `missing` of the column's
+  /// load `inside` the box belongs to the low side.
   std::int32_t place_in_column(const Rectangle& box, std::size_t along, std::int32_t column, double missing, double inside,
                                double region_load) const {
     const std::int32_t low = std::max(box.low[along], line(along, column));
@@ -285,7 +285,7 @@ class BspBuilder {
 
   const ColumnLattice& lattice_;
   std::array<std::vector<std::int32_t>, 2> lines_;  ///< the lattice's
-  const ColumnLoads* loads_ = nullptr;              ///< null: there is none anywhere
+  const ColumnLoads* loads_ = nullptr;              ///< null: there are none
   BspOptions options_;
   Bsp bsp_;
   double area_weight_ = 1;

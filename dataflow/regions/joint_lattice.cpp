@@ -9,7 +9,7 @@ namespace {
 
 using Planes = std::array<std::vector<std::int32_t>, 3>;
 
-/// The planes of the grid's ends and of all cuts between them.
+/// The planes at the grid's ends and at all cuts between them.
 Planes planes_of(std::span<const Regions> partitions) {
   const core::Corner& size = partitions.front().grid_size();
   Planes planes;
@@ -57,7 +57,7 @@ JointLattice::JointLattice(std::span<const Regions> partitions) : partition_coun
   }
 }
 
-/// No cut goes through a cell, so its lowest finest cell speaks for all of it.
+/// No cut goes through a cell, so its lowest finest cell represents all of it.
 void JointLattice::add_cell(std::span<const Regions> partitions, const Place& place) {
   const core::Corner lowest = {planes_[0][place[0]], planes_[1][place[1]], planes_[2][place[2]]};
   std::uint64_t occupied = 0;

@@ -14,7 +14,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// Each region's flows, in both directions.
+/// The flows of each region, in both directions.
 class Neighbours {
  public:
   struct Entry {
@@ -40,18 +40,18 @@ std::uint32_t hops(const nodes::Topology& topology, std::uint32_t a, std::uint32
   return topology.hops(nodes::NodeId{a}, nodes::NodeId{b});
 }
 
-/// The hops between any two nodes, reckoned once: descents ask for them millions of times.
+/// A table of the hops between any two nodes, since descents look them up millions of times.
 class HopTable {
  public:
   explicit HopTable(const nodes::Topology& topology) : node_count_(topology.node_count()) {
     hops_.reserve(std::size_t{node_count_} * node_count_);
     for (std::uint32_t a = 0; a < node_count_; ++a) {
       for (std::uint32_t b = 0; b < node_count_; ++b) {
-        hops_.push_back(static_cast<std::uint16_t>(hops(topology, a, b)));  // region_count_max nodes are never so far apart
+        hops_.push_back(static_cast<std::uint16_t>(hops(topology, a, b)));  // up to region_count_max nodes the distance fits
       }
     }
   }
-  /// From `node` to each.
+  /// The distances from `node` to all nodes.
   const std::uint16_t* from(std::uint32_t node) const { return hops_.data() + std::size_t{node} * node_count_; }
 
  private:
@@ -59,7 +59,7 @@ class HopTable {
   std::vector<std::uint16_t> hops_;
 };
 
-/// What a region's flows cost on `node` while `other`, with which it may exchange places, is left out: that distance stays.
+/// The cost of a region's flows on `node` without those to `other`, with which it may swap: their distance stays.
 std::uint64_t cost_at(const Mapping& mapping, const Neighbours& neighbours, const HopTable& hops, std::uint32_t region,
                       std::uint32_t node, std::uint32_t other) {
   const std::uint16_t* const hops_to = hops.from(node);
@@ -79,7 +79,7 @@ bool exchange_helps(const Mapping& mapping, const Neighbours& neighbours, const 
   return then < now;
 }
 
-/// Ends, since every exchange lowers an integer sum.
+/// Terminates, since every swap decreases an integer sum.
 void descend(Mapping& mapping, const Neighbours& neighbours, const HopTable& hops) {
   const auto count = static_cast<std::uint32_t>(mapping.size());
   for (bool has_changed = true; has_changed;) {
@@ -95,9 +95,9 @@ void descend(Mapping& mapping, const Neighbours& neighbours, const HopTable& hop
   }
 }
 
-/// How many descents there are, and where they start, the most promising first.
+/// The number of descents and their starting points, the most promising first.
 std::uint64_t beginning_count(std::uint32_t region_count) {
-  constexpr std::uint32_t random_regions_max = 128;  // beyond that each descent takes seconds
+  constexpr std::uint32_t random_regions_max = 128;  // with more regions each descent takes seconds
   constexpr std::uint64_t random_count = 24;
   return region_count <= random_regions_max ? 2 + random_count : 2;
 }
@@ -148,7 +148,7 @@ double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& t
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology) {
   core::expect(topology.node_count() == bsp.region_count(), "there are as many nodes as regions");
   const Neighbours neighbours(flows, bsp.region_count());
-  const std::uint64_t least_hops = total_amount(flows);  // one for each, since every region has a node of its own
+  const std::uint64_t least_hops = total_amount(flows);  // one hop for each, since every region has a node of its own
   std::optional<HopTable> hops;
   Mapping best;
   std::uint64_t best_hops = std::numeric_limits<std::uint64_t>::max();
@@ -172,7 +172,7 @@ Mapping gray_mapping(const Bsp& bsp) {
   }
   for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
     std::uint32_t code = 0;
-    std::array<bool, 3> was_high{};  // along each axis, at the cut before
+    std::array<bool, 3> was_high{};  // along each axis, at the previous cut
     bsp.for_each_cut(region, [&](Bsp::Cut cut, bool is_high) {
       bool& before = was_high[cut.axis()];
       code = 2 * code + (is_high != before ? 1U : 0U);

@@ -11,10 +11,10 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// Cells of the lattice, along both axes.
+/// The number of cells of the lattice along both axes.
 using Extent = std::array<std::uint32_t, 2>;
 
-/// All ways to write a number as a product of two.
+/// All factorisations of a number into two factors.
 std::vector<Extent> factor_pairs(std::uint32_t product) {
   std::vector<Extent> pairs;
   for (std::uint32_t first = 1; first <= product; ++first) {
@@ -25,17 +25,17 @@ std::vector<Extent> factor_pairs(std::uint32_t product) {
   return pairs;
 }
 
-/// A window with each node once, and how many of them the lattice has along both axes.
+/// A window that contains each node once, and the number of windows in the lattice along both axes.
 struct Tiling {
   Extent window, windows;
 
   Extent count() const { return {window[0] * windows[0], window[1] * windows[1]}; }
 };
 
-/// How far a rectangle with such sides is from a square: 1 if it is one.
+/// The ratio of the longer to the shorter side of a rectangle: 1 for a square.
 double stretch(double width, double height) { return std::max(width / height, height / width); }
 
-/// How far the cells of a lattice are from squares.
+/// The same ratio for the cells of a lattice.
 double stretch(const std::array<std::int32_t, 2>& size, const Extent& count) {
   return stretch(static_cast<double>(size[0]) / count[0], static_cast<double>(size[1]) / count[1]);
 }
@@ -60,8 +60,8 @@ std::optional<Tiling> squarest(const std::array<std::int32_t, 2>& size, std::uin
   return best;
 }
 
-/// The square of the distance between the nearest regions of one node, if those at (x, y) with x + step y divisible by
-/// `node_count` are one node's.
+/// The square of the least distance between two regions of one node, if regions (x, y) with x + step y divisible by `node_count`
+/// belong to one node.
 std::uint64_t nearest_own(std::uint64_t step, std::uint64_t node_count) {
   std::uint64_t nearest = node_count * node_count;  // (node_count, 0)
   for (std::uint64_t y = 1; y * y < nearest; ++y) {
@@ -71,8 +71,8 @@ std::uint64_t nearest_own(std::uint64_t step, std::uint64_t node_count) {
   return nearest;
 }
 
-/// The step along the other axis, where that along the longer side of the window is 1: any if the window is one row, else one
-/// that takes row for row to other multiples of the row's length.
+/// The step along the other axis, where the step along the longer side of the window is 1: any step if the window is one row,
+/// else one that maps rows to different multiples of the row's length.
 std::uint32_t choose_step(std::uint32_t row, std::uint32_t rows) {
   const std::uint32_t node_count = row * rows, unit = rows == 1 ? 1 : row;
   std::uint32_t best = 0;
@@ -88,7 +88,7 @@ std::uint32_t choose_step(std::uint32_t row, std::uint32_t rows) {
   return best;
 }
 
-/// How many of the nodes are adjacent on the torus to the node that is `step` further.
+/// The number of nodes that are adjacent on the torus to the node `step` further on.
 std::uint32_t adjacent_count(const nodes::Topology& torus, std::uint32_t step) {
   std::uint32_t count = 0;
   for (std::uint32_t node = 0; node < torus.node_count(); ++node) {
@@ -97,7 +97,7 @@ std::uint32_t adjacent_count(const nodes::Topology& torus, std::uint32_t step) {
   return count;
 }
 
-/// A number without a common divisor with node_count, by which both steps are multiplied: who shares a node stays the same.
+/// A number coprime to node_count by which both steps are multiplied: regions that share a node still do.
 std::uint32_t choose_factor(std::uint32_t step, std::uint32_t node_count) {
   const nodes::Topology torus(nodes::TopologyKind::torus, node_count);
   std::uint32_t best = 1, fewest = std::numeric_limits<std::uint32_t>::max();

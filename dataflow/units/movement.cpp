@@ -50,7 +50,7 @@ bool Movement::receive(const nodes::Packet& packet) {
   }
 }
 
-/// The node with most primary rays left that it has heard of, if it has none itself.
+/// The node that has reported most primary rays, if this node has none left.
 std::optional<nodes::NodeId> Movement::partner() const {
   const auto most = std::max_element(rays_reported_.begin(), rays_reported_.end());
   if (*most == 0 || !units_.primaries->empty() || units_.pages->free_frames() == 0) {
@@ -63,13 +63,13 @@ void Movement::ask() {
   const nodes::NodeId partner = *this->partner();
   migration_.ask();
   ++counters_.asks;
-  rays_reported_[nodes::index_of(partner)] = 0;  // until it tells it anew: a node that refuses is not asked again before others
+  rays_reported_[nodes::index_of(partner)] = 0;  // until its next report: a node that refuses is not asked again before others
   send_control(*node_, partner, Kind::unit_ask,
                UnitAsk{.free_frames = units_.pages->free_frames(),
                        .free_runs = static_cast<std::uint32_t>(units_.primaries->free_runs())});
 }
 
-/// The one with most primary rays, if that is no more than the node would keep.
+/// The unit with most primary rays, if these are no more than the node would keep.
 std::optional<std::uint32_t> Movement::unit_to_give() const {
   const UnitPrimaries& primaries = *units_.primaries;
   if (!migration_.may_give() || primaries.empty()) {
@@ -80,7 +80,7 @@ std::optional<std::uint32_t> Movement::unit_to_give() const {
   return primaries.left_of(unit) <= primaries.left() / 2 ? std::optional(unit) : std::nullopt;
 }
 
-/// A traversal through its records, once for many questions.
+/// Traverses the unit's records once for many questions.
 void Movement::mark(std::uint32_t unit) {
   if (marked_ != unit) {
     const UnitPages::Marked marked = units_.pages->mark(*units_.header, units_.regions->region_at(unit));
@@ -129,7 +129,7 @@ void Movement::send_page() {
   node_->send_reserved(recipient_, unit_channel, number_of(Kind::unit_page), std::span<const std::byte>(packet_));
 }
 
-/// Sends the rays that have not started meanwhile, if there are any.
+/// Sends the rays that have not started in the meantime, if any.
 void Movement::send_primaries() {
   UnitPrimaryRays rays{.unit = unit_};
   const std::uint64_t left = units_.primaries->left_of(unit_);
@@ -176,7 +176,7 @@ void Movement::take_primaries(nodes::NodeId donor, const UnitPrimaryRays& rays) 
   }
 }
 
-/// The recipient answers for the unit with its last page; primary rays follow.
+/// The recipient becomes responsible for the unit with its last page; primary rays follow.
 bool Movement::take_acknowledgement() {
   if (pages_left_ > 0) {
     send_page();
@@ -195,7 +195,7 @@ bool Movement::take_acknowledgement() {
 }
 
 void Movement::take_news(const UnitMoved& moved) {
-  // A node may hear who has a unit that it is giving before the last acknowledgement comes, which tells the same.
+  // A node may learn who has a unit that it is giving away before the last acknowledgement arrives, which says the same.
   if (!answers_for(moved.unit) && is_news(version_[moved.unit], moved.version)) {
     core::expect(nodes::NodeId{moved.owner} != node_->id(), "a unit's owner knows all news of it");
     units_.regions->give_to(moved.unit, nodes::NodeId{moved.owner});

@@ -60,7 +60,7 @@ void UnitPages::begin_with(std::span<const std::uint32_t> pages, const nodes::By
   }
 }
 
-/// In the frame that its bytes are in, or will be.
+/// Enters the page in the frame that holds its bytes, or will hold them.
 void UnitPages::enter(std::uint32_t page) {
   const std::size_t place = place_of(page);
   page_[count_] = page;

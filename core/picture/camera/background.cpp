@@ -12,8 +12,8 @@
 namespace dmpc::core {
 namespace {
 
-/// BVH nodes and leaves that fall on so few tiles count as filling them: what is in them takes longer to look at than the tiles
-/// that it leaves empty save. A picture of tetra-9 then has 1 % of its tiles less, found in 60 % of the time.
+/// BVH nodes and leaves that project to at most this many tiles count as filling them: testing their contents takes longer than
+/// the tiles found empty would save. With this limit a picture of tetra-9 has 1 % fewer empty tiles, found in 60 % of the time.
 constexpr int few_tiles_of_bvh_node = 6, few_tiles_of_leaf = 16;
 
 std::uint32_t count_of(std::uint64_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); }
@@ -29,7 +29,7 @@ Box box_of_cell(const Corner& corner, const GridFrame& frame) {
   return box;
 }
 
-/// Takes bits away from tiles on which boxes fall.
+/// Clears the bits of tiles that boxes project to.
 class Finder {
  public:
   Finder(const Database& database, const BoxProjector& projector)
@@ -57,7 +57,8 @@ class Finder {
     }
   }
 
-  /// A ray is tested in a voxel against all that it lists, but meets it within its box, and comes to it through the voxel.
+  /// In a voxel a ray is tested against all that it lists, but meets a leaf only within the leaf's box, and reaches it only
+  /// through the voxel.
   void look_into_voxel(const DirectoryEntry& entry, const Corner& corner) {
     const TileFootprint footprint = projector_.footprint_of(box_of_cell(corner, header_.frame));
     if (tile_count(footprint) <= few_tiles_of_bvh_node) {
@@ -67,7 +68,7 @@ class Finder {
     }
   }
 
-  /// A ray comes to a child through the boxes above it, so a box that falls on no tile with a bit needs not be opened.
+  /// A ray reaches a child only through the boxes above it, so a box that projects to no tile with a bit need not be opened.
   void look_into_bvh_node(Address address) {
     const auto bvh_node = read<BvhNode>(records_.find(address));
     for (std::size_t child = 0; child < bvh_node.child_count && left_ > 0; ++child) {
@@ -112,9 +113,9 @@ class Finder {
   const DatabaseHeader& header_;
   LocalRecords records_;
   const BoxProjector& projector_;
-  Vec3d pad_;  ///< within which a hit may lie beside its primitive
+  Vec3d pad_;  ///< the maximum distance of a hit from its primitive
   BackgroundTiles::Bits bits_{};
-  std::uint32_t left_ = 0;  ///< bits
+  std::uint32_t left_ = 0;  ///< number of bits
 };
 
 }  // namespace

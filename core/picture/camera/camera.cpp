@@ -18,14 +18,14 @@ Camera::Camera(const View& view, const GridFrame& frame, int width, int height, 
   const std::array<Vec3d, 3> screen = screen_axes(view);
   const Vec3d right = screen[0], up = screen[1];
   forward_ = -screen[2];
-  // A picture one pixel wide has no spacing of its own: its pixel spans the whole angle.
+  // A picture one pixel wide has no pixel spacing; its pixel spans the whole angle.
   const int intervals = std::max(1, std::min(width, height) - 1);
   const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;
   right_ = right * pixel;
   down_ = up * -pixel;
 }
 
-/// Before the ray comes as near to the middle as it does, by a diagonal of the grid: no hit lies before.
+/// A lower bound of t for hits: the ray's nearest point to the middle, less a diagonal of the grid.
 double Camera::start_of(const Vec3d& towards) const {
   return reach_ > 0 ? std::max(0.0, dot(middle_ - eye_, towards) - reach_) : 0.0;
 }

@@ -5,7 +5,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Middles of the full intervals of length `step` in [0, size), or the middle of [0, size) if it is shorter.
+/// The middles of the full intervals of length `step` in [0, size), or the middle of [0, size) if it is shorter.
 std::vector<std::uint32_t> middles(int size, int step) {
   std::vector<std::uint32_t> found;
   for (int at = std::min(step, size) / 2; at < size && (found.empty() || at - step / 2 + step <= size); at += step) {

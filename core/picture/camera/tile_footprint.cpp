@@ -7,11 +7,12 @@
 namespace dmpc::core {
 namespace {
 
-/// Rounding may turn a ray by less than this, in radians: each component of a direction is rounded by at most 2^-25, and the
-/// planes of boxes seem to a ray to be off by less than 2^-22 of their distance (core/trace/kernel.h), together sqrt(3) (2^-25 +
-/// 2^-22). What doubles round off here is nothing beside it.
+/// The maximum angle, in radians, by which rounding may turn a ray: each component of a direction is rounded by at most 2^-25,
+/// and the planes of boxes appear to a ray off by less than 2^-22 of their distance (core/trace/kernel.h), together sqrt(3)
+/// (2^-25 + 2^-22). The rounding of doubles here is negligible beside it.
 constexpr double turn_radians = 0x1p-21;
-/// As far from its middle, in units of its distance from the eye, a film may reach: a ray that is turned still points ahead.
+/// The maximum distance of the film's border from its middle, in units of its distance from the eye: a turned ray still points
+/// ahead.
 constexpr double film_radius_max = 0x1p12;
 /// From the middle of a pixel to a sample, and one pixel more.
 constexpr double sample_margin_pixels = 0.5 + 1.0;
@@ -21,14 +22,14 @@ double film_radius(const Camera& camera) {
   return camera.pixel_size() * (0.5 * (camera.width() + camera.height()) + 2 * sample_margin_pixels);
 }
 
-/// At a distance r from the middle of a film at distance 1 a ray turned by e comes out e (1 + r^2) / (1 - e r) farther off, since
+/// At a distance r from the middle of a film at distance 1, a ray turned by e arrives e (1 + r^2) / (1 - e r) farther off, since
 /// tan(a + e) - tan(a) = tan(e) (1 + tan(a)^2) / (1 - tan(a) tan(e)); 1 - e r is more than 1/2.
 double margin_pixels_of(const Camera& camera) {
   const double radius = film_radius(camera);
   return sample_margin_pixels + 2 * turn_radians * (1 + radius * radius) / camera.pixel_size();
 }
 
-/// Between one point ahead of the eye and one that is not.
+/// The point at depth 0 between a point ahead of the eye and one that is not.
 Vec3d at_depth_0(const Vec3d& a, const Vec3d& b) {
   const double share = a.z / (a.z - b.z);
   return {a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share, 0};
@@ -50,7 +51,7 @@ BoxProjector::Side::Side(int pixels, double margin_pixels)
   }
 }
 
-/// It is seen between its outermost corners.
+/// The box is seen between its outermost corners.
 std::uint64_t BoxProjector::Side::footprint_of_whole(const Proxy& proxy, std::size_t axis) const {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < proxy.count; ++i) {
@@ -64,8 +65,8 @@ std::uint64_t BoxProjector::Side::footprint_of_whole(const Proxy& proxy, std::si
   return low <= high ? bits_between(tile_at(low), tile_at(high)) : 0;
 }
 
-/// Corners at the depth 0 are seen nowhere: a tile sees nothing if all corners lie beyond the plane through the eye and one of
-/// its edges.
+/// Corners at depth 0 are not visible: a tile sees nothing if all corners lie beyond the plane through the eye and one of the
+/// tile's edges.
 std::uint64_t BoxProjector::Side::footprint_of_cut(const Proxy& proxy, std::size_t axis) const {
   std::uint64_t footprint = 0;
   for (std::uint32_t tile = 0; tile < tiles_per_side; ++tile) {

@@ -23,7 +23,8 @@ std::int64_t fixed(float light, double units) {
 
 class Fnv1a {
  public:
-  /// The lowest byte first. Bytes of 0 only multiply, so those above all others, of which films are full, do at once.
+  /// Starts with the lowest byte. Bytes of 0 only multiply, so the zeros above all others, which most of a film consists of, are
+  /// combined.
   void add(std::uint64_t value) {
     std::size_t zeros = 8;
     for (; value != 0; value >>= 8U, --zeros) {

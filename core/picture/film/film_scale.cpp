@@ -9,10 +9,10 @@ namespace dmpc::core {
 namespace {
 
 constexpr double multiplied_max = 0x1p20;
-/// A sum saturates from 2 to the power of this on.
+/// A sum saturates at 2 to this power.
 constexpr int sum_exponent = 31;
 
-/// The least whole number of which the power of 2 is more.
+/// The least integer whose power of 2 is greater than `value`.
 int exponent_above(double value) {
   int exponent = 0;
   std::frexp(value, &exponent);
@@ -32,7 +32,7 @@ FilmScale film_scale_for(double radiance_bound, double bound_of_one_hit, std::ui
 }
 
 FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max, const Transport& transport) {
-  // A ray from the eye is like one that is reflected, one hit earlier.
+  // A ray from the eye is like a reflected one, one hit earlier.
   return film_scale_for(radiance_bound(scene, depth_max + 1, transport), radiance_bound(scene, 2, transport), samples_max);
 }
 

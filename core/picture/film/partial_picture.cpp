@@ -9,7 +9,7 @@ namespace dmpc::core {
 
 namespace {
 
-/// What a pixel's level was before the pass, by its samples; nothing if no passes come to them.
+/// A pixel's level before the pass, from its samples; nothing if no sequence of passes leads to them.
 std::optional<std::uint32_t> level_of(std::uint32_t samples, const PictureTerms& terms) {
   if (samples < terms.samples || samples % terms.samples != 0 || !std::has_single_bit(samples / terms.samples)) {
     return std::nullopt;
@@ -22,7 +22,7 @@ bool is_beyond(const PixelMask& mask, std::uint32_t pixel_count) {
   return pixel_count % 64 != 0 && mask.words().back() >> (pixel_count % 64) != 0;
 }
 
-/// Twice what scenes can bring, for what is rounded on the way.
+/// Twice the maximum light of a scene, which allows for intermediate rounding.
 bool can_hold(const FixedColor& sum, std::uint32_t samples, const PictureTerms& terms) {
   const double most = 2 * terms.radiance_max * samples * terms.film_scale.factor() / film_resolution + samples;
   return std::all_of(sum.channel.begin(), sum.channel.end(),
@@ -55,7 +55,7 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
   if (picture.pass.pixel_count() == 0) {
     return "a pass without pixels";
   }
-  const std::uint32_t passes_doubling = picture.passes - 2;  // that have ended
+  const std::uint32_t passes_doubling = picture.passes - 2;  // completed ones
   std::uint64_t doublings = 0;
   for (std::uint32_t pixel = 0; pixel < picture.film.pixel_count(); ++pixel) {
     const auto level = level_of(picture.film.samples(pixel), terms);
@@ -72,7 +72,8 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
   return passes_doubling > doublings ? "samples of fewer passes" : nullptr;
 }
 
-/// More than any film can show, and less than what overflows on the way. Only what looked even was expected to be so.
+/// The bounds are more than any film can show, and low enough to prevent overflow. A pixel has an expected error only if it
+/// looked even.
 bool can_be(const PixelPast& past, const PictureTerms& terms) {
   const double error = terms.refinement.error * terms.film_scale.factor();
   constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;
@@ -89,8 +90,8 @@ const char* fault_of_past(const PartialPicture& picture, const PictureTerms& ter
   return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
 
-/// How many samples a plane of a pixel can have light of. Where the pixel is not of the pass, and was of one before, its planes
-/// were gathered nobody knows when.
+/// The maximum number of samples whose light a plane of a pixel can have. For a pixel that is not in this pass but was in an
+/// earlier one, it is unknown when its planes were gathered.
 std::uint32_t samples_on(std::uint32_t plane, const PartialPicture& picture, std::uint32_t pixel) {
   const std::uint32_t before = picture.film.samples(pixel);
   const std::uint32_t brought = picture.done.has(pixel) ? picture.pass.samples(pixel).count : 0;

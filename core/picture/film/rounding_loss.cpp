@@ -13,18 +13,19 @@
 namespace dmpc::core {
 namespace {
 
-/// Half a unit in the last place of a float, of its value; of one with a rest, a 256th of that.
+/// Half a unit in the last place of a float, relative to its value; a 256th of that for a float with a rest.
 constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
 /// Rounding of the position and the radius of a surface that passes by local zero.
 constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
-/// A unit in the last place of a hit's t, of its value at most.
+/// At most a unit in the last place of a hit's t, relative to its value.
 constexpr double tie_rounding = 0x1p-23;
-/// The eye counts as no nearer to a curved surface than this share of its radius, or of one that passes by local zero.
+/// The eye counts as no nearer to a curved surface than this share of its radius; the second share is for one that passes by
+/// local zero.
 constexpr double curve_nearest = 0x1p-20, passing_nearest = 0x1p-36;
-/// Triangles of one polygon among which its inner edges are looked for.
+/// The maximum number of a polygon's triangles for which inner edges are searched.
 constexpr std::size_t polygon_triangles_max = 64;
 
-/// How far each coordinate may have been rounded.
+/// The maximum rounding error of each coordinate.
 Vec3d rounding_of(const Vec3d& point) {
   const auto along = [](double value) { return std::max(float_rounding * std::fabs(value), coordinate_step / 2); };
   return {along(point.x), along(point.y), along(point.z)};
@@ -46,12 +47,12 @@ struct Triangle {
   std::array<Vec3d, 3> corner;
 };
 
-/// The place of [a, b] that is nearest to a point: 0 at a, 1 at b.
+/// The parameter of the point of [a, b] nearest to `point`: 0 at a, 1 at b.
 double nearest_place(const Vec3d& a, const Vec3d& b, const Vec3d& point) {
   return std::clamp(dot(point - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
 }
 
-/// How far the eye is from the nearest point of a triangle.
+/// The distance from the eye to the nearest point of a triangle.
 double distance_to(const Triangle& triangle, const Vec3d& eye) {
   const auto& [a, b, c] = triangle.corner;
   const Vec3d normal = normalize(cross(b - a, c - a));
@@ -65,7 +66,7 @@ double distance_to(const Triangle& triangle, const Vec3d& eye) {
   return std::isinf(beside) ? std::fabs(dot(eye - a, normal)) : beside;
 }
 
-/// From a point to the lateral surface.
+/// The distance from a point to the lateral surface.
 double distance_to_cone(const CurvedValues& cone, const Vec3d& point) {
   const Vec3d axis = cone.axis(), from_base = point - cone.vector(0);
   const double height = length(axis), up = dot(from_base, axis) / height, off = length(from_base - axis * (up / height));
@@ -101,7 +102,7 @@ class LossFinder {
   }
 
  private:
-  /// How many pixels a length takes up at a distance.
+  /// The size in pixels of a length at a distance.
   double pixels(double length, double distance) const { return length / (distance * camera_.pixel_size()); }
 
   void count_collapsed() {
@@ -114,7 +115,7 @@ class LossFinder {
     }
   }
 
-  /// Faces of two planes that intersect are swapped where they are nearer to each other than the resolution of t.
+  /// Intersecting faces of two planes are swapped where their distance is less than the resolution of t.
   void count_swapped() {
     for (const CloseFaces& faces : database_.close_faces()) {
       const Vec3d offset = Vec3d(faces.place) - camera_.eye();
@@ -145,8 +146,8 @@ class LossFinder {
     loss_.moved_pixels = std::max(loss_.moved_pixels, moved > rounding_allowed_pixels ? moved : 0.0);
   }
 
-  /// In pixels, where it is nearest to the eye: what rounding moves it by, and how far off it rays start, which see nothing of
-  /// what is nearer.
+  /// In pixels, where the surface is nearest to the eye: its displacement by rounding, and the offset of ray starts, within which
+  /// rays see nothing.
   double moved_curved(const PrimitiveValues& curved, const Box& box) const {
     const double size = 2 * largest_coordinate(box), radius = widest(curved),
                  distance = distance_to_curved(curved, camera_.eye());
@@ -158,7 +159,8 @@ class LossFinder {
     return pixels((passing_clearance + passing_radius_rounding) * size + turned, nearest);
   }
 
-  /// In pixels: its plane where it is nearest, its corners, and its edges where they are nearest to the eye.
+  /// In pixels: the displacement of the plane where it is nearest to the eye, of the corners, and of the edges where they are
+  /// nearest to the eye.
   double moved_triangle(std::size_t id) const {
     const Triangle triangle(database_.primitives()[id]);
     if (is_beside_film(triangle)) {
@@ -189,7 +191,7 @@ class LossFinder {
     return moved;
   }
 
-  /// Across itself.
+  /// The displacement perpendicular to the edge.
   double moved_edge(const Vec3d& from, const Vec3d& to) const {
     const Vec3d along = normalize(to - from);
     const double place = nearest_place(from, to, camera_.eye());
@@ -205,7 +207,7 @@ class LossFinder {
     return pixels(length(across), length(nearest - camera_.eye()));
   }
 
-  /// Whether another triangle of the same polygon has the edge from corner k on: there is nothing to be seen of it.
+  /// Whether another triangle of the same polygon has the edge that begins at corner k, which is then invisible.
   bool is_inner_edge(std::size_t id, std::size_t k) const {
     const auto sources = database_.sources();
     const Triangle triangle(database_.primitives()[id]);
@@ -231,7 +233,7 @@ class LossFinder {
            place.y <= camera_.height() * place.z;
   }
 
-  /// For certain: all of it lies behind the eye, or to one side of the picture.
+  /// Conservative: all of the triangle lies behind the eye or to one side of the picture.
   bool is_beside_film(const Triangle& triangle) const {
     std::array<bool, 5> all{true, true, true, true, true};
     for (const Vec3d& corner : triangle.corner) {

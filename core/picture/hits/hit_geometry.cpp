@@ -14,8 +14,8 @@ namespace {
 
 Vec3d along(const Ray& ray, double t) { return ray.full_origin() + ray.full_direction() * t; }
 
-/// Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray starts on
-/// one of its sides.
+/// Where faces share a plane, the point lies in that plane and has its normal: the faces are one surface, and a ray starts off it
+/// on one of its sides.
 void triangle_geometry(HitState& state, const LeafLane& lane, const FacePlane* shared) {
   const Vec3d corner = lane.vector(0), edge1 = lane.vector(3) - corner, edge2 = lane.vector(6) - corner;
   const Vec3d origin = state.ray.full_origin(), direction = state.ray.full_direction();
@@ -33,8 +33,8 @@ void triangle_geometry(HitState& state, const LeafLane& lane, const FacePlane* s
   state.clearance = Clearance::of_flat(clearance_of(corner, edge1, edge2, state.geometric_normal, state.u, state.v, t));
 }
 
-/// In an exact plane, which lies next to others: the corners are brought there first, so that rays that slant to it meet it where
-/// they do, and rays start off it by what doubles are off.
+/// In an exact plane, which has others next to it: the corners are first moved into the plane, so that grazing rays hit it at the
+/// right point; rays start off it by the rounding error of doubles.
 void exact_geometry(HitState& state, const LeafLane& lane, const FacePlane& plane) {
   const auto in_plane = [&](const Vec3d& point) { return point - plane.normal * plane.height_of(point); };
   const Vec3d corner = in_plane(lane.vector(0)), edge1 = in_plane(lane.vector(3)) - corner,
@@ -60,14 +60,14 @@ void sphere_geometry(HitState& state, const LeafLane& lane) {
   state.clearance = clearance_on_curved(state, largest_component(center) + radius, radius, sphere.passes_by());
 }
 
-/// The least cosine of a cone's axis with a surface that is told from 0.
+/// The least cosine of a cone's axis with a surface that is distinguished from 0.
 constexpr double cosine_min = 1e-6;
-/// Weights change by less than this along an ellipse, or are taken to.
+/// Weights change by less than this along an ellipse; larger changes are clamped.
 constexpr double change_max = 1e30;
 
 float bounded(double change) { return static_cast<float>(std::clamp(change, -change_max, change_max)); }
 
-/// On a flat cone the way off the axis tells better than the height where the point is.
+/// On a flat cone the distance from the axis determines the point better than the height does.
 void cone_geometry(HitState& state, const LeafLane& lane) {
   const CurvedValues cone(PrimitiveKind::cone, lane.rows, lane.stride, lane.lane);
   const Vec3d base = cone.vector(0), apex = cone.apex(), axis = cone.axis();
@@ -137,7 +137,7 @@ CutEllipse cut_ellipse(const HitState& state, const std::byte* record, const Vec
   }
   const Vec3d direction(state.ray.direction), unit = state.geometric_normal;
   const double approach = std::copysign(std::max(std::fabs(dot(direction, unit)), cosine_min), dot(direction, unit));
-  // One diameter of the disc lies in the triangle's plane, the other is moved there along the ray.
+  // One diameter of the disc lies in the triangle's plane; the other is projected there along the ray.
   const Vec3d common = cross(unit, upright);
   const Vec3d across = normalize(dot(common, common) > 0.0 ? common : edge1), outwards = cross(upright, across);
   const std::array<Vec3d, 2> axes{outwards - direction * (dot(outwards, unit) / approach), across};

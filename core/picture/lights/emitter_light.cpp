@@ -9,14 +9,16 @@ namespace dmpc::core {
 namespace {
 
 constexpr double two_pi = 6.28318530717958648;
-/// From nearer than this share of its radius above a sphere it is not aimed at: there half of all directions meet it, which paths
-/// find by themselves.
+/// A sphere is not sampled from a point nearer to its surface than this share of its radius: half of all directions hit it there,
+/// so paths find it by themselves.
 constexpr double clearance_share = 1e-4;
-/// A shadow ray ends at least this share of its length before the emitter, and so far that what rounding takes of coordinates, a
-/// few units in the last place of a float, cannot bring it there: the more the more it grazes, down to a cosine of this.
+/// A shadow ray ends before the emitter by at least this share of its length, and by enough that the rounding of coordinates, a
+/// few units in the last place of a float, cannot make it hit the emitter: the distance grows the more the ray grazes, down to a
+/// cosine of this.
 constexpr double gap_share = 1e-6, rounding_share = 0x1p-21, grazing_cosine = 0x1p-10;
 
-/// The cosine between axis and side of the cone in which a sphere is seen, if `distance` is that of its middle. Above 0 outside.
+/// The cosine between the axis and the side of the cone that a sphere subtends; `distance` is that of its center. Positive
+/// outside the sphere.
 double rim_cosine(double distance, double radius) {
   const double sine = radius / distance;
   return std::sqrt(std::max(0.0, 1.0 - sine * sine));
@@ -38,8 +40,8 @@ std::optional<LightSample> aim_at_triangle(const EmitterRecord& emitter, const V
                      double{emitter.chance} * 2.0 * distance * distance / (twice_area * cosine)};
 }
 
-/// A place in the unit disc is one in the cone: its square is in proportion to one less the cosine, which says how much of the
-/// cone lies nearer to the axis.
+/// Maps a point of the unit disc to the cone: its square is proportional to one minus the cosine, which measures the share of the
+/// cone nearer to the axis.
 std::optional<LightSample> aim_at_sphere(const EmitterRecord& emitter, const Vec3d& from, const SamplePair& pair) {
   const Vec3d way = emitter.center() - from;
   const double distance = length(way), radius = emitter.radius();
@@ -78,7 +80,7 @@ double density_towards_triangle(double density_on, double distance, double cosin
   return density_on * distance * distance / cosine;
 }
 
-/// The sphere's area times that by area, over the solid angle of its cone.
+/// The sphere's area times the density by area, over the solid angle of its cone.
 double density_towards_sphere(double density_on, double middle_distance, double radius) {
   return is_within(middle_distance, radius)
              ? 0.0

@@ -1,5 +1,6 @@
-// Paths and emitters: a hit draws one emitter and aims a shadow ray at it, and what a path meets that hits before it
-// might have aimed at counts the less for that. Both by the density that the other way has there, so that all is counted once.
+// Path tracing with emitters: a hit chooses one emitter and sends a shadow ray to it (light sampling), and an emitter that a path
+// hits (BSDF sampling) is weighted down if the hit before might have sampled it. Both weights use the density of the other
+// method, so all light is counted once.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,7 +15,8 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// How densely hits aim from the ray's start at the place where it hit, on an emitter that may be drawn.
+/// The density with which hits sample, from the ray's start, the point of an emitter that it hit; the emitter must be one that
+/// may be chosen.
 double bsdf_sampling_density_at(const HitState& state, double density_on) {
   const Vec3d origin = state.ray.full_origin();
   if (state.curved) {
@@ -25,7 +27,7 @@ double bsdf_sampling_density_at(const HitState& state, double density_on) {
                                   std::fabs(dot(state.ray.full_direction(), state.geometric_normal)));
 }
 
-/// How densely hits aim along a shadow ray, reckoned as for a path's ray that goes there from the same start.
+/// The density with which hits sample along a shadow ray, computed as for a path's ray from the same start to that point.
 double light_sampling_density_at(const EmitterRecord& emitter, const LightSample& place, const Ray& shadow, double along,
                                  double density_on) {
   return emitter.kind == PrimitiveKind::sphere
@@ -35,7 +37,7 @@ double light_sampling_density_at(const EmitterRecord& emitter, const LightSample
 
 }  // namespace
 
-/// Only where the path continues and may hit emitters, too: so a hit at the limit of depth shows only the sky.
+/// Only where the path continues and may also hit emitters, so a hit at the depth limit samples only the sky.
 bool Shader::aims_at_emitter(const HitState& state) const {
   if (!options_.transport.is_by_paths() || !has_emitters(header_) || state.ray.depth > options_.depth_max ||
       is_at_last_depth(state)) {
@@ -46,7 +48,7 @@ bool Shader::aims_at_emitter(const HitState& state) const {
   return !is_needless;
 }
 
-/// The place's number has more digits than one of a pair, since a table may have many choices.
+/// The index needs more digits than one number of a pair has, since a table may have many entries.
 void Shader::begin_choice(HitState& state, std::uint32_t count) const {
   const double number =
       pair_of(state.ray, Purpose::place).x + (count > 1 ? pair_of(state.ray, Purpose::emitter).x * 0x1p-32 : 0.0);

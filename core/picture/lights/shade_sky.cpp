@@ -1,5 +1,6 @@
-// Paths below a sky's picture: a hit draws a place on it and aims a shadow ray there, and a ray that meets nothing shows what
-// hits that might have aimed there leave. Both by the density that the other way has there, as with emitters.
+// Path tracing with a sky picture: a hit samples a point of it with a shadow ray (light sampling), and a ray that leaves the
+// scene adds what light sampling leaves to it (BSDF sampling). Both weights use the density of the other method, as with
+// emitters.
 #include "core/picture/hits/ray_start.h"
 #include "core/picture/lights/emitter_light.h"
 #include "core/picture/shade.h"
@@ -11,7 +12,7 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// The weight of what a ray scattered by a surface finds there (BSDF sampling).
+/// The weight of the sky's light for a ray scattered by a surface (BSDF sampling).
 double mis_weight(const Ray& ray, const SkyLight& light, const Transport& transport) {
   return ray.density == 0       ? 1.0
          : transport.only_aims  ? 0.0
@@ -33,7 +34,7 @@ void Shader::read_sky(HitState& state, const std::byte* record) const {
   state.stage = Stage::finished;
 }
 
-/// As at emitters: only where the path goes on, to meet it, too.
+/// As with emitters: only where the path continues and may also reach the sky.
 bool Shader::aims_at_sky(const HitState& state) const {
   if (!options_.transport.is_by_paths() || !has_sky_picture(header_) || options_.transport.never_aims ||
       state.ray.depth > options_.depth_max || is_at_last_depth(state)) {
@@ -44,7 +45,7 @@ bool Shader::aims_at_sky(const HitState& state) const {
   return !is_needless;
 }
 
-/// To the tile of the sky that is drawn, if one is, else to what comes behind all lights.
+/// Goes on to the sky tile that is sampled, if there is one, else to the stage after all lights.
 void Shader::end_emitters(HitState& state) const {
   if (aims_at_sky(state)) {
     begin_choice(state, sky_tile_count(header_.sky));

@@ -11,30 +11,30 @@
 namespace dmpc::core {
 namespace {
 
-/// The least variance of a sample that a difference of 1 between the darkest and the brightest of nine neighbouring means
-/// suggests. An even ramp makes 1/48 in each pixel, an edge through the middle one up to 1/4 in that one.
+/// The minimum variance of a sample that a difference of 1 between the darkest and the brightest of nine neighbouring means
+/// indicates. An even ramp causes 1/48 in each pixel, an edge through the middle one up to 1/4 in that one.
 constexpr double contrast_share = 0.03;
-/// Pixels along the side of a tile: evidence counts in its own and in those around it.
+/// The side of a tile in pixels: evidence counts in its own tile and in those around it.
 constexpr std::uint32_t nearby_side = 8;
-/// What the evidence in all of the picture counts for, beside that of so many pixels nearby.
+/// The weight of the evidence in the whole picture, as a number of pixels nearby.
 constexpr double picture_weight = 8;
 constexpr float remembered_share = 0.5F;
-/// What the changes before count for in that of a pixel. With nothing a picture of mountains of 24x24 pixels is told 0.79 of its
-/// error, with a half one of a room that a small ball lights 1.36 times, as what few samples have met once stays in mind.
+/// The weight of earlier changes in a pixel's change. With 0, a picture of mountains of 24x24 pixels is estimated at 0.79 of its
+/// error; with a half, a room lit by a small ball at 1.36 times its error, since rare events met by few samples are remembered.
 constexpr double remembered_change = 0.25;
-/// What a fall is taken for where nothing is known of it, which counts as that of so many pixels. Samples that meet this and that
-/// at random make it 1, edges spread(2) - 1, in the long run; from few samples to some more it is larger, and does not stay so.
+/// The weight of the usual fall, in pixels, where little is known. In the long run the fall is 1 for random noise and spread(2) -
+/// 1 for edges; from few samples to a few more it is larger, but only temporarily.
 constexpr double unknown_pixels = 64;
 struct Falls {
   double usual, least, most;
 };
-/// For noise at most that of errors that fall as samples^(-4/5).
+/// For noise the maximum is that of errors that fall as samples^(-4/5).
 constexpr Falls edge_falls{1.5, 1, 1.8284271247461903}, noise_falls{1.4, 1, 2.0314331330207964};
 
 const Falls& falls_of(ErrorKind kind) { return kind == ErrorKind::noise ? noise_falls : edge_falls; }
 
-/// What one pixel is of all that is told of a fall, at most: more than any is in pictures without a highlight. It is lowered so
-/// often at most, each time to down to this share.
+/// The maximum share of one pixel in all that is reported of a fall: more than any pixel has in pictures without a highlight. The
+/// limit is lowered to this share at most this many times.
 constexpr double reported_share = 1.0 / 16;
 constexpr int reported_rounds = 16;
 
@@ -50,7 +50,7 @@ double power(double base, std::uint32_t exponent) {
   return result;
 }
 
-/// What a pixel counts for in its own variance.
+/// The weight of a pixel in its own variance.
 constexpr double own_share = 4;
 
 Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
@@ -59,7 +59,7 @@ std::array<float, 3> as_floats(const Vec3d& color) {
   return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
 }
 
-/// What some pixels that lie together show of the error of each.
+/// The evidence that a group of adjacent pixels gives for the error of each.
 struct Surroundings {
   double change = 0, weight = 0;
   Box colors;
@@ -69,11 +69,11 @@ struct Surroundings {
     weight += share;
     colors.include(vector_of(past.mean));
   }
-  /// The square of what the darkest and the brightest of them differ by.
+  /// The squared difference between the darkest and the brightest pixel.
   double contrast() const { return square_mean(colors.high - colors.low); }
 };
 
-/// Calls visit(pixel, share) for the pixel and those around it, as far as the picture goes; shares are those of a tent, 4 to 1.
+/// Calls visit(pixel, share) for the pixel and those around it within the picture; shares are those of a tent, 4 to 1.
 template <class Visit>
 void visit_around(std::uint32_t pixel, std::uint32_t width, std::uint32_t height, const Visit& visit) {
   const std::uint32_t column = pixel % width, row = pixel / width;
@@ -106,7 +106,7 @@ ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, do
 void ErrorEstimate::resume(std::span<const PixelPast> past) {
   expect(past.size() == past_.size(), "a pass under way has the past of all pixels");
   std::copy(past.begin(), past.end(), past_.begin());
-  find_falls();  // which the current pass uses when it ends
+  find_falls();  // used by the current pass when it ends
 }
 
 void ErrorEstimate::take_means(const Film& film) {
@@ -138,7 +138,7 @@ void ErrorEstimate::begin_pass() {
   }
 }
 
-/// A mean of some samples and that of more, among which these are, differ by the difference of their square errors.
+/// A mean of some samples and a mean of more that include them differ by the difference of their square errors.
 void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel) {
   PixelPast& past = past_[pixel];
   const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
@@ -150,12 +150,10 @@ void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint3
 }
 
 /// For noise a part of a pixel's change is predicted from earlier changes, as variances fall: pixels get more samples because of
-/// large changes, so those that are left have small ones by selection, and a single observation of each would underestimate their
-/// error.
-///
-/// The planes were gathered on that of the last sample before the pass; the block that follows fell on the other. So the film has
-/// the mean of the first half to the last bit, except where samples doubled twice: there half of it is that of the first quarter,
-/// rounded to a float.
+/// large changes, so the others have small ones by selection, and a single observation of each would underestimate their error.
+/// The planes were gathered on that of the last sample before the pass; the following block went to the other. So the film has
+/// the exact mean of the first half, except where samples doubled twice: there half of it is that of the first quarter, rounded
+/// to a float.
 void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32_t pixel) {
   PixelPast& past = past_[pixel];
   const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
@@ -176,7 +174,7 @@ void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32
   }
 }
 
-/// The prediction of a change times spread(samples), if variances fall by each doubling as they have so far.
+/// The predicted change times spread(samples), if variances fall with each doubling as they have so far.
 double ErrorEstimate::expected_growth(std::uint32_t pixel, std::uint32_t before, std::uint32_t now) const {
   double growth = 1;
   for (std::uint32_t samples = before; samples > 0 && samples < now; samples *= 2) {
@@ -185,9 +183,9 @@ double ErrorEstimate::expected_growth(std::uint32_t pixel, std::uint32_t before,
   return growth;
 }
 
-/// By all pixels of a kind that tell, as if there were some more of which nothing is known but that most have edges; one that
-/// outshines the others counts for a share at most. What they told stays as it was: who gets more samples is chosen by its
-/// change, so those that are left have a smaller one by choice.
+/// Uses all pixels of a kind that report, plus some unknown ones that are assumed to have mostly edges; the share of a pixel that
+/// outshines the others is limited. Earlier reports are kept: pixels get more samples because of their change, so the others have
+/// smaller ones by selection.
 void ErrorEstimate::find_falls() {
   const Falls& falls = falls_of(kind_);
   for (const bool detail : {false, true}) {
@@ -208,7 +206,7 @@ void ErrorEstimate::find_falls() {
   }
 }
 
-/// What a pixel may have told at most, so that it is no more than reported_share of what all have: lowered until that is so.
+/// The limit for a pixel's report that keeps it to at most reported_share of the sum: lowered until it does.
 double ErrorEstimate::reported_limit(bool detail) const {
   double limit = std::numeric_limits<double>::max();
   for (int round = 0; round < reported_rounds; ++round) {
@@ -226,8 +224,8 @@ double ErrorEstimate::reported_limit(bool detail) const {
   return limit;
 }
 
-/// Where few samples met a detail nobody knows how bright others are: what is expected counts as much as one that was met. Pixels
-/// whose details are met by many count as if each of them was met once.
+/// If few samples met a detail, the brightness of others is unknown: the expected contrast counts as much as one observed detail.
+/// Pixels whose details are met by many samples count as if each was met once.
 void ErrorEstimate::find_contrast(const Film& film) {
   if (detail_ == nullptr || detail_->is_empty()) {
     return;
@@ -246,20 +244,19 @@ void ErrorEstimate::find_contrast(const Film& film) {
   contrast_ = found / expected;
 }
 
-/// The variance of the pixel's mean, by its details: they are met at random where there are few samples, evenly where there are
-/// many.
+/// The variance of the pixel's mean due to its details: few samples meet them at random, many samples evenly.
 double ErrorEstimate::detail_variance(std::uint32_t pixel, std::uint32_t samples) const {
   const double met = std::max(1.0, samples * detail_->coverage(pixel));
   return contrast_ * detail_->variance(pixel) / (samples * std::sqrt(met));
 }
 
-/// The square error of a mean that knows nothing of the pixel's details, times the chance that no sample has met one.
+/// The square error of a mean that has seen none of the pixel's details, times the probability that no sample met one.
 double ErrorEstimate::unmet_detail(std::uint32_t pixel, std::uint32_t samples) const {
   return contrast_ * detail_->squares(pixel) * power(1 - detail_->coverage(pixel), samples);
 }
 
-/// For noise a pixel's own samples are not used to decide when it has enough: a pixel that has hit nothing bright so far would
-/// look good and stop, and pictures would be too dark. Its neighbours' samples are independent of its own.
+/// For noise a pixel's own samples do not decide when it has enough: a pixel that has hit nothing bright so far would look good
+/// and stop, and pictures would be too dark. Its neighbours' samples are independent of its own.
 double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
   const bool is_detail = has_detail(pixel), counts_itself = kind_ == ErrorKind::edges;
   Surroundings around;
@@ -268,7 +265,7 @@ double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
       around.add(past_[near], share);
     }
   });
-  if (around.weight == 0) {  // there is no other of its kind
+  if (around.weight == 0) {  // there is no other pixel of its kind
     around.add(past_[pixel], own_share);
   }
   double variance = around.change / fall(pixel), weight = around.weight;
@@ -302,8 +299,8 @@ ErrorEstimate::Evidence ErrorEstimate::evidence_around(const std::vector<Evidenc
   return sum;
 }
 
-/// By what evidence there is nearby, so that the mean over the picture is that of all evidence: what single tiles are taken to
-/// have at least, which is nothing, would else add up.
+/// Scales by the evidence nearby so that the mean over the picture is that of all evidence; otherwise the lower bound of 0 for
+/// single tiles would accumulate.
 void ErrorEstimate::find_unseen() {
   std::vector<Evidence> tiles(unseen_.size());
   std::vector<std::uint32_t> even_pixels(unseen_.size());

@@ -14,30 +14,30 @@
 namespace dmpc::core {
 namespace {
 
-/// What is as wide as this, in pixels, is met by the first samples.
+/// The first samples meet details of this width, in pixels.
 constexpr double width_max = 1;
-/// Where the areas sum up to more, in pixels, or one primitive covers more by the mean, first samples meet some, too.
+/// Where the areas sum up to more, in pixels, or a primitive covers more on average, the first samples meet some of them, too.
 constexpr double crowd_min = 0.3, coverage_max = 0.2;
-/// Along and across what is thin, in steps a pixel.
+/// Steps per pixel along and across a thin primitive.
 constexpr double steps_a_pixel = 4;
-/// What comes nearer to the plane of the eye than this share of its depth is cut off.
+/// Geometry nearer to the plane of the eye than this share of its depth is clipped.
 constexpr double near_share = 1e-3;
 constexpr double quarter_pi = 0.7853981633974483;
 
-/// A place on the film: whole numbers in the middles of pixels.
+/// A point on the film: integers are the middles of pixels.
 struct Place {
   double x = 0, y = 0;
 };
 Place operator-(const Place& a, const Place& b) { return {a.x - b.x, a.y - b.y}; }
 double length(const Place& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 
-/// What is thin, from one end to the other: its middle line, and how wide it is, in pixels, at `peak` of the way, whence its
-/// width goes to that of the ends.
+/// A thin primitive as its middle line and its width in pixels at `peak` of the line, from where the width changes linearly to
+/// that at the ends.
 struct Strip {
   Place from, to;
   double from_width = 0, to_width = 0;
-  std::optional<double> peak = std::nullopt;  ///< for a triangle: its peak along the longest side, which is the middle line
-  double peak_height = 0;                     ///< signed, to the right of the way; the strip lies between line and apex
+  std::optional<double> peak = std::nullopt;  ///< for a triangle: its apex along the longest side, which is the middle line
+  double peak_height = 0;                     ///< signed, to the right of the line; the strip lies between line and apex
 
   double height(double t) const {
     if (!peak) {
@@ -47,7 +47,7 @@ struct Strip {
   }
 };
 
-/// The part of a way from 0 to 1 on which start + step * t lies between low and high.
+/// The part of [0, 1] on which start + step * t lies between low and high.
 void clip(double start, double step, double low, double high, double& first, double& last) {
   if (step == 0) {
     last = start >= low && start <= high ? last : -1;
@@ -76,7 +76,7 @@ class FineDetailFinder {
   }
 
  private:
-  /// The contrast of light that all lights send and a matt surface halves on the way.
+  /// The contrast of the light of all light sources, halved by a diffuse surface.
   double contrast() const {
     Vec3d sum;
     for (std::uint32_t i = 0; i < database_.header().light_count; ++i) {
@@ -86,7 +86,7 @@ class FineDetailFinder {
     return dot(sum, sum) / 12;
   }
 
-  /// Where the point is seen, times its depth.
+  /// The projection of the point, times its depth.
   Vec3d on_film(const Vec3d& point) const { return camera_.on_film(point - eye_); }
   Vec3d on_film(const float* point) const { return on_film(Vec3d{point[0], point[1], point[2]}); }
   static Place place_of(const Vec3d& seen) { return {seen.x / seen.z, seen.y / seen.z}; }
@@ -100,7 +100,7 @@ class FineDetailFinder {
     }
   }
 
-  /// No record has those of base meshes.
+  /// The records do not contain the primitives of base meshes.
   void look_at_copies() {
     expect(database_.primitives().size() == database_.header().primitive_count,
            "whoever looks for the detail of base meshes has what is in their places");
@@ -125,7 +125,7 @@ class FineDetailFinder {
     }
   }
 
-  /// A disc, as if it were spread evenly over its square.
+  /// A disc, treated as if spread evenly over its bounding square.
   void look_at_sphere(const float* value) {
     const Vec3d seen = on_film(value);
     const double radius = seen.z > 0 ? pixels_of(value[3], seen.z) : width_max;
@@ -148,7 +148,7 @@ class FineDetailFinder {
     end_primitive();
   }
 
-  /// A flat one is no strip, and not thin.
+  /// A flat cone is neither a strip nor thin.
   void look_at_cone(const ConeFloats& cone) {
     if (cone.is_flat) {
       return;
@@ -170,7 +170,7 @@ class FineDetailFinder {
         {place_of(seen[0]), place_of(seen[1]), 2 * pixels_of(radius[0], seen[0].z), 2 * pixels_of(radius[1], seen[1].z)});
   }
 
-  /// A strip on its longest side. One that reaches behind the eye is not looked at: it is not small.
+  /// A strip on the triangle's longest side. A triangle that reaches behind the eye is ignored: it is not small.
   void look_at_triangle(const float* value) {
     std::array<Place, 3> corner;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -194,7 +194,7 @@ class FineDetailFinder {
     }
   }
 
-  /// Step by step as far as it lies in the picture and is thin.
+  /// Goes step by step along the part that lies in the picture and is thin.
   void look_at_strip(const Strip& strip) {
     const Place way = strip.to - strip.from;
     double first = 0, last = 1;
@@ -219,7 +219,7 @@ class FineDetailFinder {
     end_primitive();
   }
 
-  /// A part of a strip: beside its line as far as `height`, or on both sides of it if that is 0.
+  /// A section of a strip: beside its line up to `height`, or on both sides of it if that is 0.
   void cover_across(const Place& place, const Place& right, double height, double width, double step) {
     const int parts = std::max(1, static_cast<int>(std::ceil(width * steps_a_pixel)));
     for (int part = 0; part < parts; ++part) {
@@ -230,7 +230,7 @@ class FineDetailFinder {
     }
   }
 
-  /// Notes what the primitive that is looked at covers; it comes back to a pixel soon or not at all.
+  /// Notes what the current primitive covers; it returns to a pixel soon or not at all.
   void cover(int column, int row, double area) {
     if (!(area > 0) || column < 0 || row < 0 || column >= camera_.width() || row >= camera_.height()) {
       return;
@@ -261,7 +261,7 @@ class FineDetailFinder {
     }
     under_way_.clear();
   }
-  /// Areas beyond a few pixels crowd, however many there are.
+  /// Areas above a few pixels count as crowded, whatever their number.
   void end_part(const Part& part) {
     const double area = std::min(part.area, 1.0);
     FineDetail::Cover& cover = covers_[part.pixel];

@@ -11,24 +11,24 @@
 namespace dmpc::core {
 namespace {
 
-/// By what a square error of edges falls when samples double: 1 / spread(2).
+/// The factor of an edge's square error when samples double: 1 / spread(2).
 constexpr double edge_doubling = 0.35355339059327373;
-/// The share of the square error asked for that a pass aims at: a little lower, or small passes come at the end.
+/// The share of the requested square error that a pass aims at: slightly less than all, which avoids small passes at the end.
 constexpr double aim = 0.82;
-/// Shares of the square error asked for: pixels below the first look even, those below the second are good enough, whatever
-/// becomes of the others.
+/// Shares of the requested square error: pixels below the first look even; those below the second are good enough, whatever
+/// happens to the others.
 constexpr double even_share = 0.1, negligible_share = 1e-3;
-/// Pixels are explored by two doublings, for at most this share of the samples that a pass has anyway.
+/// Pixels are explored by two doublings, with at most this share of the samples that a pass has anyway.
 constexpr std::uint32_t explored_doublings = 2;
 constexpr double explored_share = 0.06;
-/// In the second pass so large a share of the pixels is explored where there are so many and the error asked for is this one:
-/// more where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a
-/// share.
+/// The share of pixels explored in the second pass, for this number of pixels and this requested error. More are explored if the
+/// error is smaller, since rarer details matter then, and a smaller share of a larger picture, since the number of explored
+/// pixels matters more than their share.
 constexpr double explored_first_share = 0.03, explored_pixels = 16384, explored_error = 4.0 / 255, explored_share_max = 0.25;
-/// A promise that is worth less than the mean of those that are taken over this waits for the next pass, which knows more of it:
-/// where all were taken that a pass could, pixels that need no samples had most of them.
+/// A gain below the mean of the chosen ones divided by this waits for the next pass, which has more information: when a pass took
+/// all gains, most of its samples went to pixels that need none.
 constexpr double worth_of_waiting = 12;
-/// Promises that are worth the same are not all taken or all left.
+/// Randomises gains, so that equal ones are not all taken or all left.
 constexpr double worth_spread = 0.2;
 
 double explored_first(double error, std::size_t pixels) {
@@ -38,13 +38,13 @@ double explored_first(double error, std::size_t pixels) {
 
 }  // namespace
 
-/// Doublings by what they are worth, in 32 bins an octave, by the bits of a positive number: an order that needs no sorting.
+/// A histogram of doublings by gain, with 32 bins per octave from the bits of a positive number, which needs no sorting.
 class Refinement::Promises {
  public:
   static std::size_t bin_of(double worth) { return std::bit_cast<std::uint64_t>(worth) >> 47U; }
 
   void add(double worth, double less_error) { weights_[bin_of(worth)] += less_error; }
-  /// The highest bin above which, itself included, square errors become less by `sum`, or whose next is worth too little.
+  /// The highest bin such that it and all above reduce the square errors by `sum`, or whose next bin is worth too little.
   std::size_t threshold(double sum) const {
     std::size_t lowest = weights_.size();
     double less_error = 0, samples = 0;
@@ -100,7 +100,7 @@ void Refinement::resume(const PartialPicture& start) {
 
 std::span<const PixelPast> Refinement::past() const { return estimate_ ? estimate_->past() : std::span<const PixelPast>(); }
 
-/// All wait for the host while it does this, most often of a picture's only pass, which leaves a count a pixel untouched.
+/// All nodes wait for the host during this, most often in a picture's only pass, which does not write the count of each pixel.
 void Refinement::add_samples(Film& film) const {
   if (pass_.is_first()) {
     return film.add_samples_to_all(pass_.first_samples());
@@ -124,7 +124,7 @@ bool Refinement::next_pass(Film& film) {
   return result_.error > error_ && result_.passes < passes_max && choose(film);
 }
 
-/// All pixels get as many samples as they have, on the other plane.
+/// Doubles the samples of all pixels, on the other plane.
 void Refinement::double_all(Film& film) {
   estimate_->take_means(film);
   for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
@@ -147,7 +147,7 @@ void Refinement::find_errors(const Film& film) {
   result_.error = std::sqrt(sum / static_cast<double>(square_errors_.size()));
 }
 
-/// The next pass, for an error that is too large.
+/// Chooses the next pass, for an error that is too large.
 bool Refinement::choose(Film& film) {
   for (SampleStep& step : pass_.steps()) {
     const std::uint32_t level = std::max(step.from(), step.to());
@@ -169,18 +169,18 @@ bool Refinement::choose(Film& film) {
   return samples > 0;
 }
 
-/// What is won for a sample by going on from a level, except for a constant factor.
+/// The gain per sample of continuing from a level, except for a constant factor.
 double Refinement::worth(std::uint32_t pixel, double square_error, std::uint32_t level) const {
   return square_error * (1 + worth_spread * hash(pixel)) / samples_at(level);
 }
 
-/// From 0 to 1, another one in each pass.
+/// From 0 to 1, different in each pass.
 double Refinement::hash(std::uint32_t pixel) const {
   const std::uint64_t bits = mix((std::uint64_t{pixel} << 8U | result_.passes) + 0x9e3779b97f4a7c15ULL);
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
-/// What each doubling of any pixel's samples would take off the sum of square errors, by what it is worth.
+/// For each doubling of a pixel's samples, the expected reduction of the sum of square errors, binned by gain.
 Refinement::Promises Refinement::promises() const {
   Promises promises;
   const double negligible = negligible_share * error_ * error_;
@@ -195,7 +195,7 @@ Refinement::Promises Refinement::promises() const {
   return promises;
 }
 
-/// Takes all promises that are worth as much as the threshold's bin says. Returns how many samples that takes.
+/// Takes all doublings down to the threshold's bin. Returns the number of samples.
 std::uint64_t Refinement::take_best(std::size_t threshold) {
   const double negligible = negligible_share * error_ * error_;
   std::uint64_t samples = 0;
@@ -217,7 +217,7 @@ bool Refinement::can_explore(std::uint32_t pixel) const {
   return !pass_.has(pixel) && pass_.steps()[pixel].from() + explored_doublings <= level_max_ && estimate_->looks_even(pixel);
 }
 
-/// Some of the pixels that were not chosen and look even.
+/// Chooses some of the remaining pixels that look even.
 void Refinement::explore(std::uint64_t samples_chosen) {
   const auto samples_of = [&](std::uint32_t level) { return samples_at(level + explored_doublings) - samples_at(level); };
   std::uint64_t samples_of_all = 0;

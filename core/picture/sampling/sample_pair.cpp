@@ -16,7 +16,7 @@ constexpr std::uint32_t reversed(std::uint32_t bits) {
   return ((bits & 0xaaaaaaaaU) >> 1U) | ((bits & 0x55555555U) << 1U);
 }
 
-/// A permutation in which a bit depends on the seed and on lower bits alone (S. Laine, T. Karras, "Stratified Sampling for
+/// A permutation in which each bit depends only on the seed and on lower bits (S. Laine, T. Karras, "Stratified Sampling for
 /// Stochastic Transparency", 2011; constants: Burley, section 4).
 constexpr std::uint32_t permuted(std::uint32_t value, std::uint32_t seed) {
   value += seed;
@@ -26,13 +26,13 @@ constexpr std::uint32_t permuted(std::uint32_t value, std::uint32_t seed) {
   return value ^ (value * 0x8d22f6e6U);
 }
 
-/// A. B. Owen's scrambling of the digits of a number below 1, of which 32 are given, the first the highest: what a digit becomes
-/// depends on those before it.
+/// A. B. Owen's scrambling of the 32 digits of a number below 1, the first being the highest: each digit depends on those before
+/// it.
 constexpr std::uint32_t scrambled(std::uint32_t digits, std::uint32_t seed) { return reversed(permuted(reversed(digits), seed)); }
 
-/// Sobol's second dimension, its digits in reverse. Row i of the matrix is Pascal's triangle modulo 2, in which column j has a 1
-/// where the bits of i are among those of j (Lucas 1878): so a bit of the result is the sum of those whose places have its
-/// place's bits, one bit of the place after the other.
+/// Sobol's second dimension with its digits reversed. Row i of the matrix is Pascal's triangle modulo 2, in which column j has a
+/// 1 where the bits of i are among those of j (Lucas 1878): each bit of the result is the sum of the bits at positions that
+/// contain its own position's bits, computed one position bit at a time.
 constexpr std::uint32_t second_dimension_reversed(std::uint32_t index) {
   index ^= (index & 0xaaaaaaaaU) >> 1U;
   index ^= (index & 0xccccccccU) >> 2U;
@@ -48,7 +48,7 @@ constexpr double quarter_of_pi = 0.785398163397448310;
 }  // namespace
 
 SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t pair) {
-  // Twice the number serves as well as the number: pictures keep their bits by it.
+  // Twice the number is kept for compatibility: pictures depend on it bit for bit.
   std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U) + 0x9e3779b97f4a7c15ULL);
   if (pair > 0) {
     const std::uint64_t seed_of_order = mix(seeds + pair);
@@ -56,7 +56,7 @@ SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t 
     seeds = mix(seed_of_order + 0x9e3779b97f4a7c15ULL);
   }
   const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
-  // The first dimension's digits are the index's in reverse.
+  // The first dimension's digits are those of the index, reversed.
   return {unit(reversed(permuted(sample, seed_x))), unit(reversed(permuted(second_dimension_reversed(sample), seed_y)))};
 }
 

@@ -8,7 +8,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Twice what Smith's function makes of a cosine, less that: the cosine where nothing is rough.
+/// Twice Smith's function of a cosine, minus the cosine; equal to the cosine for a smooth surface.
 double roughened(double alpha, double cosine) {
   const double square = alpha * alpha;
   return std::sqrt(square + (1.0 - square) * cosine * cosine);
@@ -25,8 +25,8 @@ double microfacet_visibility(double alpha, double cosine, double other) {
   return 0.5 / (other * roughened(alpha, cosine) + cosine * roughened(alpha, other));
 }
 
-/// In axes of which the third is the normal, and the first what of `out` lies beside it. On the hemisphere that the surface's
-/// ellipsoid is where it is stretched to one: the disc is what is seen of it from `out`.
+/// In coordinates whose third axis is the normal and whose first is the part of `out` perpendicular to it. The surface's
+/// ellipsoid is stretched to a hemisphere, and a point is chosen on the disc that is visible of it from `out`.
 Vec3d visible_normal(const Vec3d& out, const Vec3d& normal, double alpha, const SamplePair& pair) {
   const double height = std::max(dot(out, normal), 0.0);
   const Vec3d beside = out - normal * height;
@@ -42,8 +42,8 @@ Vec3d visible_normal(const Vec3d& out, const Vec3d& normal, double alpha, const 
   return normalize(first * x + cross(normal, first) * y + normal * z);
 }
 
-/// The density of the normal by visibility, (visible area) cosine to `out` / out cosine, over 4 times its cosine with `out`, the
-/// Jacobian of the reflection.
+/// The density of visible normals, (visible area) cosine to `out` / out cosine, over 4 times the cosine with `out`, the Jacobian
+/// of the reflection.
 double reflected_density(double alpha, double out, double half) {
   return normal_density(alpha, half) / (2.0 * (out + roughened(alpha, out)));
 }

@@ -13,16 +13,16 @@ namespace {
 
 Vec3d white(double share) { return {share, share, share}; }
 
-/// On the normal's side.
+/// Mirrors the direction to the normal's side if necessary.
 Vec3d raised(const Vec3d& direction, const Vec3d& normal) {
   const double height = dot(direction, normal);
   return height < 0.0 ? direction - normal * (2.0 * height) : direction;
 }
 
-/// Above the blended normal and the true one.
+/// Whether it is above both the blended normal and the true one.
 bool is_above(const HitState& state, const Vec3d& in) { return dot(in, state.normal) > 0.0 && leads_outside(state, in); }
 
-/// What is between the cosines that are tried, and rounding.
+/// Covers the steps between the tested cosines, and rounding.
 constexpr double spare = 1.02;
 
 /// By its brightest channel.
@@ -35,11 +35,11 @@ struct Surface {
     through = largest_component(material.color) * dielectric * facets.transmission * (1.0 - facets.reflectance);
   }
 
-  /// As a record has it.
+  /// As stored in a record.
   double alpha() const { return double{static_cast<float>(facets.roughness * facets.roughness)}; }
   double reflected(double cosine) const { return straight + std::max(1.0 - straight, 0.0) * schlick_share(cosine); }
-  /// The most that a step along a ray at this cosine weighs: what it is chosen by, over how much less likely it is chosen than it
-  /// may weigh.
+  /// The maximum weight of a scattered ray at this cosine: the weight by which it is chosen, divided by the least ratio of its
+  /// probability to that weight.
   double weight_at(double cosine) const {
     const double chosen = reflected(cosine * (1.0 - 0.5 * alpha()));
     const double unlikely = alpha() < sharpest_alpha || !(chosen > 0.0) ? 1.0 : reflected(0.5 * cosine) / chosen;
@@ -51,7 +51,7 @@ struct Surface {
   double color, straight, scattered, through;
 };
 
-/// No density of normals is above that straight ahead, and no visibility times a cosine above 1 / (2 alpha).
+/// The density of normals is greatest straight ahead, and visibility times a cosine is at most 1 / (2 alpha).
 MicrofacetBound bound_of_one(const Material& material, double texture_max) {
   constexpr int cosines = 64;
   const Surface surface(material, texture_max);
@@ -91,7 +91,7 @@ MicrofacetLobes::MicrofacetLobes(const HitState& state)
 
 bool MicrofacetLobes::is_mirror() const { return double{facets_.alpha} < sharpest_alpha; }
 
-/// schlick_share() on the side where the angles are wider, since light is reflected alike from both.
+/// schlick_share() on the side with the wider angles, since reflection is equal from both.
 double MicrofacetLobes::share_at(double cosine) const {
   if (index_ > 1.0) {
     cosine = std::sqrt(std::max(0.0, 1.0 - index_ * index_ * (1.0 - cosine * cosine)));
@@ -99,8 +99,8 @@ double MicrofacetLobes::share_at(double cosine) const {
   return schlick_share(cosine);
 }
 
-/// From within, what the matt layer scatters, which lies outside, is bent towards the normal, into the cone of the critical
-/// angle: as much light, in less of the directions.
+/// From within, the light that the diffuse layer outside scatters is refracted towards the normal, into the cone of the critical
+/// angle: as much light in a smaller solid angle.
 double MicrofacetLobes::crowding_at(double cosine) const {
   const double crowding = std::max(1.0, index_ * index_);
   return crowding * (1.0 - cosine * cosine) < 1.0 ? crowding : 0.0;
@@ -116,7 +116,7 @@ Vec3d MicrofacetLobes::matt_direction(const SamplePair& direction) const {
   return across + normal * std::sqrt(std::max(0.0, 1.0 - dot(across, across)));
 }
 
-/// By mirrors at this cosine.
+/// The mirror reflection at this cosine.
 Vec3d MicrofacetLobes::reflected_share(double cosine) const {
   return straight_ + (white(double{facets_.there}) - straight_) * share_at(cosine);
 }
@@ -160,7 +160,7 @@ std::optional<PathStep> MicrofacetLobes::step(const SamplePair& choice, const Sa
   return chances_.through > 0.0 ? std::optional(through_step()) : std::nullopt;
 }
 
-/// By whichever of the two the direction was found.
+/// Combines both ways in which the direction could have been sampled.
 std::optional<PathStep> MicrofacetLobes::spread_step(const Vec3d& in) const {
   const double likely = density(in);
   return likely > 0.0 ? std::optional(PathStep{in, Color(response(in) * (1.0 / likely)), RayKind::scattered, likely})
@@ -173,7 +173,7 @@ PathStep MicrofacetLobes::mirror_step() const {
           kind_after(state_.ray, RayKind::reflected)};
 }
 
-/// What cannot get through is mirrored.
+/// Light that cannot be transmitted is mirrored.
 PathStep MicrofacetLobes::through_step() const {
   const Vec3d direction = state_.ray.full_direction();
   const Vec3d towards =
@@ -187,7 +187,7 @@ Vec3d MicrofacetLobes::reflected_direction(const SamplePair& direction) const {
   return normalize(mirror * (2.0 * dot(mirror, out_)) - out_);
 }
 
-/// For a texture the bound over all surfaces between the extremes of its metal and its roughness.
+/// For a texture, the bound over all surfaces between the extremes of its metal and roughness.
 MicrofacetBound bound_of(const Material& material, double texture_max, const Texture* facets) {
   if (facets == nullptr) {
     return bound_of_one(material, texture_max);
@@ -196,7 +196,7 @@ MicrofacetBound bound_of(const Material& material, double texture_max, const Tex
   const auto between = [](double most, float least, int step) {
     return most * (double{least} + (1.0 - double{least}) * step / steps);
   };
-  // The smoothest that is no mirror yet shows most of a point light.
+  // The smoothest surface that is not yet a mirror shows the brightest highlight of a point light.
   const double least = std::min(material.microfacets.roughness, std::sqrt(sharpest_alpha) * (1 + 0x1p-20));
   MicrofacetBound bound;
   Material one = material;

@@ -22,7 +22,7 @@ std::optional<PathStep> scattered_step(const HitState& state, double chance) {
   return PathStep{*towards, weight, RayKind::scattered, response_towards(state, *towards).density};
 }
 
-/// `place`: from 0 to less than the sum of the shares, anywhere as likely.
+/// `place`: uniform in [0, sum of the shares).
 std::optional<PathStep> step_at(const HitState& state, const WayShares& shares, double place) {
   if (place < shares.scattered) {
     return scattered_step(state, shares.scattered / shares.all());
@@ -45,7 +45,8 @@ std::optional<PathStep> chosen_step(const HitState& state, const SamplePair& cho
   return shares.all() > 0.0 ? step_at(state, shares, choice.x * shares.all()) : std::nullopt;
 }
 
-/// Whether the path survives, and counts for those that do not. `chance`: from 0 to less than 1; `first`: of the hits that ask.
+/// Whether the path survives roulette; it then counts for those that do not. `chance` is in [0, 1); `first` is the first hit that
+/// applies roulette.
 bool survives(const Ray& ray, double chance, int first, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
   if (share > 0.0 && (ray.depth < first || share >= 1.0)) {

@@ -6,15 +6,16 @@
 namespace dmpc::core {
 namespace {
 
-/// What covers more is taken for this: far beyond the coarsest level, and near enough for places to keep their precision.
+/// Larger footprints are clamped to this: far beyond the coarsest level, and small enough for coordinates to keep their
+/// precision.
 constexpr double texels_max = 0x1p24;
 
-/// By columns: where the ends of two diameters at right angles come to lie.
+/// By columns: the images of the ends of two perpendicular diameters.
 struct Matrix {
   double a = 0, b = 0, c = 0, d = 0;  ///< (a, c) and (b, d) are its columns
 };
 
-/// The ellipse to which a matrix takes the unit circle.
+/// The image of the unit circle under a matrix.
 struct Ellipse {
   TexturePlace direction{1, 0};  ///< the longer axis, unit length
   double longer = 0, shorter = 0;
@@ -32,13 +33,13 @@ Ellipse ellipse_of(const Matrix& m) {
   const TexturePlace along =
       first >= second ? TexturePlace{half_difference + root, mixed} : TexturePlace{mixed, root - half_difference};
   const double size = std::sqrt(along.s * along.s + along.t * along.t);
-  if (size > 0) {  // no circle
+  if (size > 0) {  // not a circle
     ellipse.direction = {along.s / size, along.t / size};
   }
   return ellipse;
 }
 
-/// Cuts a line about `middle` to the part that lies between the two ends of `extent`, in lengths of the line.
+/// Clips a line about `middle` to the part between the two ends of `extent`, in lengths of the line.
 void cut(double middle, double length, const std::array<double, 2>& extent, double& from, double& to) {
   if (length == 0) {
     return;
@@ -54,7 +55,7 @@ std::array<double, 2> extent_of(const TexturedNormals& triangle, std::size_t sid
   return {double{low}, double{high}};
 }
 
-/// Texels along a diameter of the ellipse, over `size` texels of a side.
+/// Texels along a diameter of the ellipse, for a side of `size` texels.
 double texels_along(const TexturedNormals& triangle, const std::array<float, 2>& axis, std::size_t side, double size) {
   const auto& place = triangle.place;
   const double along1 = double{place[1][side]} - double{place[0][side]}, along2 = double{place[2][side]} - double{place[0][side]};
@@ -88,7 +89,7 @@ TexturePlace place_on(const TexturedNormals& triangle, double u, double v) {
 TextureFootprint footprint_of(const TexturedNormals& triangle, double u, double v, const CutEllipse& ellipse, double cone_width) {
   const Ellipse covered = covered_by(triangle, ellipse, cone_width);
   const TexturePlace place = place_on(triangle, u, v);
-  // Between the middles of the first and the last probe, about the place, as far as the triangle's rectangle goes.
+  // From the middle of the first to that of the last probe, about the hit, clipped to the triangle's rectangle.
   const double probe = std::max(covered.shorter, 1.0), between = std::max(covered.longer - probe, 0.0);
   const TexturePlace texel{covered.direction.s / triangle.texture.width, covered.direction.t / triangle.texture.height};
   const TexturePlace line{texel.s * between, texel.t * between};

@@ -15,29 +15,29 @@ namespace {
 constexpr double share_unit = 0x1p-16;
 constexpr double share_max = 65535;
 constexpr std::uint32_t quarter_count = 4;
-/// What TextureLookup::tile can hold: addresses of 16 GiB, more than a database has.
+/// The range of TextureLookup::tile: addresses of 16 GiB, more than a database has.
 constexpr std::uint32_t tile_mask = 0x7fffffff;
-/// A probe that covers more is taken for this: far beyond the coarsest level.
+/// Larger probes are clamped to this width, far beyond the coarsest level.
 constexpr double footprint_width_max = 0x1p40;
 constexpr double octaves_per_e = 1.4426950408889634;  // 1 / ln 2
 
-/// A place's two neighbours along one side.
+/// The two neighbours of a coordinate along one side.
 struct Neighbours {
   std::array<std::uint32_t, 2> texel{};
   std::array<double, 2> weight{};
 
   std::uint32_t tile(std::size_t which) const { return texel[which] / tile_side; }
-  /// Whether the one on the far side counts, and lies in another tile.
+  /// Whether the second one has a weight and lies in another tile.
   bool has_second_tile() const { return tile(1) != tile(0) && weight[1] > 0; }
 };
 
-/// The largest whole number that is not above `value`, which is small enough; std::floor calls a function.
+/// The floor of `value`, which is small enough; std::floor would be a function call.
 double floor_of(double value) {
   const auto whole = static_cast<double>(static_cast<std::int64_t>(value));
   return whole > value ? whole - 1 : whole;
 }
 
-/// A place with its whole turns round the texture taken off.
+/// A coordinate reduced to the texture's range.
 double reduced(double place, TextureWrap wrap) {
   switch (wrap) {
     case TextureWrap::repeat:
@@ -50,7 +50,7 @@ double reduced(double place, TextureWrap wrap) {
   return std::clamp(place, -1.0, 2.0);
 }
 
-/// The number of a texel that a reduced place may have for its neighbour.
+/// The index of a texel that may be a neighbour of a reduced coordinate.
 std::uint32_t wrapped(std::int64_t texel, std::int64_t size, TextureWrap wrap) {
   if (wrap != TextureWrap::clamp) {
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * size : size;
@@ -70,13 +70,13 @@ TextureReference reference_of(const TextureLookup& lookup) {
   return {.tiles = lookup.tiles, .width = lookup.width, .height = lookup.height};
 }
 
-/// A probe beside the middle: how far off it lies, in strides, and how much of it counts.
+/// A probe beside the middle: its offset in strides, and its weight.
 struct Probe {
   double offset = 0, weight = 1;
 };
 
-/// Strides are laid side by side from the middle of the line outwards, and what is left of it at its ends is as much of a probe,
-/// with its outer edge at the end of the line: so nothing jumps where the number of probes does.
+/// Strides are laid side by side from the middle of the line outwards. The rest at each end is a probe of a corresponding weight
+/// whose outer edge is at the end of the line, so the result is continuous where the number of probes changes.
 Probe probe_of(const TextureLookup& lookup) {
   if (lookup.ends == 0) {
     return {};
@@ -89,7 +89,7 @@ Probe probe_of(const TextureLookup& lookup) {
   return {std::copysign(ends - 1 + lookup.end_share * share_unit, number), end / strides};
 }
 
-/// What a probe meets on its level.
+/// The texels of a probe on its level.
 struct ProbeView {
   std::uint32_t level;
   double weight;
@@ -110,14 +110,14 @@ struct ProbeView {
   }
 };
 
-/// The number in the texture's table.
+/// The tile's index in the texture's table.
 std::uint32_t tile_of(const TextureLookup& lookup, const ProbeView& view, std::uint32_t first_of_level) {
   const std::uint32_t column = view.columns.tile(ProbeView::column_of(lookup.quarter));
   const std::uint32_t row = view.rows.tile(ProbeView::row_of(lookup.quarter));
   return first_of_level + row * tile_columns(reference_of(lookup), view.level) + column;
 }
 
-/// Goes on to the next quarter that has a tile of its own, of this probe.
+/// Advances to the probe's next quarter that has a tile of its own.
 bool next_quarter(TextureLookup& lookup, const ProbeView& view) {
   for (std::uint32_t quarter = lookup.quarter + 1; quarter < quarter_count; ++quarter) {
     if (view.has_tile(quarter)) {
@@ -128,7 +128,7 @@ bool next_quarter(TextureLookup& lookup, const ProbeView& view) {
   return false;
 }
 
-/// Goes on to the next probe on this level, whose first tile is then due.
+/// Advances to the next probe on this level, whose first tile comes next.
 bool next_probe(TextureLookup& lookup) {
   lookup.quarter = 0;
   if (lookup.probe == 2 * lookup.ends) {
@@ -147,7 +147,7 @@ bool next_level(TextureLookup& lookup) {
   return true;
 }
 
-/// Adds those of the four texels that lie in the tile of this quarter.
+/// Adds those of the four texels that lie in this quarter's tile.
 void add_texels(TextureLookup& lookup, const ProbeView& view, const std::byte* tile, float& alpha) {
   const std::uint32_t tile_column = view.columns.tile(ProbeView::column_of(lookup.quarter));
   const std::uint32_t tile_row = view.rows.tile(ProbeView::row_of(lookup.quarter));
@@ -168,13 +168,13 @@ void add_texels(TextureLookup& lookup, const ProbeView& view, const std::byte* t
   }
 }
 
-/// Makes the tile of the level and the probe that follow the one that is due.
+/// Finishes the current level and probe and advances to the next ones.
 void take(TextureLookup& lookup, const TexturePlace& middle) {
   const ProbeView view(lookup, middle);
   lookup.tile = tile_of(lookup, view, first_tile(reference_of(lookup), view.level)) & tile_mask;
 }
 
-/// Takes from a tile all that probes on its level find there one after the other.
+/// Reads from a tile everything that consecutive probes on its level find there.
 void read_tile(TextureLookup& lookup, const TexturePlace& middle, const std::byte* tile, Operations& operations, float& alpha) {
   ProbeView view(lookup, middle);
   const std::uint32_t first_of_level = first_tile(reference_of(lookup), view.level);
@@ -200,9 +200,9 @@ void read_tile(TextureLookup& lookup, const TexturePlace& middle, const std::byt
   }
 }
 
-/// Puts the probes along the footprint's line.
+/// Distributes the probes along the footprint's line.
 void place_probes(TextureLookup& lookup, const TextureFootprint& footprint) {
-  constexpr double towards_zero = 1 - 0x1p-23;  // no probe beyond the line's ends
+  constexpr double towards_zero = 1 - 0x1p-23;  // keeps probes within the line's ends
   const double ends = -floor_of((1 - footprint.strides) / 2);
   if (ends > 0) {
     const double end = (footprint.strides - (2 * ends - 1)) / 2;
