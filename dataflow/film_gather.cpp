@@ -39,8 +39,7 @@ void FilmGather::add_only(std::uint32_t pixel, std::uint32_t plane, const core::
   }
 }
 
-/// The newest entries are searched, one for each row of a square, for one that ends before this pixel and has the same light;
-/// else nullptr.
+/// The entry that ends before this pixel and has the same light, of the newest, one for each row of a square; or nullptr.
 FilmEntry* FilmGather::entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
   for (std::uint32_t i = 1; i <= std::min(count_, PixelOrder::side); ++i) {
     FilmEntry& entry = entries_[count_ - i];

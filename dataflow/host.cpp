@@ -9,8 +9,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// The length of a run of primary rays, some of which must be finished soon. A node has space for 120 runs: usually milliseconds
-/// of work.
+/// The length of a run of primary rays, some of which are urgent. A node has space for 120 runs: usually milliseconds of work.
 constexpr std::uint64_t run_rays_max = 16;
 
 }  // namespace

@@ -58,8 +58,7 @@ std::uint32_t unit_slots_of(const Plan& plan) {
          + others * (plan.shares_slots() ? 1 : plan.ray_credits);  // UnitMoved, beside each packet of credits
 }
 
-/// The capacity that a node's mailbox needs for any order of sends; the mailbox itself adds the slot of the packet being
-/// received.
+/// The capacity that a node's mailbox needs for any order of sends; the mailbox itself adds the slot that receives.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   const std::uint32_t assigned = plan.dealing_credits();
@@ -182,9 +181,8 @@ std::uint32_t default_queue(const PlanRequest& request) {
 }
 
 /// Threads that share cores are woken less often with packets twice as long: 64 on two cores took 0.89 of the processor time for
-/// three scenes. On a modelled machine no thread is woken. For bundles the length is doubled once more (0.8 on two scenes), but
-/// not where slots are shared: with 1,024 nodes packets of 4 KiB are a fifth full, and their slots are three quarters of a node's
-/// queues.
+/// three scenes; a modelled machine wakes none. Bundles double that again (0.8 on two scenes), but not where slots are shared:
+/// with 1,024 nodes packets of 4 KiB are a fifth full, and their slots are three quarters of a node's queues.
 std::uint32_t default_batch(const PlanRequest& request) {
   const std::size_t times = request.computer.machine ? 1 : request.bundles && !shares_slots(request) ? 4 : 2;
   return rays_in(times * packet_bytes, request.rays.tested_objects);

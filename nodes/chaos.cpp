@@ -5,7 +5,7 @@
 namespace dmpc::nodes {
 namespace {
 
-/// What a stream is for; streams of different purpose have nothing to do with each other.
+/// What a stream is for; streams with different purposes are independent.
 enum class Purpose : std::uint64_t { settings, credits, slow_link, slow_node, delays, pauses };
 
 constexpr ChaosStream stream(std::uint64_t seed, Purpose purpose, std::uint32_t first = 0, std::uint32_t second = 0) {
@@ -52,7 +52,7 @@ ChaosDelays::ChaosDelays(const Chaos& chaos, NodeId source)
 
 std::uint32_t ChaosDelays::next_quanta(NodeId target) {
   const bool is_held = draws_.chance(chaos_.held_percent);
-  const std::uint32_t quanta = 1 + draws_.below(chaos_.delay_quanta_max);  // drawn in any case: two draws a packet
+  const std::uint32_t quanta = 1 + draws_.below(chaos_.delay_quanta_max);  // always drawn: two draws a packet
   if (!is_held) {
     return 0;
   }

@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::size_t block_alignment = 4096;
 
-/// What a deleter, which knows the block's address only, needs to know: stands in front of it.
+/// What a deleter, which knows only the block's address, needs; it precedes the block.
 struct BlockFront {
   std::size_t bytes = 0;
-  void* start = nullptr;  ///< that was allocated
+  void* start = nullptr;  ///< of the allocation
 };
 static_assert(sizeof(BlockFront) <= block_alignment && LocalMemory::alignment <= block_alignment);
 
@@ -35,7 +35,7 @@ void release(std::byte* block) {
   core::free_zeros(front.start, front.bytes + 2 * block_alignment);
 }
 
-/// Zero. Of a large block nothing but its front has been touched.
+/// Zero. Of a large block only its front has been touched.
 std::byte* reserve_zero(std::size_t bytes) {
   const BlockFront front{bytes, core::allocate_zeros(bytes + 2 * block_alignment, core::Touching::parts)};
   const auto offset = reinterpret_cast<std::uintptr_t>(front.start) % block_alignment;
@@ -82,7 +82,7 @@ std::size_t LocalMemory::block_bytes() const {
   return plan_.total() - plan_[Category::reserve] - (immutable_ == Immutable::is_referred_to ? plan_.immutable_bytes : 0);
 }
 
-/// Returns the bytes of the cache lines that `bytes` take.
+/// Returns the bytes of the cache lines that `bytes` occupy.
 std::size_t LocalMemory::count(Category category, std::size_t bytes) {
   const std::size_t lines_bytes = core::round_up(bytes, alignment);
   core::expect(!sealed_, "nothing is allocated after the start");

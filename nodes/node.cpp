@@ -15,7 +15,7 @@ void Node::grant(NodeId target, Channel channel, std::uint32_t count) {
   left = static_cast<std::uint16_t>(left + count);
 }
 
-/// Counts the packet that the credit is spent on, or the refusal.
+/// Counts the packet that uses the credit, or the refusal.
 bool Node::take_credit(NodeId target, Channel channel, PacketKind kind, std::size_t payload_bytes) {
   core::expect(kind < packet_kind_count, "a packet's kind is below the number of kinds");
   std::uint16_t& left = credit(target, channel);

@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, TopologyKind>, 5> names{{{"cros
 constexpr std::uint32_t switch_children = 4;
 constexpr std::uint32_t place_count_max = 65536;
 
-/// The largest divisor of `count` from half its root to its root, or the root rounded down if there is none.
+/// The largest divisor of `count` from half its square root to its square root; the root rounded down if there is none.
 std::uint32_t rows_of(std::uint32_t count) {
   std::uint32_t root = 1;
   while ((root + 1) * (root + 1) <= count) {

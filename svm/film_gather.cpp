@@ -8,7 +8,7 @@
 
 namespace dmpc::svm {
 
-/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the header.
+/// A packet being gathered, then the pixels in flight, which may all finish before it can be sent, and the header.
 nodes::Room<std::byte> FilmGather::layout(const FilmCapacity& capacity) {
   return {core::MemoryUse::film_tiles,
           film_entry_bytes(capacity.planes) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries)};
@@ -47,7 +47,7 @@ void FilmGather::acknowledged() {
   }
 }
 
-/// Sends the oldest entries, at most a packet full, and moves the others to the front. Returns whether a credit was left.
+/// Sends the oldest entries, at most one packet, and moves the others to the front. Returns whether a credit was available.
 bool FilmGather::send() {
   const FilmHeader header{std::min(count_, packet_entries_)};
   std::memcpy(room_.data(), &header, sizeof(header));

@@ -16,7 +16,7 @@ namespace {
 
 std::uint64_t packets_of(const nodes::TrafficByKind& traffic, Kind kind) { return traffic[number_of(kind)].packets; }
 
-/// For pages, passed on or not.
+/// Requests for pages, passed on or not.
 std::uint64_t requests_received(const nodes::NodeCounters& counters) {
   return packets_of(counters.received, Kind::page_request) + packets_of(counters.received, Kind::passed_request);
 }
@@ -52,8 +52,8 @@ void check_conservation(const Report& report) {
   nodes::expect_nothing_lost(report.ranks);
 }
 
-/// Serving a page, or passing the request for it on, installs none and runs no pixel: a node may be interrupted for it at any
-/// time. Which pages its cache has changes between quanta alone; serving one marks it as used, like any look-up.
+/// Serving a page, or passing on its request, installs no page and runs no pixel, so a node may be interrupted for it at any
+/// time. The set of cached pages changes only between quanta; serving a page marks it as used, like any look-up.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
 /// The pages that every node keeps permanently.
@@ -69,7 +69,7 @@ std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& pl
   std::vector<nodes::NodeSpecification> all =
       pictures::specifications_without_host(plan, make_program, plan.batching(), interrupt_kinds);
   all.back().interrupt_kinds =
-      are_at_host(plan.request.pages.homes) ? interrupt_kinds : 0;  // its service costs what a node's does
+      are_at_host(plan.request.pages.homes) ? interrupt_kinds : 0;  // its service costs as much as a node's
   return all;
 }
 
@@ -120,7 +120,7 @@ Report PictureComputer::render(std::stop_token stop) {
   pictures::Outcome outcome =
       computer_.render(std::move(stop), plan_, [&] { gathered = gather_reports(computer_.runner(), plan_); });
   Report report{{std::move(outcome), std::move(gathered)}, plan_};
-  report.plan.request.detail = nullptr;  // it is the run's, and so is the database
+  report.plan.request.detail = nullptr;  // like the database, it belongs to the run
   report.plan.request.database = {};
   for (std::size_t i = 0; i < report.nodes.size(); ++i) {
     const ProgramReport counted = report.nodes[i].program;

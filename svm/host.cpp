@@ -44,7 +44,7 @@ void HostProgram::begin_frame(const core::FineDetail* detail) {
   start_dealing();
 }
 
-/// An acknowledgement's place is reserved by its film packet.
+/// A film packet reserves the slot of its acknowledgement.
 void HostProgram::grant_stops() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node_->grant(nodes::NodeId{i}, control_channel, 1);
@@ -120,8 +120,7 @@ void HostProgram::start_dealing() {
   }
 }
 
-/// Which samples an item's pixels have: an item that is assigned has none that has arrived, but those that another run had
-/// rendered.
+/// The samples of an item's pixels: none has arrived for an assigned item, except those that an earlier run had rendered.
 ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   for (std::uint32_t i = 0; i < item.pixel_count() && is_masked_; ++i) {
@@ -131,7 +130,7 @@ ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
   return steps;
 }
 
-/// The next that has a pixel.
+/// The next item that has a pixel.
 std::optional<PixelRectangle> HostProgram::next_item() {
   const auto is_none = [](const core::SampleStep& step) { return step.is_none(); };
   while (auto item = items_.take()) {
@@ -143,14 +142,14 @@ std::optional<PixelRectangle> HostProgram::next_item() {
   return std::nullopt;
 }
 
-/// An empty item says that all are assigned.
+/// An empty item means that all are assigned.
 void HostProgram::assign(const WorkRequest& request) {
   core::expect(assigned_side_ > 0, "the host is asked for work where it assigns it");
   const std::optional<PixelRectangle> item = next_item();
   items_given_ += item ? 1 : 0;
   const nodes::NodeId requester{request.requester};
   const WorkReply reply{SentItem(item.value_or(PixelRectangle{})), node_count_};
-  node_->grant(requester, control_channel);  // the place that the request has reserved
+  node_->grant(requester, control_channel);  // the slot that the request has reserved
   if (is_masked_) {
     node_->send_reserved(requester, control_channel, number_of(Kind::work_reply),
                          MaskedWorkReply{reply, steps_of(reply.item.rectangle())});
@@ -159,7 +158,7 @@ void HostProgram::assign(const WorkRequest& request) {
   }
 }
 
-/// The film is complete: begins with the next pass, or stops all.
+/// The film is complete: begins the next pass, or stops all nodes.
 void HostProgram::end_pass() {
   const std::uint64_t done = pixels_done();
   if (!next_pass()) {
@@ -174,7 +173,7 @@ void HostProgram::end_pass() {
   }
 }
 
-/// The next part of a node's mask; when all nodes have theirs, the word to begin.
+/// Sends the next part of a node's mask; when all nodes have theirs, the message to begin.
 void HostProgram::send_mask(std::uint32_t index) {
   const PixelRectangle share = share_of(index);
   MaskPart part{pixels_sent_[index]};
@@ -193,7 +192,7 @@ void HostProgram::send_mask(std::uint32_t index) {
 
 void HostProgram::begin_pass() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
-    node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so that nothing else of the host's is in flight
+    node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so nothing else of the host's is in flight
     node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::begin_pass), BeginPass{});
   }
 }

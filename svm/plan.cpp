@@ -34,19 +34,19 @@ constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
 
-/// Bundles are whole ones: with fewer pixels in flight rays are traced one by one.
+/// Bundles are always full: with fewer pixels in flight, rays are traced one by one.
 std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight) {
   return request.bundles && in_flight >= bundle_pixels ? bundle_pixels : 1;
 }
 
-/// Where a pass may leave pixels out, a work item travels with a mask of one word: items are then no larger than that.
+/// If a pass may omit pixels, a work item travels with a mask of one word, which limits the item's size.
 std::uint32_t item_side_of(const PlanRequest& request) {
   const std::uint32_t side = work_item_side_of(request.pages, request.bundles);
   return request.is_masked() ? std::min(side, masked_side_max) : side;
 }
 
-/// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest share's. A node may
-/// have none, but has a place for one.
+/// The maximum number of pixels in progress on a node: all of the picture if work moves, else the largest share. A node may have
+/// none, but has space for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
   const PixelRectangle image{0, 0, request.width, request.height};
   if (item_side_of(request) > 0) {
@@ -64,7 +64,7 @@ std::uint32_t film_credits_of(const PlanRequest& request) {
   return nodes::batching_credits(request.computer.node_count, request.computer.machine.has_value());
 }
 
-/// On a modelled machine all entries have both: what a packet takes there is part of every virtual time.
+/// On a modelled machine all entries have both: the cost of a packet is part of every virtual time.
 std::uint32_t film_planes_of(const PlanRequest& request) {
   return request.computer.machine ? 2 : core::planes_for(request.first_samples);
 }
@@ -74,7 +74,7 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
   return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / film_entry_bytes(film_planes_of(request)));
 }
 
-/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
+/// The capacity that a node's mailbox needs for any order of sends; the mailbox itself adds the slot that receives.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const PlanRequest& request = plan.request;
   const bool ring = item_side_of(request) > 0;
@@ -142,7 +142,7 @@ std::size_t bytes_with(const PlanRequest& request, std::uint32_t frames, std::ui
   return plan_with(request, frames, in_flight).node_memory_max_bytes();
 }
 
-/// A field that only nodes which fetch pages have, and whether it is as usual.
+/// A field that only nodes which fetch pages have, and whether it has its default.
 struct FieldOfSvm {
   core::Field field;
   bool (*is_usual)(const PageOptions&);
@@ -164,7 +164,7 @@ void check_fields_of_svm(const PlanRequest& request) {
   }
 }
 
-/// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
+/// Work that moves, or a pixel that continues while another waits, would make the order of references depend on page misses.
 void check_recording(const PlanRequest& request) {
   if (request.pages.record_references) {
     check_use(request.strategy->fetches_pages(), "page references are recorded with ", strategy_field, "=svm only");
@@ -212,7 +212,7 @@ void check(const PlanRequest& request) {
                "what is gone on with is of the same picture");
 }
 
-/// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
+/// The user's choice, or the default, limited by the number of pixels, before memory is considered.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
   const std::uint32_t asked =
       request.pages.in_flight.value_or(request.strategy->usual_tasks(request) * (request.bundles ? bundle_pixels : 1));
@@ -220,7 +220,7 @@ std::uint32_t wanted_in_flight(const PlanRequest& request) {
   return wanted - wanted % pixels_a_task(request, wanted);
 }
 
-/// The fewest frames that this request can do with.
+/// The minimum number of frames for this request.
 std::uint32_t frames_min(const PlanRequest& request) {
   return std::min(request.pages.cache_pages.value_or(1), request.strategy->foreign_pages_max(request));
 }
@@ -231,7 +231,7 @@ std::uint32_t auto_frames(const PlanRequest& request) {
                   request.strategy->foreign_pages_max(request));
 }
 
-/// The most frames that fit, at least frames_min() of which are known to fit.
+/// The maximum number of frames that fit; frames_min() are known to fit.
 std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, std::size_t memory_bytes) {
   std::uint32_t fits = frames_min(request);
   std::uint32_t too_many = (request.pages.cache_pages ? fits : request.strategy->foreign_pages_max(request)) + 1;
@@ -242,8 +242,8 @@ std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, s
   return fits;
 }
 
-/// The most pixels in flight that leave room for the cache asked for, or else for a frame each: a pixel without one evicts
-/// another's page.
+/// The maximum number of pixels in flight that leave space for the requested cache, or else for a frame each: a pixel without one
+/// evicts another's page.
 std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
   std::uint32_t in_flight = wanted_in_flight(request);
   const auto frames_for = [&](std::uint32_t pixels) {
@@ -256,7 +256,7 @@ std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_byte
   return in_flight;
 }
 
-/// More nodes hold fewer pages each, but larger mailboxes and credit tables, so fewer nodes may be what helps.
+/// With more nodes each holds fewer pages, but larger mailboxes and credit tables, so fewer nodes may help.
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   for (request.computer.node_count = 1; request.computer.node_count <= nodes::node_count_max; ++request.computer.node_count) {
     if (smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes) {
@@ -369,7 +369,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
 }
 
 std::size_t Plan::node_memory_max_bytes() const {
-  std::size_t most = node_memory(0).total();  // it has as many pages at home, and asks come to it, as to any
+  std::size_t most = node_memory(0).total();  // it has as many home pages, and receives as many requests, as any
   for (std::uint32_t index = 1; request.is_masked() && index < request.computer.node_count; ++index) {
     most = std::max(most, node_memory(index).total());
   }

@@ -54,7 +54,7 @@ std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const Pl
     return std::nullopt;
   }
   const std::uint32_t pixel_count = request.width * request.height;
-  core::PartialPicture start{.film = core::Film(1, 1),  // the light is the host's
+  core::PartialPicture start{.film = core::Film(1, 1),  // the host has the light
                              .passes = flat.take<std::uint32_t>(),
                              .pass = core::Pass(pixel_count, request.first_samples),
                              .done = core::PixelMask(pixel_count)};
@@ -63,10 +63,10 @@ std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const Pl
   return start;
 }
 
-/// What a rank without the host makes its nodes of.
+/// The data from which a rank without the host creates its nodes.
 class Job {
  public:
-  /// Makes the plan anew and expects it to be the same.
+  /// Recomputes the plan and expects it to be equal.
   Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const WorkerCallbacks& callbacks) {
     PlanRequest request = take_request(flat, ranks, callbacks.strategies);
     start_ = take_start(flat, request);
@@ -86,7 +86,7 @@ class Job {
   void gather(nodes::Runner& runner) const { gather_reports(runner, plan_); }
 
  private:
-  std::optional<core::PartialPicture> start_;  ///< where the picture is begun
+  std::optional<core::PartialPicture> start_;  ///< if the picture has been begun
   Plan plan_;                                  ///< refers to it
   std::optional<nodes::ByteSource> pages_;
 };

@@ -10,7 +10,7 @@ namespace {
 class ReplicatedStrategy final : public Strategy {
  public:
   const char* name() const override { return "replicated"; }
-  /// Nothing is ever waited for.
+  /// No task ever waits.
   std::uint32_t usual_tasks(const PlanRequest& /*request*/) const override { return 1; }
   core::Sentence advice() const override {
     constexpr core::Field strategy = core::field_of<&PlanRequest::strategy>();

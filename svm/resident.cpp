@@ -11,7 +11,7 @@ namespace {
 
 constexpr int profile_subsample = 8;
 
-/// The whole database, and how often each of its pages is looked up.
+/// The whole database, with a count of look-ups for each page.
 class CountedRecords {
  public:
   explicit CountedRecords(const core::Database& database)

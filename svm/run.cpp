@@ -9,7 +9,7 @@
 namespace dmpc::svm {
 namespace {
 
-/// A heat map of pages has them counted.
+/// A heat map of pages needs their counts.
 PageOptions pages_of(const RunOptions& options) {
   const nodes::HeatMap* const heat = options.watching.heat;
   PageOptions pages = options.pages;
@@ -17,18 +17,18 @@ PageOptions pages_of(const RunOptions& options) {
   return pages;
 }
 
-/// What is counted for single pixels, and references in the order of single rays, need single rays.
+/// Counts for single pixels, and references in the order of single rays, need single rays.
 bool may_walk_in_bundles(const RunOptions& options) {
   return !options.tracer_is_own && !options.watching.is_metered() && !pages_of(options).count_pages &&
          !options.pages.record_references && options.pages.reference_logs == nullptr;
 }
 
-/// The nodes of a modelled machine compute as those of the article did, unless something else is asked for.
+/// The nodes of a modelled machine compute as those of the article did, unless the options say otherwise.
 bool walks_in_bundles(const RunOptions& options) {
   return may_walk_in_bundles(options) && (!options.computer.machine || options.pages.bundles_on_machines);
 }
 
-/// Whoever asks for bundles gets them, or an error, if not here then by check_bundles_of().
+/// A request for bundles is granted or raises an error, at the latest in check_bundles_of().
 void check_bundles(const core::RenderSettings& settings, const RunOptions& options) {
   constexpr core::Field bundles = core::field_of<&PageOptions::bundles_on_machines>();
   core::check_use(options.computer.machine.has_value(), bundles,

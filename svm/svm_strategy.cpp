@@ -1,4 +1,4 @@
-// Pages travel: how many requests, frames and places that takes.
+// Pages travel: the number of requests, frames and slots that this takes.
 #include <algorithm>
 
 #include "core/base/units.h"
@@ -10,18 +10,18 @@
 namespace dmpc::svm {
 namespace {
 
-/// A node whose task waits for a page has others to go on with.
+/// While a task waits for a page, the node continues with others.
 constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
-/// Between ranks a page takes several times as long, by way of two threads that communicate.
+/// Between ranks a page takes several times as long, by way of two communicating threads.
 constexpr std::uint32_t default_bundles_on_ranks = 16;
-/// Small slots that a home keeps for page requests, about; 16 KiB of them.
+/// The approximate number of small slots that a home has for page requests; 16 KiB.
 constexpr std::uint32_t request_slots_wanted = 256;
-/// More requests to one home than this wait no shorter: it serves them one after another.
+/// More requests to one home than this wait no less: it serves them one after another.
 constexpr std::uint32_t request_credits_max = 4;
 
 bool do_pages_travel(const PlanRequest& request) { return request.computer.node_count > 1 || are_at_host(request.pages.homes); }
 
-/// Nodes from which page requests come to one node, at most: to the first of a tree.
+/// The maximum number of nodes that request pages from one node: from the root, in a tree.
 std::uint32_t askers_of(const PlanRequest& request) {
   const auto tree = request_tree_of(request.pages.homes, request.computer.node_count);
   return tree ? tree->count_below(0) : request.computer.node_count - 1;
@@ -32,7 +32,7 @@ class SvmStrategy final : public Strategy {
   const char* name() const override { return "svm"; }
   bool fetches_pages() const override { return true; }
 
-  /// Our choice; where memory is bounded, frames are worth more than further tasks.
+  /// The default; where memory is bounded, frames are worth more than further tasks.
   std::uint32_t usual_tasks(const PlanRequest& request) const override {
     const bool may_be_more = do_pages_travel(request) && request.computer.ranks != nullptr && !request.computer.node_memory_bytes;
     return !request.bundles ? default_tasks : may_be_more ? default_bundles_on_ranks : default_bundles;
@@ -45,8 +45,8 @@ class SvmStrategy final : public Strategy {
     return request.page_count - (are_at_host(request.pages.homes) ? 0 : request.page_count / request.computer.node_count);
   }
 
-  /// At least one for each home, so that every fault can be requested in the end; no more than faults, nor than pages at a home,
-  /// each of which has one fault at most.
+  /// At least one for each home, so that every fault is requested eventually; no more than faults, nor than pages at a home, each
+  /// of which has at most one fault.
   std::uint32_t request_credits(const Plan& plan) const override {
     const PlanRequest& request = plan.request;
     if (!do_pages_travel(request)) {

@@ -116,7 +116,7 @@ PixelScan::PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uin
   }
 }
 
-/// To the next pixel of the tile, or the first of the next one.
+/// Advances to the next pixel of the tile, or the first of the next tile.
 void PixelScan::step() {
   const std::uint32_t left = x_ - x_ % tile_.width, top = y_ - y_ % tile_.height;
   const std::uint32_t right = std::min(left + tile_.width, item_.width), bottom = std::min(top + tile_.height, item_.height);

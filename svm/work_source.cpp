@@ -14,7 +14,7 @@ PixelRectangle own_share(const WorkShape& shape, std::uint32_t index) {
   return share_of({0, 0, shape.width, shape.height}, index, shape.dealer ? 0 : shape.worker_count, shape.shares);
 }
 
-/// At least one, so that a node without pixels has a mask, too.
+/// At least one, so that a node without pixels also has a mask.
 std::size_t mask_pixels(const WorkShape& shape, std::uint32_t index) {
   return shape.is_masked ? std::max<std::size_t>(own_share(shape, index).pixel_count(), 1) : 0;
 }
@@ -27,10 +27,10 @@ std::uint64_t bits_of(const ItemSteps& steps) {
   return bits;
 }
 
-/// More go on along the ring.
+/// Others are passed on along the ring.
 constexpr std::size_t kept_max = 16;
 
-/// Another for each node, since mixing can be undone.
+/// Different for each node, since mixing is invertible.
 std::uint64_t rank_of(std::uint32_t node) { return core::mix(node); }
 
 /// A node that gives no work away has its share as one item, or in masked ones.
@@ -65,7 +65,7 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_ov
   }
 }
 
-/// What the host has said before the start.
+/// From the host's message before the start.
 void WorkSource::want_missing(const core::PartialPicture& start) {
   for (std::uint64_t i = 0; i < share_.pixel_count(); ++i) {
     const std::uint32_t pixel = share_.pixel_at(i, image_width_);
@@ -117,7 +117,7 @@ void WorkSource::open(const PixelRectangle& item, const ItemSteps& steps) {
   scan_ = is_masked() ? PixelScan(item, tile_, bits_of(steps)) : PixelScan(item, tile_);
 }
 
-/// The next item, if the current one has no pixel left.
+/// Opens the next item if the current one has no pixel left.
 void WorkSource::open_next() {
   if (scan_.empty()) {
     const auto item = items_.take();
@@ -127,7 +127,7 @@ void WorkSource::open_next() {
   }
 }
 
-/// So that the first item left, if any, has a pixel.
+/// Ensures that the first remaining item, if any, has a pixel.
 void WorkSource::skip_unwanted() {
   while (!items_.empty() && !is_wanted(*items_.front())) {
     items_.take();
@@ -182,7 +182,7 @@ void WorkSource::ask() {
 }
 
 void WorkSource::send(std::uint32_t node, const WorkRequest& request) {
-  node_->grant(nodes::NodeId{node}, ring_channel);  // the requester's place on the ring: one request a node
+  node_->grant(nodes::NodeId{node}, ring_channel);  // the requester's slot on the ring: one request a node
   node_->send_reserved(nodes::NodeId{node}, ring_channel, number_of(Kind::work_request), request);
 }
 
@@ -198,7 +198,7 @@ void WorkSource::answer(const WorkRequest& request) {
   }
 }
 
-/// What this node knows of others is of the request's pass.
+/// Whether this node's knowledge of others belongs to the request's pass.
 bool WorkSource::knows_of(const WorkRequest& request) const { return passes_over_idle_ && request.pass == pass_; }
 
 bool WorkSource::keeps(const WorkRequest& request) const {
@@ -215,8 +215,8 @@ void WorkSource::pass_on_kept() {
 /// Along the ring.
 std::uint32_t WorkSource::steps_to(std::uint32_t node) const { return (node + worker_count_ - self_) % worker_count_; }
 
-/// Steps to the first node that may have an item, as far as this node knows, which may be the requester; once round the ring if
-/// none has.
+/// Steps to the first node that may have an item, as far as this node knows; it may be the requester. Once round the ring if none
+/// has.
 std::uint32_t WorkSource::steps_for(const WorkRequest& request) const {
   if (!knows_of(request)) {
     return 1;
@@ -229,7 +229,7 @@ void WorkSource::pass_on(const WorkRequest& request) {
   const std::uint32_t to_requester = steps_to(request.requester);
   std::uint32_t steps = steps_for(request);
   steps += steps == to_requester ? 1 : 0;
-  const std::uint32_t visits = steps - (to_requester < steps ? 1 : 0);  // of those ahead, the last of which is to be asked
+  const std::uint32_t visits = steps - (to_requester < steps ? 1 : 0);  // nodes ahead, the last of which is to be asked
   nodes_passed_over_ += std::min(visits, request.visits_left) - 1;
   if (visits < request.visits_left) {
     send((self_ + steps) % worker_count_, {request.requester, request.visits_left - visits, request.pass});
@@ -239,7 +239,7 @@ void WorkSource::pass_on(const WorkRequest& request) {
 }
 
 void WorkSource::reply(std::uint32_t requester, const PixelRectangle& item) {
-  node_->grant(nodes::NodeId{requester}, control_channel);  // the place that the request has reserved
+  node_->grant(nodes::NodeId{requester}, control_channel);  // the slot that the request has reserved
   const WorkReply work{SentItem(item), self_};
   if (is_masked()) {
     node_->send_reserved(nodes::NodeId{requester}, control_channel, number_of(Kind::work_reply),

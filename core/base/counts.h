@@ -11,8 +11,7 @@
 
 namespace dmpc::core {
 
-/// Whether T{n, n, ...} compiles with this many numbers: then each initializes one member, or one element of an array or
-/// aggregate in T.
+/// Whether T{n, n, ...} compiles with this many numbers: then each initializes one member, or one element within it.
 template <class T, std::size_t... I>
 constexpr bool is_made_of(std::index_sequence<I...>) {
   return requires(std::uint64_t n) { T{(static_cast<void>(I), n)...}; };

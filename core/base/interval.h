@@ -24,8 +24,7 @@ inline double sum_rest(double a, double b, double sum) {
 /// The rounding error of a product nearer to 0 than this may itself be rounded.
 inline constexpr double product_min = 0x1p-960;
 
-/// A lower or upper bound of the exact result, given the rounded one and `rest`, its rounding error. A NaN in `rest` moves the
-/// bound, too.
+/// A lower or upper bound of the exact result; `rest` is the rounding error of `rounded`. A NaN in `rest` moves it, too.
 inline double floor_of(double rounded, double rest) { return rest >= 0.0 ? rounded : below(rounded); }
 inline double ceiling_of(double rounded, double rest) { return rest <= 0.0 ? rounded : above(rounded); }
 

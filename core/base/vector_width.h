@@ -5,8 +5,7 @@
 
 namespace dmpc::core {
 
-/// The target that a loop is compiled for: any processor, or one with all of x86-64-v3 (AVX2) or v4 (AVX-512). All produce the
-/// same bits.
+/// The target of a loop: any processor, or one with all of x86-64-v3 (AVX2) or v4 (AVX-512). All give the same bits.
 enum class VectorWidth : std::uint8_t { any, bits_256, bits_512 };
 
 /// The widest target that this processor supports.

@@ -64,8 +64,7 @@ void find_places_in(const LocalRecords& records, Address address, std::vector<Da
 /// The number of corners of the copies that a scene leaves out.
 std::uint64_t copied_corners(const Scene& scene) { return size_with_copies(scene).vertices - scene.vertices.size(); }
 
-/// The peak memory in bytes while a scene with copies for these instances becomes primitives. The records then replace the
-/// scene's objects.
+/// The peak memory while a scene with copies for these instances becomes primitives, whose records replace its objects.
 std::uint64_t bytes_with_copies(const Scene& scene, const std::vector<bool>& places) {
   constexpr std::uint64_t a_primitive = sizeof(PrimitiveValues) + sizeof(PrimitiveSource) + sizeof(ShadingReference);
   const ExpandedSize size = size_with_copies(scene, places);

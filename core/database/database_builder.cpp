@@ -256,8 +256,7 @@ void DatabaseBuilder::write_sky_tiles() {
   }
 }
 
-/// Each texture's memory is allocated at once, and its texels are freed when its tiles are written: a large texture is most of a
-/// scene.
+/// Each texture is allocated at once, and its texels are freed as soon as it is written: they can be most of a scene.
 void DatabaseBuilder::write_textures() {
   std::size_t tiles = 0;
   for (const TextureReference& texture : textures_) {

@@ -224,8 +224,7 @@ class Extractor {
     let_go(left);
     return is_needed;
   }
-  /// Whether a region needs a leaf whose box touches it: a leaf of instances only if one of them has something there, any other
-  /// always.
+  /// Whether a leaf whose box touches a region is needed: a leaf of instances only if one of them has something there.
   bool needs_leaf(Address leaf) const { return !needs_ || !has_places(leaf) || needed_slots(leaf) != 0; }
   bool has_places(Address leaf) const { return read<LeafHeader>(at(leaf)).kind == PrimitiveKind::instance; }
   /// One bit for each lane.

@@ -10,8 +10,7 @@ namespace {
 
 using Directions = std::array<Vec3d, 9>;
 
-/// The directions of the nine children of a ball whose own direction is +z: three tilted by asin(2 / sqrt 6) and rotated three
-/// times.
+/// The directions of the nine children of a ball that points to +z: three tilted by asin(2 / sqrt 6), rotated three times.
 Directions child_directions() {
   const double d = 1 / std::sqrt(2.0);
   const std::array<Vec3d, 3> corner = {Vec3d{d, d, 0}, Vec3d{d, 0, -d}, Vec3d{0, d, -d}};

@@ -112,8 +112,7 @@ std::size_t count_from(const AlphaCounts& counts, std::size_t least) {
   return std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(least), counts.end(), std::size_t{0});
 }
 
-/// The least alpha to keep so that `share` of a level is kept as nearly as possible; one more than the maximum if nothing is to
-/// be kept.
+/// The least alpha to keep such that as nearly as possible `share` of a level is kept; one beyond all to keep nothing.
 std::uint32_t least_to_keep(const AlphaCounts& counts, double share) {
   const double wanted = share * static_cast<double>(count_from(counts, 0));
   std::uint32_t best = 0;

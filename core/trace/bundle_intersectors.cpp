@@ -455,8 +455,7 @@ HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles,
   }
 }
 
-/// One ray against all triangles costs about as much as one triangle against all rays, so the loop runs over the fewer of the
-/// two.
+/// One ray with all triangles costs about as much as one triangle with all rays, so the fewer of the two are looped over.
 void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays) {
   while (rays != 0) {
     const Shear shear = shear_of(bundle, static_cast<std::size_t>(std::countr_zero(rays)));

@@ -249,9 +249,8 @@ HWY_INLINE void locate_macro(RayBundle& bundle, std::size_t axis, std::size_t fi
   }
 }
 
-/// CellTraversal::finest_cell_of() along an axis, for the wanted rays where they enter their cells; stored in `arrival`. Planes
-/// of the axes in `ties` at equal t are crossed first. The search covers the whole grid, since any limits around the one cell
-/// give the same result.
+/// CellTraversal::finest_cell_of() along an axis, for the wanted rays where they enter their cells, into `arrival`. Planes at
+/// equal t of the axes in `ties` are crossed first. Searches the whole grid, as any limits around the cell would do.
 HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted, RayMask ties) {
   const Doubles tag;
   const HalfIntegers integers;

@@ -48,8 +48,7 @@ std::int32_t CellTraversal::locate_macro(std::size_t axis, double t, std::int32_
                                          std::uint8_t entry_axis) const {
   const double guess = std::clamp(planes_.place(axis, t), static_cast<double>(low), static_cast<double>(high - 1));
   const auto cell = static_cast<std::int32_t>(guess);
-  // The guess is off by at most 2^-31 of the scene, less than the width of a finest cell, so it can be wrong only next to a
-  // border.
+  // The guess is off by at most 2^-31 of the scene, less than a finest cell, so it can be wrong only next to a border.
   const std::int32_t inside = cell & (finest_per_macro - 1);
   const bool is_certain = inside > 0 && inside < finest_per_macro - 1 && t < near_t_max;
   return (is_certain ? cell : locate(axis, t, low, high, entry_axis)) & -finest_per_macro;

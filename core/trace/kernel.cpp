@@ -1,5 +1,4 @@
-// The only file with SIMD. Targets start at AVX2: below it Highway's MulAdd is not fused, so older processors use the scalar
-// twin.
+// The only file with SIMD, for AVX2 and up: below, Highway's MulAdd is not fused, so older processors take the scalar twin.
 #include "core/trace/kernel.h"
 
 #include <algorithm>

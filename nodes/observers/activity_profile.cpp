@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::uint64_t first_step_ns = 1024;
 
-/// Times by what they went to, in steps of equal length that double as a run goes on. `Times`: an array of nanoseconds by kind.
+/// Times by category in steps of equal length, which doubles as a run goes on. `Times`: an array of nanoseconds by category.
 template <class Times>
 struct StepSums {
-  std::vector<Times> steps;  ///< up to the last that has anything
+  std::vector<Times> steps;  ///< up to the last that is not empty
 
-  /// Two steps become one.
+  /// Merges pairs of steps.
   void join_pairs() {
     const std::size_t count = (steps.size() + 1) / 2;
     for (std::size_t i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ struct StepSums {
     steps.resize(count);
   }
 
-  /// `own_ns` spread over the time from begin to end, rounded so that nothing is lost.
+  /// Spreads `own_ns` over the time from begin to end, rounded so that the sum is kept.
   void add(std::size_t kind, std::uint64_t step_ns, std::uint64_t begin_ns, std::uint64_t end_ns, std::uint64_t own_ns) {
     const std::size_t last = end_ns > begin_ns ? (end_ns - 1) / step_ns : begin_ns / step_ns;
     steps.resize(std::max(steps.size(), last + 1));
@@ -51,7 +51,7 @@ struct StepSums {
 
 }  // namespace
 
-/// One node's steps, on cache lines of their own.
+/// One node's steps, on separate cache lines.
 struct alignas(cache_line_bytes) ActivityProfile::Log {
   std::uint64_t step_ns = first_step_ns;
   StepSums<WorkTimes> works;

@@ -10,7 +10,7 @@ namespace dmpc::nodes {
 
 namespace {
 
-// Rows that are kept: all pairs of 127 nodes and a host; and steps, of which the last half of a run has at least half.
+// The maximum number of rows, all pairs of 127 nodes and a host, and of steps; the last half of a run has at least half.
 constexpr std::size_t row_max = std::size_t{1} << 14U, pair_step_count_max = 32, step_count_max = 64;
 
 }  // namespace
@@ -57,7 +57,7 @@ void ExchangeProfile::pass_links(const Passing& packet) {
   }
 }
 
-/// A number is given to a link when a message first passes it.
+/// A link gets a number when a message first passes it.
 std::uint32_t ExchangeProfile::number_of(const Link& link) {
   std::vector<LinkTo>& from_place = links_from_[link.from];
   const auto at = std::lower_bound(from_place.begin(), from_place.end(), link.to,
@@ -69,7 +69,7 @@ std::uint32_t ExchangeProfile::number_of(const Link& link) {
   return link_count_++;
 }
 
-/// As Links names it; a place that is none for a memory port.
+/// The place by its name in Links; an invalid place for a memory port.
 std::uint32_t ExchangeProfile::place_of(std::string_view name) const {
   const std::size_t space = name.find(' ');
   if (space == std::string_view::npos) {

@@ -9,7 +9,7 @@ namespace dmpc::nodes {
 
 namespace {
 
-/// Written by one thread at a time: a sum needs no exchange.
+/// Written by one thread at a time, so adding needs no atomic exchange.
 class Number {
  public:
   void set(std::uint64_t value) { value_.store(value, std::memory_order_relaxed); }
@@ -22,7 +22,7 @@ class Number {
 
 }  // namespace
 
-/// On cache lines of its own.
+/// On separate cache lines.
 struct alignas(cache_line_bytes) LiveCounts::Node {
   Number now_ns, packets_sent, bytes_sent;
   std::array<Number, work_count> busy_ns;

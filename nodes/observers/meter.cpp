@@ -34,7 +34,7 @@ void Meter::claim(std::uint32_t item) {
   }
 }
 
-/// 0 unless somebody wants to know.
+/// 0 unless an observer needs it.
 std::uint64_t Meter::clock_ps() const {
   return machine_ == nullptr && map_->has(map_->time()) ? nanoseconds(CLOCK_THREAD_CPUTIME_ID) * 1000 : 0;
 }

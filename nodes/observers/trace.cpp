@@ -16,16 +16,16 @@
 namespace dmpc::nodes {
 namespace {
 
-/// Packets so far, by peer and kind.
+/// The number of packets so far, by peer and kind.
 class Ordinals {
  public:
   std::uint32_t next(NodeId peer, PacketKind kind) { return count_[index_of(peer) * packet_kind_count + kind]++; }
 
  private:
-  std::unordered_map<std::size_t, std::uint32_t> count_;  // whose order nobody sees
+  std::unordered_map<std::size_t, std::uint32_t> count_;  // its order is never visible
 };
 
-/// What begins first, and of what begins at one time what was called first.
+/// By begin; at equal times the event that was reported first comes first.
 bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
 }
@@ -40,12 +40,12 @@ struct TraceRecorder::End {
   std::uint32_t bytes = 0, first_word = 0;
   PacketKind kind = 0;
 
-  /// What both ends of a message have in common, and no others.
+  /// What the two ends of a message, and no others, have in common.
   using Name = std::tuple<std::uint32_t, std::uint32_t, PacketKind, std::uint32_t>;
   Name name(std::uint32_t source, std::uint32_t target) const { return {source, target, kind, ordinal}; }
 };
 
-/// The ends of messages reported by one node, either of what it sent or of what it received.
+/// The ends of messages that one node reported, either sent or received.
 struct TraceRecorder::Ends {
   std::vector<End> kept;
   Ordinals count;
@@ -56,14 +56,14 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
   Ends sent, received;
   std::array<std::uint64_t, Levels::count_max> levels{};
-  TraceSpan current;                   ///< the current call's, with what it has worked on
+  TraceSpan current;                   ///< the current call's, with its work
   std::uint64_t room = 0;              ///< events that may be kept
-  std::uint64_t lost = 0;              ///< events
-  std::optional<RecordedTimes> times;  ///< if something was forgotten
+  std::uint64_t lost = 0;              ///< number of events
+  std::optional<RecordedTimes> times;  ///< if events were dropped
 
   std::uint64_t count() const { return node.spans.size() + node.levels.size() + sent.kept.size() + received.kept.size(); }
   bool is_empty() const { return count() == 0 && lost == 0; }
-  /// When the event is that so many are before.
+  /// The time of the event that `rank` events precede.
   std::uint64_t time_of(std::uint64_t rank) const {
     std::vector<std::uint64_t> times_ns;
     times_ns.reserve(count());
@@ -78,7 +78,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     std::nth_element(times_ns.begin(), times_ns.begin() + static_cast<std::ptrdiff_t>(rank), times_ns.end());
     return times_ns[rank];
   }
-  /// Forgets what is of other times.
+  /// Drops events at other times.
   void leave(const RecordedTimes& left) {
     const std::uint64_t before = count();
     std::erase_if(node.spans, [&left](const TraceSpan& span) { return !left.has(span.begin_ns); });
@@ -138,7 +138,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     lost = flat.take<std::uint64_t>();
     times = flat.take<std::optional<RecordedTimes>>();
   }
-  /// From the clock of the node's rank to that of rank 0.
+  /// Converts from the clock of the node's rank to that of rank 0.
   void correct(const ClockDrift& clock) {
     for (TraceSpan& span : node.spans) {
       span.begin_ns = clock.corrected(span.begin_ns);
@@ -152,7 +152,7 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
         end.time_ns = clock.corrected(end.time_ns);
       }
     }
-    if (times) {  // except for its parts: near their edges an event may be missing
+    if (times) {  // except its parts: near their edges events may be missing
       times->whole_until_ns = clock.corrected(times->whole_until_ns);
       times->whole_from_ns = clock.corrected(times->whole_from_ns);
     }
@@ -171,7 +171,7 @@ TraceRecorder::~TraceRecorder() = default;
 
 bool TraceRecorder::gets_more_room() { return taken_.fetch_add(1, std::memory_order_relaxed) < shared_room_; }
 
-/// Whether there is memory for one more event, if need be by dropping others.
+/// Whether there is memory for one more event, if necessary after dropping others.
 bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
   if (log.count() < log.room) {
     return true;
@@ -194,17 +194,17 @@ void TraceRecorder::make_room(Log& log, std::uint64_t now_ns) {
     return;
   }
   thin(log, now_ns);
-  if (log.count() >= log.room - log.room / 8) {  // where nearly all happens at one time
+  if (log.count() >= log.room - log.room / 8) {  // where nearly all events have one time
     log.times = RecordedTimes{.whole_from_ns = std::max(log.time_of(log.count() / 2), log.time_of(0) + 1)};
     log.leave(*log.times);
   }
 }
 
-/// An eighth of the room is for how the run begins, another for what is newest, which forgets nothing until it is older.
+/// An eighth of the memory is for the begin of the run, another for the newest events, dropped only when they are older.
 void TraceRecorder::thin(Log& log, std::uint64_t now_ns) {
   const std::uint64_t count = log.count();
   if (!log.times) {
-    std::uint32_t period = 0;  // that everybody has
+    std::uint32_t period = 0;  // common to all nodes
     const std::uint32_t here = RecordedTimes::period_bits_at(now_ns) + 1;
     period = period_.compare_exchange_strong(period, here, std::memory_order_relaxed) ? here : period;
     log.times = RecordedTimes::begin(log.time_of(count / 8) + 1, period - 1);
@@ -236,7 +236,7 @@ void TraceRecorder::ended(const Span& span, const Program& program) {
   }
 }
 
-/// With what the call has worked on, if it is one that does.
+/// The current call's span with its work, if it is a call that works.
 TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   TraceSpan made;
   if (span.is_own_call()) {
@@ -297,7 +297,7 @@ void TraceRecorder::received(const Passing& packet) {
   note_end(log, log.received, packet, packet.times.received_ns);
 }
 
-/// The two ends of every message that has both: of those of one kind between two nodes the n-th of each.
+/// All messages with both ends: of those of one kind between two nodes, the n-th ends are paired.
 std::vector<TraceMessage> TraceRecorder::join() const {
   using Named = std::pair<End::Name, const End*>;
   std::vector<Named> sent, received;
@@ -360,7 +360,7 @@ std::uint64_t TraceRecorder::events_lost() const {
   return lost;
 }
 
-/// What all have in common, and all nodes have then; nothing if nobody has forgotten anything.
+/// The times that all nodes have recorded; nothing if none has dropped anything.
 std::optional<RecordedTimes> TraceRecorder::settle_times() {
   std::optional<RecordedTimes> times;
   for (const auto& log : logs_) {
@@ -380,7 +380,7 @@ std::optional<RecordedTimes> TraceRecorder::settle_times() {
 
 namespace {
 
-/// No message comes before it is sent: clocks of several ranks, set by each other, may say so.
+/// No message arrives before it is sent, although clocks of several ranks, synchronised with each other, may say so.
 void move_early(Trace& trace) {
   for (TraceMessage& message : trace.messages) {
     if (message.received_ns < message.sent_ns) {

@@ -13,7 +13,7 @@ namespace {
 
 std::uint64_t length_ns(const Waited& wait) { return wait.end_ns - wait.begin_ns; }
 
-/// Keeps only the `count_max` longest, of equal ones the first, in their order; returns the longest that is left out.
+/// Keeps only the `count_max` longest, among equal ones the first, in order; returns the longest that is dropped.
 std::uint64_t keep_longest(std::vector<Waited>& waits, std::size_t count_max) {
   std::vector<std::uint64_t> lengths;
   std::transform(waits.begin(), waits.end(), std::back_inserter(lengths), length_ns);
@@ -29,7 +29,7 @@ std::uint64_t keep_longest(std::vector<Waited>& waits, std::size_t count_max) {
 
 }  // namespace
 
-/// One node's, on cache lines of its own.
+/// One node's waits, on separate cache lines.
 struct alignas(cache_line_bytes) WaitLog::Log {
   std::vector<Waited> waits;
   std::uint64_t count = 0;

@@ -9,7 +9,7 @@ namespace dmpc::nodes {
 
 namespace {
 
-/// What it throws, or nothing.
+/// The exception that it throws, or nothing.
 std::exception_ptr failure_in(const std::function<void()>& act) {
   try {
     act();

@@ -51,8 +51,8 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
   return plan;
 }
 
-/// While nodes carry, the communicating thread's sleeps are so many times as long: it looks where all that are awake are stopped,
-/// or in long quanta.
+/// While nodes carry, the communicating thread's sleeps are longer by this factor: it polls only in case all awake nodes are
+/// preempted or in long quanta.
 constexpr int leisure = 16;
 
 std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
@@ -65,8 +65,8 @@ std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications)
 
 }  // namespace
 
-/// Each kind of item is one talk's. Thread safety: the nodes' threads touch `nodes` and, through it, the outbox; all else belongs
-/// to whoever has `carrying`, while nodes run: the communicating thread but where it sleeps, or a node's in carry().
+/// Each kind of item belongs to one talk. Thread safety: the nodes' threads use `nodes` and, through it, the outbox. While nodes
+/// run, everything else belongs to the holder of `carrying`: the communicating thread unless it sleeps, or a node's in carry().
 struct RanksRunner::Implementation final : Carrier {
   Implementation(std::span<const NodeSpecification> specifications, RankLinks& to, const std::optional<Chaos>& chaos,
                  Observer* observer, const std::optional<std::uint32_t>& pool_threads)
@@ -92,7 +92,7 @@ struct RanksRunner::Implementation final : Carrier {
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(is_here.size() - 1); }
 
-  /// Whoever sends something of the next run has been told by rank 0 to start, which knows that all ranks are here again.
+  /// A rank sends items of the next run only after rank 0's start message; rank 0 then knows that all ranks are here again.
   void begin_again() {
     nodes.begin_again();
     clocks = ClockTalk(links, compares_clocks);
@@ -117,13 +117,13 @@ struct RanksRunner::Implementation final : Carrier {
         nodes.fail(std::current_exception());
         nodes.join();
         throw;
-      } catch (const Dismissed&) {  // while it waited for the start
+      } catch (const Dismissed&) {  // while waiting for the start
         throw;
       } catch (...) {
         if (closing.is_closed()) {
           throw;
         }
-        nodes.fail(std::current_exception());  // of which the others are to hear
+        nodes.fail(std::current_exception());  // which is reported to the others
       }
     }
   }
@@ -148,8 +148,8 @@ struct RanksRunner::Implementation final : Carrier {
     return end;
   }
 
-  /// Waits with nothing else to do, until something has failed: here or, as is said, elsewhere. What others wait for before the
-  /// start may then never come.
+  /// Waits, without other work, until something has failed here or, as reported, elsewhere: what others wait for before the start
+  /// may then never come.
   Wait while_nobody_fails() {
     return [this](const std::function<bool()>& is_done) {
       Exchange(links).turn_until([&] { return is_done() || nodes.ending() == Ending::failed; },
@@ -180,12 +180,12 @@ struct RanksRunner::Implementation final : Carrier {
       throw Dismissed{value_of<int>(bytes)};
     }
     core::expect(header.item == Item::failure, "what a run is made from comes before it");
-    if (!closing.has_reported_of_failure(rank)) {  // else it is of the run, of which this rank knows
+    if (!closing.has_reported_of_failure(rank)) {  // else it belongs to the run, and this rank knows of it
       fail_as_said(links.name_of(rank), bytes);
     }
   }
 
-  /// As the communicating thread does, which is called if there is more to do than to carry packets.
+  /// Does the communicating thread's work, but wakes it if there is more to do than to carry packets.
   void carry() override {
     const std::unique_lock lock(carrying, std::try_to_lock);
     if (!lock || carry_failure || nodes.ending() != Ending::none) {
@@ -199,7 +199,7 @@ struct RanksRunner::Implementation final : Carrier {
       });
       counting.send_packets();
       links.flush();
-      core::use_usual_arithmetic();  // what is loaded at the first contact with a rank may have changed this thread's
+      core::use_usual_arithmetic();  // libraries loaded at first contact with a rank may have changed it
     } catch (...) {
       carry_failure = std::current_exception();
     }
@@ -208,7 +208,7 @@ struct RanksRunner::Implementation final : Carrier {
     }
   }
 
-  /// Says whether there was anything to send.
+  /// Returns whether there was anything to send.
   bool serve_nodes() {
     if (nodes.ending() == Ending::none) {
       const bool has_moved = counting.send_packets();
@@ -225,7 +225,7 @@ struct RanksRunner::Implementation final : Carrier {
   /// The order matters: ASLEEP first, so that the last node to sleep, which would have carried, either finds it or is seen.
   void sleep(std::chrono::nanoseconds time, std::unique_lock<std::mutex>& lock) {
     core::expect(call.fall_asleep(), "nothing is put before a communicating thread");
-    // Whoever has roused this thread before it slept has left something to be seen.
+    // Whoever woke this thread before it slept has left something visible.
     const bool is_something_new =
         !closing.is_closing() && (nodes.ending() != Ending::none || (counting.is_to_count() && outbox.is_drained()));
     const bool do_nodes_carry = !closing.is_closing() && !nodes.all_sleep();
@@ -252,7 +252,7 @@ struct RanksRunner::Implementation final : Carrier {
   LocalMemory outbox_memory;
   Mailbox outbox;
   LocalMemory call_memory;
-  Mailbox call;  ///< before which the communicating thread sleeps: nothing is ever put in
+  Mailbox call;  ///< the communicating thread's, to sleep at: always empty
   std::mutex carrying;
   std::exception_ptr carry_failure;  ///< thrown on a node's thread in carry()
   Outlet outlet;
@@ -277,7 +277,7 @@ Node& RanksRunner::node(std::size_t index) { return implementation_->nodes.proce
 Program& RanksRunner::program(std::size_t index) { return *implementation_->nodes.processor(index).program; }
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
 
-/// To be called on every rank after the run, when nothing else is in flight.
+/// Call this on every rank after the run, when nothing else is in flight.
 std::vector<std::string> RanksRunner::gather(const Report& report) {
   Implementation& runner = *implementation_;
   return runner.gathering.gather(reported_by(runner.nodes.processors(), runner.is_here.size(), report), runner.communicating());

@@ -57,7 +57,7 @@ void StreamsToRanks::finish() {
 
 void StreamsToRanks::look_after() {
   exchange_.turn([this](auto&&... item) { receive(item...); });
-  links_->look_after();  // though others' signs of life have just come
+  links_->look_after();  // even if others' heartbeats have just come
 }
 
 void StreamsToRanks::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
@@ -92,7 +92,7 @@ void StreamFromHost::read(std::span<std::byte> into) {
   }
 }
 
-/// Takes as much of what has come as is wanted. Tells rank 0 of each quarter of the window, so that it sends on.
+/// Takes up to as many bytes as wanted from what has come. Acknowledges each quarter of the window, so that rank 0 sends on.
 std::size_t StreamFromHost::take(std::span<std::byte> into) {
   std::size_t taken = 0;
   while (taken < into.size() && count_ > 0) {
@@ -123,7 +123,7 @@ void StreamFromHost::say_ready() {
 
 void StreamFromHost::look_after() {
   exchange_.turn([this](auto&&... item) { receive(item...); });
-  links_->look_after();  // though others' signs of life have just come
+  links_->look_after();  // even if others' heartbeats have just come
 }
 
 void StreamFromHost::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {

@@ -27,9 +27,9 @@ bool packet_comes_soon(ThreadProcessor& self) {
   return !self.mailbox.is_empty();
 }
 
-/// Quanta, some tens of microseconds, from one look of a node's thread at what other processes send to its next.
+/// Quanta, each some tens of microseconds, between a node's polls for packets from other processes.
 constexpr std::uint64_t quanta_per_look = 16;
-/// Stack for that, of which no node's plan knows what the carrier takes: reserved, and hardly ever written.
+/// The carrier's stack use, which no node's plan knows: reserved, and hardly ever written.
 constexpr std::size_t carrier_stack_bytes = std::size_t{256} << 10U;
 
 bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
@@ -41,7 +41,7 @@ std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
   return static_cast<std::size_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
 }
 
-/// The number of worker threads for the nodes and the host, if there is a pool of this many threads (ComputerRequest).
+/// The number of worker threads for the nodes and the host, given the size of the pool, if there is one (ComputerRequest).
 std::size_t worker_thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
   return pool_threads ? std::min<std::size_t>(*pool_threads, node_count) : 0;
 }
@@ -100,7 +100,7 @@ void NodeThreads::deliver(NodeId target, const PacketHeader& header, std::span<c
     front = std::as_bytes(std::span(&index, 1));
     sent.bytes += sizeof(index);
   }
-  // What a sender sends one target arrives in order, so nothing overtakes what waits.
+  // Packets of one sender to one target arrive in order, so none overtakes a waiting one.
   if (may_wait || (source.waiting_count > 0 && source.waiting_for == target)) {
     return add_waiting(source, target, sent, payload, front, may_wait);
   }
@@ -146,7 +146,7 @@ void NodeThreads::start(std::uint64_t start_ns) {
 
 void NodeThreads::begin_again() {
   core::expect(ending() == Ending::finished, "another run begins where one has ended regularly");
-  ending_.store(Ending::none, std::memory_order_relaxed);  // no thread is there to see it
+  ending_.store(Ending::none, std::memory_order_relaxed);  // no thread is running to see it
   starts_.clear();
   for (const auto& processor : processors_) {
     processor->begin_again();
@@ -238,7 +238,7 @@ void NodeThreads::run_worker_thread(WorkerThread& worker_thread) {
   worker_thread.end_turns(start_ns);
 }
 
-/// A node runs until it has nothing to do, or has had its quanta; who is awake after that has another turn after all others.
+/// A node runs until it has nothing to do or has used its quanta; if awake, it gets another turn after all others.
 void NodeThreads::take_turn(WorkerThread& worker_thread, std::uint32_t number) {
   ThreadProcessor& self = *worker_thread.nodes[number];
   Next next = Next::go_on;
@@ -271,7 +271,7 @@ bool NodeThreads::falls_asleep(ThreadProcessor& self) {
   return self.is_asleep;
 }
 
-/// Receives all that has come and works one quantum. A node that holds packets back does not sleep: they are under way.
+/// Receives all packets that have come and works one quantum. A node with delayed packets does not sleep: they are in flight.
 NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
   if (self.sits_out()) {
     return Next::pass;
@@ -285,7 +285,7 @@ NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
   });
   const bool has_more = work(self);
   const bool holds_packets = self.holds_packets();
-  // Before it sleeps in any case, for an awake node alone keeps the others from finding that all is over.
+  // Hands over before it sleeps in any case, since one awake node keeps the others from detecting the end.
   if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= batching_quanta_max)) {
     hand_over(self);
   }
@@ -336,7 +336,7 @@ void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) 
   self.service_idle_ns += self.is_waiting ? span.own_ns : 0;
 }
 
-/// What it does for others ends no wait, as on a modelled machine.
+/// Work for others ends no wait, as on a modelled machine.
 void NodeThreads::end_wait(ThreadProcessor& self, const Packet& packet, std::uint64_t end_ns) const {
   self.is_waiting = false;
   observer_->waited({.node = self.node.id(),
@@ -363,7 +363,7 @@ void NodeThreads::end_span(ThreadProcessor& self, Span& span) const {
   observer_->ended(span, *self.program);
 }
 
-/// With nothing to do: sleeps until a packet comes or the run ends.
+/// Called with nothing to do: sleeps until a packet comes or the run ends.
 void NodeThreads::rest(ThreadProcessor& self) {
   if (packet_comes_soon(self) || self.program->has_leftovers() || !go_to_sleep(self.mailbox)) {
     return;
@@ -374,7 +374,7 @@ void NodeThreads::rest(ThreadProcessor& self) {
   self.node.counters().asleep_ns += nanoseconds(CLOCK_MONOTONIC) - start_ns;
 }
 
-/// Until a node is woken or the run ends.
+/// Sleeps until a node is woken or the run ends.
 void NodeThreads::sleep(WorkerThread& worker_thread) {
   if (go_to_sleep(worker_thread.awake_nodes.woken())) {
     worker_thread.share_out_time();
@@ -383,7 +383,7 @@ void NodeThreads::sleep(WorkerThread& worker_thread) {
   }
 }
 
-/// Whether there is something to sleep for, before a node's mailbox, or a worker thread's.
+/// Whether to sleep at a node's mailbox, or a worker thread's.
 bool NodeThreads::go_to_sleep(Mailbox& inbox) {
   // The order matters: ASLEEP first, so that end() either finds it or is seen; then the count, so that zero means all ASLEEP.
   if (!inbox.fall_asleep() || ending() != Ending::none) {
@@ -396,7 +396,7 @@ bool NodeThreads::go_to_sleep(Mailbox& inbox) {
     outlet_->call.rouse();
     return true;
   }
-  end(unfinished_count() == 0 ? Ending::finished : Ending::stalled);  // every node sleeps: the programs stand still
+  end(unfinished_count() == 0 ? Ending::finished : Ending::stalled);  // every node sleeps: no program can continue
   return false;
 }
 
@@ -409,7 +409,7 @@ void NodeThreads::fail(std::exception_ptr failure) {
 
 void NodeThreads::end(Ending ending) {
   Ending none = Ending::none;
-  // Release: partner of the load in ending().
+  // Release: pairs with the load in ending().
   if (!ending_.compare_exchange_strong(none, ending, std::memory_order_release, std::memory_order_relaxed)) {
     return;
   }

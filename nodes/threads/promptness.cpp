@@ -10,8 +10,8 @@ namespace {
 constexpr std::uint64_t prompt_slice_ns = 100'000;
 constexpr unsigned long prompt_timer_slack_ns = 1;
 
-/// The kernel's struct sched_attr, first version (sched_setattr(2)), which the C library has no name for, and whose header does
-/// not go with the C library's.
+/// The kernel's struct sched_attr, first version (sched_setattr(2)): the C library has no name for it, and the kernel's header
+/// conflicts with the C library's.
 struct SchedulingAttributes {
   std::uint32_t size = sizeof(SchedulingAttributes);
   std::uint32_t policy = 0;
@@ -28,7 +28,7 @@ std::optional<SchedulingAttributes> attributes() {
   return ::syscall(SYS_sched_getattr, 0, &found, sizeof(found), 0) == 0 ? std::optional(found) : std::nullopt;
 }
 
-/// Sets the slice of the calling thread; returns what it was. A refusal leaves it as it is: that costs time and nothing else.
+/// Sets the slice of the calling thread and returns the old one. A refusal leaves it unchanged, which only costs time.
 std::optional<std::uint64_t> set_slice(std::uint64_t slice_ns) {
   std::optional<SchedulingAttributes> wanted = attributes();
   if (!wanted) {

@@ -11,7 +11,7 @@ namespace {
 
 using core::operator""_KiB;
 
-// Instrumented code keeps shadow and red zones on the stack: there the plan's figure would measure the sanitizer.
+// Instrumented code keeps shadow memory and red zones on the stack, so the plan's figure would measure the sanitizer.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::size_t instrumented_stack_bytes_min = 1024_KiB;
 #else

@@ -36,7 +36,7 @@ std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, st
   return pass_along_route(now_ns, bytes, bytes_ns);
 }
 
-/// Link by link: the header goes on after a hop. A circuit keeps what it has until the message has arrived, of a packet the bytes
+/// Link by link: the header advances after each hop. A circuit holds its links until the message has arrived; a packet's bytes
 /// pass each link behind the header. A memory port is no hop.
 std::uint64_t Links::pass_along_route(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns) {
   std::uint64_t at_ns = now_ns;
@@ -121,7 +121,7 @@ std::string Links::place_name(std::uint32_t place) const {
                                                     : "place " + std::to_string(place);
 }
 
-/// The wire of a link, made when a message first passes it.
+/// The wire of a link, created when a message first passes it.
 std::uint32_t Links::wire_of(const Link& link) {
   std::uint32_t& wire = table_[place_in_table(link)];
   if (wire != no_wire) [[likely]] {

@@ -18,10 +18,10 @@
 namespace dmpc::nodes {
 namespace {
 
-/// Events between two looks at a request to stop.
+/// Events between two polls for a request to stop.
 constexpr std::uint64_t events_per_look = 1024;
 
-/// About the time from one event to the next, if each node has a message in flight or a quantum in progress: for an EventQueue.
+/// The approximate time between events, if each node has a message in flight or a quantum in progress; for an EventQueue.
 std::uint64_t event_distance_ns(const Machine& machine, std::size_t peer_count) {
   return std::max<std::uint64_t>((machine.short_message.send_ns + machine.short_message.latency_ns) / peer_count, 1);
 }
@@ -36,7 +36,7 @@ struct VirtualRunner::Implementation {
   VirtualReport result;
 };
 
-/// `is_watched`: somebody looks on. Without that nothing is compiled for it.
+/// `is_watched`: there is an observer. Otherwise no code is compiled for it.
 template <bool is_watched>
 struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   Simulation(std::span<const NodeSpecification> specifications, const Machine& model, Observer* looking_on)
@@ -72,7 +72,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     return RunEnd::finished;
   }
 
-  /// The machine is at rest, and so it is as new: its links are free, and its time begins.
+  /// The machine is at rest, so it is reset: its links are free, and its time begins.
   void begin_again() {
     core::expect(is_finished, "another run begins where one has ended regularly");
     is_finished = false;
@@ -117,7 +117,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     events.push({Event::order_of(time_ns, source.id, source.sequence++), kind, packet});
   }
 
-  /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
+  /// A processor has sent a message, which enters the network after its latency, after those to the same target.
   void leave(VirtualProcessor& self, std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     const Message& message = computer.messages[number];
     if constexpr (is_watched) {
@@ -169,7 +169,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  /// From having nothing to do to having something, once the services that have been asked for are over: returns when.
+  /// The end of a wait, when the requested services are over: returns the time.
   std::uint64_t end_wait(VirtualProcessor& self, std::uint32_t number) {
     const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
     const std::uint64_t own_ns = begin_ns - self.idle_since_ns - (self.times.service_idle_ns - self.service_idle_before_ns);
@@ -182,7 +182,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     return begin_ns;
   }
 
-  /// An interrupt: first come, first served, whatever the program was doing.
+  /// An interrupt, served first come, first served, whatever the program was doing.
   void serve(VirtualProcessor& self, std::uint32_t number) {
     const std::uint64_t receive_ns = machine.cost_of_message(computer.messages[number].bytes()).receive_ns;
     const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
@@ -215,7 +215,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  /// The current activity is finished: its packets leave, then the program goes on.
+  /// The current activity ends: its packets leave, then the program continues.
   void become_free(VirtualProcessor& self) {
     self.is_occupied = false;
     const bool sends = !self.outgoing.empty();
@@ -239,7 +239,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     occupy(self, sent_ns);
   }
 
-  /// The next packet, or the next quantum, or nothing.
+  /// Handles the next packet, or runs the next quantum, or nothing.
   void go_on(VirtualProcessor& self) {
     const std::uint64_t now_ns = events.now_ns();
     if (!self.inbox.empty()) {
@@ -272,7 +272,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     post(self, Event::Kind::is_free, until_ns);
   }
 
-  /// What the operations take that the program has charged since the last call.
+  /// The time of the operations that the program has charged since the last call.
   std::uint64_t charge(VirtualProcessor& self) {
     const Charges now = self.program->charges();
     if constexpr (is_watched) {
@@ -295,7 +295,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     self.receive(number);
   }
 
-  /// Begins a span; where that is no call of the program, `own_ns` is known.
+  /// Begins a span; if it is no call of the program, `own_ns` is known.
   void begin(VirtualProcessor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
              std::uint64_t own_ns = 0) const {
     if constexpr (is_watched) {
@@ -328,14 +328,14 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  /// A message whose sender's processor is done with it at `time_ns`.
+  /// A message that the sender's processor has finished at `time_ns`.
   void report_sent(std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     Message& message = computer.messages[number];
     message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
     observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
   }
 
-  /// Reports the wait of a node that a message wakes, which has arrived or is handled when a service is over.
+  /// Reports the wait of a node that a message ends, which has arrived or is handled when a service is over.
   void report_wait(VirtualProcessor& self, std::uint32_t number, std::uint64_t end_ns, std::uint64_t own_ns) {
     const Message& message = computer.messages[number];
     Waited wait{.node = self.id,
@@ -358,7 +358,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  /// A service that begins, and takes so long until it answers.
+  /// A service begins, and takes this long until it answers.
   void follow_service(const VirtualProcessor& self, std::uint32_t number, PacketKind kind, bool is_queued, std::uint64_t ns) {
     if (is_watched && paths) {
       paths->begins_service(self.id, number, kind, is_queued);
@@ -407,8 +407,8 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   Machine machine;
-  Observer* observer;               ///< none unless is_watched
-  std::optional<PathFinder> paths;  ///< if the observer follows them
+  Observer* observer;               ///< null unless is_watched
+  std::optional<PathFinder> paths;  ///< if the observer follows paths
   Links links;
   EventQueue events;
   bool is_started = false, is_finished = false;

@@ -11,7 +11,7 @@ namespace {
 
 using nodes::Category;
 
-/// Questions that a packet holds, at most.
+/// The maximum number of questions in a packet.
 constexpr std::uint32_t packet_questions_max = 16;
 
 constexpr std::size_t question_bytes(QuestionKind kind) {
@@ -39,7 +39,7 @@ std::size_t answer_bytes_max(QuestionKind kind) {
   return sizeof(AnswerHeader) + (is_about_ray(kind) ? sizeof(core::Hit) : core::bytes_max(record_kind(kind)));
 }
 
-/// Appends to what a packet has; `end` is where that ends.
+/// Appends to the contents of a packet; `end` is where they end.
 class PacketWriter {
  public:
   explicit PacketWriter(std::span<std::byte> room) : room_(room) {}
@@ -62,7 +62,7 @@ class PacketWriter {
   std::size_t end_ = 0;
 };
 
-/// The size of open pages that not every node holds.
+/// The size of the open pages that not every node has.
 std::size_t asked_open_bytes(const PageCapacity& capacity) {
   return holds_open_pages(capacity.open_pages, capacity.page_size_bytes()) ? 0 : capacity.open_pages * capacity.page_size_bytes();
 }
@@ -111,7 +111,7 @@ const std::byte* Forest::find_below(core::Address address) {
     return page + geometry_.offset_of(address);
   }
   if (address == lent_address_) {
-    return lent_.data();  // was counted as a miss when it was asked for
+    return lent_.data();  // counted as a miss when it was requested
   }
   ++counters_.misses;
   return nullptr;
@@ -153,13 +153,13 @@ void Forest::add(std::uint32_t slot, core::Address address) {
 
 void Forest::flush() {
   for (std::uint32_t i = 1; waiting_ > 0 && i < queues_.size(); ++i) {
-    const auto owner = static_cast<std::uint32_t>((self_ + i) % queues_.size());  // not all nodes the same one first
+    const auto owner = static_cast<std::uint32_t>((self_ + i) % queues_.size());  // so that nodes begin with different ones
     while (queues_[owner].count > 0 && send(owner)) {
     }
   }
 }
 
-/// Sends the oldest questions, as many as they and their answers fit a packet. Returns whether a credit was left.
+/// Sends the oldest questions, as many as fit a packet together with their answers. Returns whether a credit was available.
 bool Forest::send(std::uint32_t owner) {
   if (node_->credits(nodes::NodeId{owner}, request_channel) == 0) {
     return false;
@@ -221,7 +221,7 @@ void Forest::answer(const nodes::Packet& questions, const core::DatabaseHeader& 
   node_->send_reserved(questions.source, bulk_channel, number_of(Kind::answers), writer.bytes());
 }
 
-/// The packet's credit may be needed by what has waited for it.
+/// Waiting questions may need the packet's credit.
 std::span<const std::byte> Forest::begin_taking(const nodes::Packet& answers) {
   node_->grant(answers.source, request_channel);
   const std::uint32_t owner = nodes::index_of(answers.source);

@@ -13,7 +13,7 @@ namespace dmpc::svm {
 
 namespace {
 
-/// Room for packets of questions that a node keeps, about.
+/// The approximate memory for packets of questions that a node keeps.
 constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::uint32_t question_credits_max = 4;
 
@@ -48,7 +48,7 @@ class ForestStrategy final : public Strategy {
     return request.forest_page_count + (are_held ? request.open_page_count : 0);
   }
 
-  /// Packets of questions: no more than tasks, each of which asks one at a time.
+  /// Packets of questions: no more than tasks, each of which asks one question at a time.
   std::uint32_t request_credits(const Plan& plan) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
     if (others == 0) {
@@ -59,7 +59,7 @@ class ForestStrategy final : public Strategy {
     return std::min(plan.task_count(), std::clamp(wanted, 1U, question_credits_max));
   }
 
-  /// Packets are small or bulk, as it comes.
+  /// Packets may be small or bulk.
   void add_slots(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
     const std::uint32_t asked = others * plan.request_credits;         // questions: each other node's credits for this one

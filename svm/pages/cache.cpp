@@ -12,7 +12,7 @@ std::size_t frame_bytes(const CacheShape& shape) {
   return shape.frame_count == 0 ? 0 : shape.frame_count * shape.page_size_bytes + core::overread_bytes;
 }
 
-/// Beside frames, table and policy.
+/// The cache's memory besides frames, table and policy.
 nodes::Layout<std::uint64_t, PageId> own_layout(const CacheShape& shape) {
   return {{core::MemoryUse::page_table, shape.frame_count}, {core::MemoryUse::page_table, shape.frame_count}};
 }

@@ -51,7 +51,7 @@ const std::byte* Pager::find_other(PageId page, std::size_t offset) {
   return refer(page, translation.frame, translation.bytes) + offset;
 }
 
-/// Counts a reference to a page that is here, and returns where.
+/// Counts a reference to a local page, and returns its address.
 const std::byte* Pager::refer(PageId page, std::uint32_t frame, const std::byte* bytes) {
   const bool is_kept = frame == Cache::no_frame;
   if (!is_kept) {
@@ -63,7 +63,7 @@ const std::byte* Pager::refer(PageId page, std::uint32_t frame, const std::byte*
   return last_bytes_ = bytes;
 }
 
-/// Returns whether the page is here; if not, `translation` stays as it was.
+/// Returns whether the page is local; if not, `translation` is unchanged.
 bool Pager::translate(PageId page, Translation& translation) const {
   if (in_place_) {
     const std::uint32_t frame = in_place_->frame_of(page);
@@ -102,7 +102,7 @@ std::uint32_t Pager::asked_for(PageId page) const {
   return tree_ ? tree_->parent_of(nodes::index_of(node_->id())) : homes_.home_of(page);
 }
 
-/// The page for another node, or nullptr. What others use stays as if it were used here.
+/// The page for another node, or nullptr. A page that others use is kept as if used here.
 const std::byte* Pager::served_bytes(PageId page) {
   Translation found;
   if (!translate(page, found)) {
@@ -121,12 +121,11 @@ void Pager::serve(const nodes::Packet& packet) {
   }
   core::expect(tree_.has_value(), "a request reaches its page's home");
   const nodes::NodeId parent{asked_for(request.page)};
-  node_->grant(parent, request_channel);  // the place that the requester's request has reserved all the way up
+  node_->grant(parent, request_channel);  // the slot that the requester's request has reserved all the way up
   node_->send_reserved(parent, request_channel, number_of(Kind::passed_request), request);
 }
 
-/// Refused for want of credit, the fault stays in the list and is requested when a reply for its home or parent brings the credit
-/// back.
+/// Without credit the fault stays in the list, and is requested when a reply of its home or parent brings the credit back.
 void Pager::request(Faults::Fault& fault) {
   fault.requested =
       node_->try_send(nodes::NodeId{fault.home}, request_channel, number_of(Kind::page_request), PageRequest{fault.page});

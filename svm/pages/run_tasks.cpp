@@ -45,7 +45,7 @@ std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, 
   return all;
 }
 
-/// Gathers what the nodes did that are here and, on rank 0, all of them.
+/// Gathers the results of the local nodes and, on rank 0, of all.
 void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
   nodes::gather_nodes(
       runner, plan.node_count(),

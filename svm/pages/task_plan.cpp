@@ -19,7 +19,7 @@ namespace {
 using nodes::Category;
 
 constexpr std::uint32_t task_cache_pages_min = 64;
-/// More requests to one home than this wait no shorter: it serves them one after another.
+/// More requests to one home than this wait no less: it serves them one after another.
 constexpr std::uint32_t task_requests_max = 4;
 
 /// `name`: a word or a core::Field.
@@ -39,12 +39,12 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
   check_range("page_count", page_count, 1, index_of(no_page) - 1);
   const auto pages = static_cast<std::uint32_t>(page_count);
   const std::uint32_t foreign_pages = node_count() == 1 ? 0 : pages - pages / node_count();
-  std::uint32_t most_tasks = 1;  // a node without tasks has a place for one
+  std::uint32_t most_tasks = 1;  // a node without tasks has space for one
   for (std::uint32_t node = 0; node < node_count(); ++node) {
     most_tasks = std::max(most_tasks, tasks_at(node));
   }
   in_flight_ = std::min(options.in_flight, most_tasks);
-  // A fault has at least one task that waits for it, and a page one fault.
+  // A fault has at least one task that waits for it, and a page at most one fault.
   const std::uint32_t faults_max = std::min(in_flight_, foreign_pages);
   const std::uint32_t credits = std::min({faults_max, core::ceil_divide(pages, node_count()), task_requests_max});
   pages_ = {

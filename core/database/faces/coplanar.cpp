@@ -270,8 +270,7 @@ class Planes {
  public:
   explicit Planes(Conversion& conversion) : conversion_(conversion) {}
 
-  /// The number of sets whose corners have a coordinate in common, which identifies their plane, and of sets that share another
-  /// plane.
+  /// The number of sets whose corners share a coordinate, which identifies their plane, and of sets that share another plane.
   std::uint32_t level_count() const { return level_count_; }
   std::uint32_t count() const { return count_; }
 
@@ -467,8 +466,7 @@ Ids sets_apart(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>&
   return apart;
 }
 
-/// Joins to the sets of `apart`, whose polygons are present, the faces that their layers reach, and those that the layers of
-/// these reach.
+/// Joins to the sets of `apart`, whose polygons are present, the faces that their layers reach, transitively.
 void add_reached(const Conversion& conversion, const Ids& apart, const Pairs& reached, FaceSets& close) {
   FaceSets wide = close;
   wide.add_all(reached);

@@ -55,8 +55,8 @@ class Boxes {
     return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), others.high_[axis_][place]) - begins.begin());
   }
 
-  /// Of the boxes [first, end), which overlap box `place` of `others` along the axis, passes to `met` those that overlap it along
-  /// the other two axes as well.
+  /// Passes to `met` the boxes of [first, end), which overlap box `place` of `others` along the axis, that also overlap it along
+  /// the other two axes.
   template <class Met>
   void for_each_that_meets(const Boxes& others, std::size_t place, std::size_t first, std::size_t end, const Met& met) const {
     constexpr std::size_t at_once = 64;

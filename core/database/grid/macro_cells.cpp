@@ -11,8 +11,7 @@
 namespace dmpc::core {
 namespace {
 
-/// The maximum average number of macro cells that list a primitive. The SPD's scenes need 1 to 1.2; the limit bounds the worst
-/// case at four times the usual memory.
+/// The maximum mean number of macro cells that list a primitive: four times the usual memory. The SPD's scenes need 1 to 1.2.
 constexpr std::size_t macro_cells_max = 3;
 /// The number of primitives that one thread lists at a time.
 constexpr std::size_t cells_chunk_size = 8192;

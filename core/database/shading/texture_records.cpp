@@ -44,8 +44,7 @@ TextureTile tile_at(const TextureLevel& level, const TilePlace& place) {
 /// The first and last tile of a range along one side.
 using Run = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The tiles around all coordinates from `low` to `high` along a side of `size` texels; all tiles if the range crosses the
-/// texture's edge.
+/// The tiles around all coordinates from `low` to `high` on a side of `size` texels; all if they cross the texture's edge.
 Run tiles_between(double low, double high, std::uint32_t size, TextureWrap wrap) {
   constexpr double rounding = 0x1p-20;  // coordinates are below 2^20, as are sums of three in double
   const double first = std::floor((low - rounding) * size - 0.5), last = std::floor((high + rounding) * size - 0.5) + 1;

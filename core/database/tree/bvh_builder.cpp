@@ -10,8 +10,7 @@
 namespace dmpc::core {
 namespace {
 
-/// A million grids. Kernels cannot overflow within it, and rays that need more start so far away that floats cannot aim at the
-/// grid.
+/// A million grids: kernels cannot overflow, and floats cannot aim at the grid from where rays would need more.
 constexpr double pad_max = 0x1p20;
 
 /// The maximum number of groups of one kind that may still be cut without regard to balance with this many `levels` of BVH nodes

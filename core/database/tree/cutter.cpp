@@ -117,8 +117,7 @@ struct Bins {
       ++bin.count;
     }
   }
-  /// Adds items of the two halves alternately: neighbours often fall into the same bin, where each would wait for the one before
-  /// it.
+  /// Alternates between items of the two halves: neighbours often share a bin, and each would wait for the one before it.
   [[gnu::always_inline]] void add_all(std::span<const Bounds> items) {
     const std::size_t half = items.size() / 2;
     for (std::size_t i = 0; i < half; ++i) {

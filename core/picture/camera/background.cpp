@@ -57,8 +57,7 @@ class Finder {
     }
   }
 
-  /// In a voxel a ray is tested against all that it lists, but meets a leaf only within the leaf's box, and reaches it only
-  /// through the voxel.
+  /// A ray is tested against all that a voxel lists, but hits it within its box, and reaches it through the voxel.
   void look_into_voxel(const DirectoryEntry& entry, const Corner& corner) {
     const TileFootprint footprint = projector_.footprint_of(box_of_cell(corner, header_.frame));
     if (tile_count(footprint) <= few_tiles_of_bvh_node) {

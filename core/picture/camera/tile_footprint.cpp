@@ -11,8 +11,7 @@ namespace {
 /// and the planes of boxes appear to a ray off by less than 2^-22 of their distance (core/trace/kernel.h), together sqrt(3)
 /// (2^-25 + 2^-22). The rounding of doubles here is negligible beside it.
 constexpr double turn_radians = 0x1p-21;
-/// The maximum distance of the film's border from its middle, in units of its distance from the eye: a turned ray still points
-/// ahead.
+/// The maximum film radius, in units of its distance from the eye, such that a turned ray still points ahead.
 constexpr double film_radius_max = 0x1p12;
 /// From the middle of a pixel to a sample, and one pixel more.
 constexpr double sample_margin_pixels = 0.5 + 1.0;

@@ -23,8 +23,7 @@ std::int64_t fixed(float light, double units) {
 
 class Fnv1a {
  public:
-  /// Starts with the lowest byte. Bytes of 0 only multiply, so the zeros above all others, which most of a film consists of, are
-  /// combined.
+  /// From the lowest byte up. Bytes of 0 only multiply, so the leading zeros, common in films, take one multiplication.
   void add(std::uint64_t value) {
     std::size_t zeros = 8;
     for (; value != 0; value >>= 8U, --zeros) {

@@ -72,8 +72,7 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
   return passes_doubling > doublings ? "samples of fewer passes" : nullptr;
 }
 
-/// The bounds are more than any film can show, and low enough to prevent overflow. A pixel has an expected error only if it
-/// looked even.
+/// More than any film can show, but without overflow. Only pixels that looked even have an expected error.
 bool can_be(const PixelPast& past, const PictureTerms& terms) {
   const double error = terms.refinement.error * terms.film_scale.factor();
   constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;

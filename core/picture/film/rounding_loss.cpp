@@ -19,8 +19,7 @@ constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
 constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
 /// At most a unit in the last place of a hit's t, relative to its value.
 constexpr double tie_rounding = 0x1p-23;
-/// The eye counts as no nearer to a curved surface than this share of its radius; the second share is for one that passes by
-/// local zero.
+/// The least distance of the eye from a curved surface, as a share of its radius, and if the surface passes by local zero.
 constexpr double curve_nearest = 0x1p-20, passing_nearest = 0x1p-36;
 /// The maximum number of a polygon's triangles for which inner edges are searched.
 constexpr std::size_t polygon_triangles_max = 64;
@@ -159,8 +158,7 @@ class LossFinder {
     return pixels((passing_clearance + passing_radius_rounding) * size + turned, nearest);
   }
 
-  /// In pixels: the displacement of the plane where it is nearest to the eye, of the corners, and of the edges where they are
-  /// nearest to the eye.
+  /// In pixels: displacements of its plane where it is nearest, of its corners, and of its edges where nearest to the eye.
   double moved_triangle(std::size_t id) const {
     const Triangle triangle(database_.primitives()[id]);
     if (is_beside_film(triangle)) {

@@ -12,13 +12,11 @@ constexpr double two_pi = 6.28318530717958648;
 /// A sphere is not sampled from a point nearer to its surface than this share of its radius: half of all directions hit it there,
 /// so paths find it by themselves.
 constexpr double clearance_share = 1e-4;
-/// A shadow ray ends before the emitter by at least this share of its length, and by enough that the rounding of coordinates, a
-/// few units in the last place of a float, cannot make it hit the emitter: the distance grows the more the ray grazes, down to a
-/// cosine of this.
+/// A shadow ray ends before the emitter by at least this share of its length, and so far that the rounding of coordinates, a few
+/// units in the last place of a float, cannot take it there: farther the more it grazes, down to this cosine.
 constexpr double gap_share = 1e-6, rounding_share = 0x1p-21, grazing_cosine = 0x1p-10;
 
-/// The cosine between the axis and the side of the cone that a sphere subtends; `distance` is that of its center. Positive
-/// outside the sphere.
+/// The cosine between axis and side of the cone that a sphere subtends, `distance` being its center's. Positive outside.
 double rim_cosine(double distance, double radius) {
   const double sine = radius / distance;
   return std::sqrt(std::max(0.0, 1.0 - sine * sine));

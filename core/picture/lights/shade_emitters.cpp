@@ -1,6 +1,5 @@
-// Path tracing with emitters: a hit chooses one emitter and sends a shadow ray to it (light sampling), and an emitter that a path
-// hits (BSDF sampling) is weighted down if the hit before might have sampled it. Both weights use the density of the other
-// method, so all light is counted once.
+// Path tracing with emitters: a hit sends a shadow ray to an emitter (light sampling), and emitters that a path hits (BSDF
+// sampling) count less if the hit before could have sampled them. Weights by the other method's density count all light once.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,8 +14,7 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// The density with which hits sample, from the ray's start, the point of an emitter that it hit; the emitter must be one that
-/// may be chosen.
+/// The density with which hits sample, from the ray's start, the point that it hit on an emitter that may be chosen.
 double bsdf_sampling_density_at(const HitState& state, double density_on) {
   const Vec3d origin = state.ray.full_origin();
   if (state.curved) {

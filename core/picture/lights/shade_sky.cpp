@@ -1,6 +1,5 @@
-// Path tracing with a sky picture: a hit samples a point of it with a shadow ray (light sampling), and a ray that leaves the
-// scene adds what light sampling leaves to it (BSDF sampling). Both weights use the density of the other method, as with
-// emitters.
+// Path tracing with a sky picture: a hit sends a shadow ray to a point of it (light sampling), and a ray that leaves the scene
+// adds the rest (BSDF sampling). Both are weighted by the other method's density, as with emitters.
 #include "core/picture/hits/ray_start.h"
 #include "core/picture/lights/emitter_light.h"
 #include "core/picture/shade.h"

@@ -45,8 +45,7 @@ std::optional<PathStep> chosen_step(const HitState& state, const SamplePair& cho
   return shares.all() > 0.0 ? step_at(state, shares, choice.x * shares.all()) : std::nullopt;
 }
 
-/// Whether the path survives roulette; it then counts for those that do not. `chance` is in [0, 1); `first` is the first hit that
-/// applies roulette.
+/// Whether the path survives, and stands for those that do not. `chance` is in [0, 1); `first` is the first hit with roulette.
 bool survives(const Ray& ray, double chance, int first, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
   if (share > 0.0 && (ray.depth < first || share >= 1.0)) {

@@ -6,8 +6,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Larger footprints are clamped to this: far beyond the coarsest level, and small enough for coordinates to keep their
-/// precision.
+/// The maximum footprint: far beyond the coarsest level, and small enough for coordinates to keep their precision.
 constexpr double texels_max = 0x1p24;
 
 /// By columns: the images of the ends of two perpendicular diameters.

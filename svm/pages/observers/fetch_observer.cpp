@@ -18,12 +18,12 @@ namespace dmpc::svm {
 
 namespace {
 
-/// A node keeps at least so many.
+/// The minimum number that a node keeps.
 constexpr std::size_t log_max_least = 64;
 
-/// The how many-th fetch of a requester from a home: both ends count, and both see the same order. In a tree, where nobody knows
-/// beforehand who will serve, `home` is the page: a requester fetches it once at a time, and all of these are numbered in the
-/// end.
+/// The ordinal of a fetch among those of a requester from a home: both ends count, and both see the same order. In a tree, where
+/// the server is not known beforehand, `home` is the page: a requester fetches it once at a time, and all of its fetches are
+/// numbered at the end.
 struct Name {
   std::uint32_t requester = 0, home = 0, ordinal = 0;
 
@@ -31,13 +31,13 @@ struct Name {
   auto operator<=>(const Name&) const = default;
 };
 
-/// What one of the two nodes knows of a fetch.
+/// What one of the two nodes knows about a fetch.
 struct End {
   Name name;
   std::uint32_t page = 0;
-  std::uint32_t home = 0;  ///< who serves; known at that end alone
-  /// At the requester: begins to send the request, is done with it; the page arrives, is taken. At the home: the request arrives,
-  /// is received; the reply has left.
+  std::uint32_t home = 0;  ///< who serves; known only at that end
+  /// At the requester: the request's sending begins, ends; the page arrives, is taken. At the home: the request arrives, is
+  /// received; the reply has left.
   std::array<std::uint64_t, 4> time_ns{};
   std::uint64_t links_ns = 0;
 };
@@ -50,14 +50,14 @@ class Ends {
       open_[end.name] = end;
     }
   }
-  /// Nothing if it was not chosen.
+  /// Nothing if the fetch was not chosen.
   End* find(const Name& name) {
     const auto found = open_.find(name);
     return found == open_.end() ? nullptr : &found->second;
   }
-  /// Somebody else will serve it.
+  /// Another node will serve it.
   void drop(const Name& name) { open_.erase(name); }
-  /// The fetch is over, here.
+  /// The fetch is finished at this end.
   void close(const Name& name, std::size_t count_max) {
     closed_.push_back(open_.at(name));
     open_.erase(name);
@@ -80,7 +80,7 @@ class Ends {
                      [&](std::uint64_t time_ns) { return clock.corrected(time_ns); });
     }
   }
-  /// Takes the fetches of one of `every`.
+  /// Takes one fetch of `every`.
   std::vector<End> take(std::uint32_t every) {
     thin_out(every);
     return std::move(closed_);
@@ -109,14 +109,14 @@ std::uint32_t page_in(const nodes::Passing& packet) { return word_in(packet, 0);
 /// The requester of a request that is passed on.
 std::uint32_t requester_in(const nodes::Passing& packet) { return word_in(packet, 1); }
 
-/// `count`: of those that have this requester and home so far, at the end that asks.
+/// `count`: the number so far for this requester and home at the requesting end.
 Name name_of_next(PageHomes where, std::uint32_t requester, std::uint32_t home, std::uint32_t page, std::uint32_t& count) {
   return where == PageHomes::tree ? Name{requester, page, 0} : Name{requester, home, count++};
 }
 
 bool is_kind(const nodes::Passing& packet, Kind kind) { return packet.kind == number_of(kind); }
 
-/// A request or a reply. Others may pass the host, which is nobody's home where pages are spread, and begin with no page.
+/// A request or a reply. Others may pass the host, which is no home where pages are distributed, and begin with no page.
 bool is_of_fetch(const nodes::Passing& packet) {
   return is_kind(packet, Kind::page_request) || is_kind(packet, Kind::passed_request) || is_kind(packet, Kind::page_reply);
 }
@@ -126,7 +126,7 @@ std::uint64_t arrival_ns(const nodes::MessageTimes& times) {
   return times.arrived_ns == 0 ? times.received_ns : times.arrived_ns;
 }
 
-/// Sorted; those of one name, if there are several, are told apart by when they began.
+/// Sorted; ends with the same name are distinguished by their begin.
 std::vector<End> numbered(std::vector<End> ends) {
   std::sort(ends.begin(), ends.end(),
             [](const End& a, const End& b) { return std::tie(a.name, a.time_ns) < std::tie(b.name, b.time_ns); });
@@ -144,7 +144,7 @@ std::vector<End> numbered(std::vector<End> ends) {
 Fetch joined(const End& requester, const End& home) {
   const auto& [asking, asked, page_arrives, page_taken] = requester.time_ns;
   const auto& [request_arrives, request_received, reply_left, unused] = home.time_ns;
-  // The clocks of threads are read one after the other, so a difference may come out below zero.
+  // The clocks of threads are read one after the other, so a difference may be negative.
   const auto between = [](std::uint64_t from, std::uint64_t to) { return to - std::min(from, to); };
   return {
       .requester = requester.name.requester,
@@ -155,7 +155,7 @@ Fetch joined(const End& requester, const End& home) {
       .links_ns = requester.links_ns + home.links_ns};
 }
 
-/// By number of who or what is counted.
+/// Counts by number of the page or node.
 using Counts = std::map<std::uint32_t, std::uint64_t>;
 
 void put_counts(nodes::FlatWriter& flat, const Counts& counts) {
@@ -177,9 +177,9 @@ Counts take_counts(nodes::FlatReader& flat) {
 
 }  // namespace
 
-/// What one node has seen, on cache lines of its own.
+/// The observations of one node, on separate cache lines.
 struct alignas(nodes::cache_line_bytes) FetchObserver::Log {
-  std::vector<std::uint32_t> asked, taken;        ///< by who is asked, and by who replies
+  std::vector<std::uint32_t> asked, taken;        ///< by the node asked, and by the replying node
   std::vector<std::uint32_t> requested, replied;  ///< by requester
   Counts by_page, by_requester;                   ///< requests that are not passed on
   Ends as_requester, as_home;

@@ -11,8 +11,8 @@
 namespace dmpc::svm {
 namespace {
 
-/// How many of the times up to t are marked, where marks come and go (P. M. Fenwick, "A New Data Structure for Cumulative
-/// Frequency Tables", 1994). Times count from 1.
+/// Counts the marked times up to t, where marks come and go (P. M. Fenwick, "A New Data Structure for Cumulative Frequency
+/// Tables", 1994). Times count from 1.
 class Marks {
  public:
   explicit Marks(std::uint32_t time_max) : sums_(time_max + 1) {}
@@ -29,7 +29,7 @@ class Marks {
     }
     return count;
   }
-  /// Exactly the times from 1 to `count` are marked.
+  /// Marks exactly the times from 1 to `count`.
   void mark_first(std::uint32_t count) {
     for (std::uint32_t time = 1; time < sums_.size(); ++time) {
       sums_[time] = std::min(time, count) - std::min(time - lowest_bit(time), count);
@@ -42,15 +42,15 @@ class Marks {
   std::vector<std::uint32_t> sums_;
 };
 
-/// The pages in the order of their last references. Each page's last time is marked; when times run out, those that are marked
-/// are numbered anew.
+/// The pages in the order of their last references. Each page's last time is marked; when times run out, the marked ones are
+/// renumbered.
 class LruStack {
  public:
   /// For pages below `page_bound`.
   explicit LruStack(std::uint32_t page_bound)
       : time_max_(std::max(2 * page_bound, time_max_least)), marks_(time_max_), last_times_(page_bound), pages_(time_max_ + 1) {}
 
-  /// One reference: the stack distance of `page`; nothing if it is the first.
+  /// Refers to `page`: returns its stack distance; nothing if this is the first reference.
   std::optional<std::uint32_t> refer(std::uint32_t page) {
     if (now_ == time_max_) {
       compact();
@@ -71,7 +71,7 @@ class LruStack {
   std::uint32_t distinct() const { return distinct_; }
 
  private:
-  /// Few pages would otherwise be numbered anew all the time.
+  /// With few pages, renumbering would otherwise be frequent.
   static constexpr std::uint32_t time_max_least = 1024;
 
   /// At most half of the times are marked, so this is rare.

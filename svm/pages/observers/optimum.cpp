@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::uint32_t never = 0xffffffffU;
 
-/// The cached pages by the time of their next reference. A page that is referenced leaves its old time behind, which is now past:
-/// below every time that counts, so it never comes to the top as long as one of those is there, and is cleared away later.
+/// The cached pages by the time of their next reference. A referenced page leaves its old time behind, which is now past: it is
+/// below every valid time, so it does not reach the top while there is one, and is removed later.
 class Future {
  public:
   explicit Future(std::size_t cached_max) : size_max_(2 * cached_max + 1024) {}
 
-  /// At time `now` a page of the cache is known to be referenced next at `time`.
+  /// At time `now` a cached page is known to be referenced next at `time`.
   void add(std::uint32_t time, std::uint32_t now) {
     if (times_.size() == size_max_) {
       times_.erase(std::remove_if(times_.begin(), times_.end(), [now](std::uint32_t past) { return past <= now; }), times_.end());
@@ -29,7 +29,7 @@ class Future {
     times_.push_back(time);
     std::push_heap(times_.begin(), times_.end());
   }
-  /// Takes the furthest away.
+  /// Takes the page with the furthest reference.
   std::uint32_t take_furthest(std::uint32_t now) {
     core::expect(!times_.empty() && times_.front() > now, "a page of a full cache leaves");
     std::pop_heap(times_.begin(), times_.end());
@@ -74,7 +74,7 @@ std::uint64_t Optimum::misses(std::uint32_t cache_pages) const {
         is_cached[index_of(references_[future.take_furthest(now)])] = false;
       }
     }
-    // A page that is never needed again leaves at once in effect: its frame is free.
+    // A page that is never needed again is evicted at once in effect: its frame is free.
     is_cached[page] = next_[now] != never;
     if (is_cached[page]) {
       future.add(next_[now], now);
