@@ -220,7 +220,6 @@ std::uint32_t wanted_in_flight(const PlanRequest& request) {
   return wanted - wanted % pixels_a_task(request, wanted);
 }
 
-/// The minimum number of frames for this request.
 std::uint32_t frames_min(const PlanRequest& request) {
   return std::min(request.pages.cache_pages.value_or(1), request.strategy->foreign_pages_max(request));
 }

@@ -98,7 +98,6 @@ void WorkSource::begin_frame() {
   begin_pass();
 }
 
-/// The steps of an item of the share.
 ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   auto step = steps.begin();

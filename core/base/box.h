@@ -89,7 +89,7 @@ struct alignas(16) Bounds {
     }
     return bounds;
   }
-  /// Twice the coordinate of the center.
+  /// Twice the coordinate of the centre.
   float middle(std::size_t axis) const { return low[axis] + high[axis]; }
   /// Half the surface area.
   float area() const {

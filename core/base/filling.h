@@ -11,7 +11,7 @@ namespace dmpc::core {
 /// The size of a large page on most computers.
 inline constexpr std::size_t large_page_bytes = std::size_t{2} << 20U;
 
-/// Requests large pages; `first` is the begin of one. This is a hint: small pages work, too. Thread-safe.
+/// Requests large pages; `first` is the beginning of one. This is a hint: small pages work, too. Thread-safe.
 inline void wish_large_pages(void* first, std::size_t bytes) noexcept { ::madvise(first, bytes, MADV_HUGEPAGE); }
 
 /// Call this before all of `bytes` are written, and maybe none beside them: requests the large pages that lie wholly in them,

@@ -79,7 +79,7 @@ double gap_at_zero(const Vec3d& base, const Vec3d& axis, double base_radius, dou
   return length(base + axis * height) - (base_radius + (apex_radius - base_radius) * height);
 }
 
-/// Settles the values of a cone or cylinder that passes by local zero.
+/// Settles the values of a cone or cylinder.
 void settle_passing_cone(PrimitiveValues& values, const Vec3d& base, const Vec3d& apex, double base_radius, double apex_radius) {
   const double low = std::fabs(base_radius), high = std::fabs(apex_radius);
   const auto put = [&](double by) {

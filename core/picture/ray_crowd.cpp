@@ -13,7 +13,7 @@ constexpr std::uint64_t looked_at = 64;
 /// Odd and near to the fractional part of the golden ratio, so its multiples spread over the whole picture.
 constexpr std::uint64_t stride = 2'654'435'761;
 
-/// For a material with an extension the record does not say whether it has alpha, so it may transmit light.
+/// A material with an extension may transmit light: its record does not say whether it has alpha.
 bool can_send_two(const MaterialRecord& material) {
   return material.has_extension() || (material.specular > 0.0F && material.transmittance > 0.0F);
 }

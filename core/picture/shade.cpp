@@ -30,7 +30,6 @@ constexpr int depth_limit = 255;
 
 TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 
-/// The combined weight of the two children.
 float both_shares(const HitState& state) { return mirrored_share(state) + state.surface.material.transmittance; }
 
 std::uint64_t bits_of(const Vec3f& vector) {

@@ -19,7 +19,7 @@ constexpr double least_share = 0x1p-40;
 
 /// The share of the detail that must lie close together.
 constexpr double close_part = 0.75;
-/// Slices of a scene, each twice as wide as the maximum distance of detail from its center, plus two.
+/// Slices of a scene, each twice as wide as the maximum distance of detail from its centre, plus two.
 constexpr std::size_t slice_count = static_cast<std::size_t>(0.5 / close_share) + 2;
 
 struct Weighted {

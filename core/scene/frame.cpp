@@ -74,7 +74,7 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
   frame.resolution = cells_along(extent, cell);
   frame.finest_cell = static_cast<float>(cell * frame.scale / finest_per_cell);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double slack = (extent[axis] - (bounds.high[axis] - bounds.low[axis])) / 2;  // centers a flat scene
+    const double slack = (extent[axis] - (bounds.high[axis] - bounds.low[axis])) / 2;  // centres a flat scene
     frame.origin[axis] = bounds.low[axis] - slack - margin_cells * cell;
   }
   return frame;

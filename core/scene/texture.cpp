@@ -97,7 +97,6 @@ double brightest_of(const TextureLevel& level, TexelFormat format) {
 constexpr std::uint32_t alpha_max = 255;
 constexpr unsigned alpha_shift = 24;
 
-/// The number of texels for each alpha.
 using AlphaCounts = std::array<std::size_t, alpha_max + 1>;
 
 AlphaCounts alpha_counts(const TextureLevel& level) {

@@ -44,7 +44,6 @@ HWY_INLINE std::uint32_t bits_of(const Mask& mask) {
   return bits[0];
 }
 
-/// Eight bytes as floats.
 HWY_INLINE Vector floats(const std::array<std::uint8_t, 8>& row) {
   const hn::Rebind<std::int32_t, Tag> integers;
   const hn::Rebind<std::uint8_t, Tag> bytes;

@@ -201,7 +201,7 @@ class BspBuilder {
                            [](double sum, std::uint64_t load) { return sum + static_cast<double>(load); });
   }
 
-  /// The begin of column `index`.
+  /// The beginning of column `index`.
   std::int32_t line(std::size_t along, std::int32_t index) const { return lines_[along][static_cast<std::size_t>(index)]; }
 
   void cut(const Rectangle& box, std::uint32_t first, std::uint32_t count, std::size_t depth) {

@@ -14,7 +14,6 @@ namespace {
 /// The number of cells of the lattice along both axes.
 using Extent = std::array<std::uint32_t, 2>;
 
-/// All factorisations of a number into two factors.
 std::vector<Extent> factor_pairs(std::uint32_t product) {
   std::vector<Extent> pairs;
   for (std::uint32_t first = 1; first <= product; ++first) {

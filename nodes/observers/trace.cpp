@@ -32,7 +32,6 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
 
 }  // namespace
 
-/// One end of a message.
 struct TraceRecorder::End {
   std::uint64_t time_ns = 0;
   std::uint32_t peer = 0, ordinal = 0;
@@ -200,7 +199,7 @@ void TraceRecorder::make_room(Log& log, std::uint64_t now_ns) {
   }
 }
 
-/// An eighth of the memory is for the begin of the run, another for the newest events, dropped only when they are older.
+/// An eighth of the memory is for the beginning of the run, another for the newest events, dropped only when they are older.
 void TraceRecorder::thin(Log& log, std::uint64_t now_ns) {
   const std::uint64_t count = log.count();
   if (!log.times) {

@@ -59,7 +59,7 @@ class ForestStrategy final : public Strategy {
     return std::min(plan.task_count(), std::clamp(wanted, 1U, question_credits_max));
   }
 
-  /// Packets may be small or bulk.
+  /// The packets may be small or bulk.
   void add_slots(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
     const std::uint32_t asked = others * plan.request_credits;         // questions: each other node's credits for this one

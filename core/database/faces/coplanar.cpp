@@ -30,7 +30,7 @@ struct CoveringPairs {
   Pairs coplanar;  ///< in one plane according to their records
   Pairs close;     ///< those, and faces that are near
   Pairs reached;   ///< and faces that layers of those may reach
-  Ids unseen;      ///< faces whose covering faces nobody looked for
+  Ids unseen;      ///< faces whose covers were not searched for
 
   /// Faces that lie in one plane according to their records, or in two adjacent ones.
   void look_at_planes(std::span<const Face> faces, const BucketSize& size) {

@@ -136,7 +136,7 @@ class Layers {
             static_cast<std::uint8_t>(LeafHeader::exact_plane + layer_[plane])};
   }
 
-  /// For each face, the first one that it is swapped with, and the share of it that rays miss that start there; all faces of
+  /// For each face, the first one that it is swapped with, and the share on which rays that start there miss it; all faces of
   /// planes that were not tested.
   std::vector<CloseFaces> blurred() const {
     std::vector<Blurred> swapped, passed;

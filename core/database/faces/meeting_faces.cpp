@@ -55,8 +55,7 @@ class Boxes {
     return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), others.high_[axis_][place]) - begins.begin());
   }
 
-  /// Passes to `met` the boxes of [first, end), which overlap box `place` of `others` along the axis, that also overlap it along
-  /// the other two axes.
+  /// Passes to `met` those of [first, end), which meet box `place` of `others` along the axis, that meet it along both others.
   template <class Met>
   void for_each_that_meets(const Boxes& others, std::size_t place, std::size_t first, std::size_t end, const Met& met) const {
     constexpr std::size_t at_once = 64;

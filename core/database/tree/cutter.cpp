@@ -30,7 +30,7 @@ using FourCounts = std::int32_t __attribute__((vector_size(16)));
 class Gathering {
  public:
   void include(const Bounds& bounds) { include(four(bounds.low), four(bounds.high)); }
-  /// Twice the center of the bounds: Bounds::middle().
+  /// Twice the centre of the bounds: Bounds::middle().
   void include_middle(const Bounds& bounds) {
     const Four middle = four(bounds.low) + four(bounds.high);
     include(middle, middle);
@@ -58,7 +58,7 @@ class Gathering {
   Four high_{-Bounds::infinity, -Bounds::infinity, -Bounds::infinity, 0};
 };
 
-/// The bounds of the doubled centers of a group's primitives: Bounds::middle().
+/// The bounds of the doubled centres of a group's primitives: Bounds::middle().
 Bounds middles_of(std::span<const Bounds> items) {
   Gathering middles;
   for (const Bounds& item : items) {
@@ -83,7 +83,7 @@ std::size_t longest_axis(const Bounds& bounds) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-/// Slices of equal width over the extent of the centers along each axis.
+/// Slices of equal width over the extent of the centres along each axis.
 struct Bins {
   struct Bin {
     Gathering bounds;
@@ -252,10 +252,10 @@ template <class Item>
   return least.best(usual);
 }
 
-/// The centers of a few primitives along an axis.
+/// The centres of a few primitives along an axis.
 struct Middles {
   alignas(64) std::array<float, sorted_count_max> along{};
-  std::array<std::int32_t, sorted_count_max> before{};  ///< number of centers before it; equal ones are in list order
+  std::array<std::int32_t, sorted_count_max> before{};  ///< number of centres before it; equal ones are in list order
 
   /// The loops have a form that compilers vectorise.
   [[gnu::always_inline]] void count_before(std::int32_t count) {
@@ -440,7 +440,7 @@ std::pair<Group, Group> Cutter::cut_between_bins(const Group& whole) {
   return both;
 }
 
-/// Cuts into equal numbers along the axis with the largest extent of centers.
+/// Cuts into equal numbers along the axis with the largest extent of centres.
 std::uint32_t Cutter::cut_in_the_middle(const Group& whole) {
   const std::size_t axis = longest_axis(middles_of(std::span(bounds_).subspan(whole.first, whole.count())));
   std::vector<std::pair<float, std::uint32_t>> along;

@@ -145,8 +145,7 @@ class LossFinder {
     loss_.moved_pixels = std::max(loss_.moved_pixels, moved > rounding_allowed_pixels ? moved : 0.0);
   }
 
-  /// In pixels, where the surface is nearest to the eye: its displacement by rounding, and the offset of ray starts, within which
-  /// rays see nothing.
+  /// In pixels, nearest to the eye: the displacement by rounding, and the offset of ray starts, within which rays see nothing.
   double moved_curved(const PrimitiveValues& curved, const Box& box) const {
     const double size = 2 * largest_coordinate(box), radius = widest(curved),
                  distance = distance_to_curved(curved, camera_.eye());

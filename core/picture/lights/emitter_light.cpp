@@ -16,7 +16,7 @@ constexpr double clearance_share = 1e-4;
 /// units in the last place of a float, cannot take it there: farther the more it grazes, down to this cosine.
 constexpr double gap_share = 1e-6, rounding_share = 0x1p-21, grazing_cosine = 0x1p-10;
 
-/// The cosine between axis and side of the cone that a sphere subtends, `distance` being its center's. Positive outside.
+/// The cosine between axis and side of the cone that a sphere subtends, `distance` being its centre's. Positive outside.
 double rim_cosine(double distance, double radius) {
   const double sine = radius / distance;
   return std::sqrt(std::max(0.0, 1.0 - sine * sine));
