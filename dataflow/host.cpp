@@ -9,7 +9,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-/// The length of a run of primary rays, some of which are urgent. A node has space for 120 runs: usually milliseconds of work.
+/// The most primary rays in a run, some of which are urgent. A node has space for 120 runs: usually milliseconds of work.
 constexpr std::uint64_t run_rays_max = 16;
 
 }  // namespace

@@ -204,7 +204,7 @@ bool WorkSource::keeps(const WorkRequest& request) const {
   return asking_ && knows_of(request) && kept_count_ < kept_.size() && rank_of(request.requester) < rank_of(self_);
 }
 
-/// This node has its answer.
+/// Called when this node has its answer.
 void WorkSource::pass_on_kept() {
   for (const WorkRequest& request : kept_.first(std::exchange(kept_count_, 0))) {
     pass_on(request);
@@ -223,7 +223,7 @@ std::uint32_t WorkSource::steps_for(const WorkRequest& request) const {
   return no_more_ ? worker_count_ : steps_to(last_donor_);
 }
 
-/// To the first node on the ring that may have an item, or back if there is none. The requester is known to have nothing.
+/// Passes on to the first node on the ring that may have an item, or back if there is none. The requester has none.
 void WorkSource::pass_on(const WorkRequest& request) {
   const std::uint32_t to_requester = steps_to(request.requester);
   std::uint32_t steps = steps_for(request);

@@ -53,7 +53,7 @@ inline double exponential_reduced(double x) {
   return 1 + std::fma(x * x, polynomial_in_halves(x, series), x);
 }
 
-/// e to the power x for |x| <= 746, the range in which the result fits a double.
+/// e to the power x for |x| <= 746, beyond which no double can hold the result.
 inline double finite_exponential(double x) {
   const double count = std::nearbyint(x * one_over_log_2);
   const double rest = std::fma(-count, log_2_tail, std::fma(-count, log_2, x));

@@ -352,7 +352,6 @@ class Steps {
     std::vector<std::uint32_t> planes;  ///< by the mesh's plane: PrimitiveValues::plane()
   };
 
-  /// Adds the objects before `end`.
   void add_objects(std::uint32_t end) {
     if (next_ < end) {
       runs_.push_back({count_, next_, nullptr, {}});

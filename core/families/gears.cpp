@@ -1,4 +1,4 @@
-// Gears: a leaf of meshing gears with concave faces, a fifth of them transparent.
+// Gears: a block of meshing gears with concave faces, a fifth of them transparent.
 #include <algorithm>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Where the bounds come from. e = 2^-24 is half a unit in the last place of 1 in float, g(n) = n e / (1 - n e) bounds what n
+// Derivation of the bounds. e = 2^-24 is half a unit in the last place of 1 in float, g(n) = n e / (1 - n e) bounds what n
 // roundings add up to (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 3.1), h = 2^-150 is what a
 // rounded float may be off besides where it is denormal. Everything below is computed in intervals, so the bounds themselves are
 // not rounded the wrong way.

@@ -147,7 +147,7 @@ void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
   hits.add(ray, hit, fresh_hits_++);
 }
 
-/// Shades the pushed hits next.
+/// Makes the pushed hits the next to be shaded.
 void BundleTask::close_hits() {
   depth_ += fresh_hits_ > 0 ? 1 : 0;
   fresh_hits_ = 0;

@@ -140,7 +140,6 @@ std::vector<End> numbered(std::vector<End> ends) {
   return ends;
 }
 
-/// Both ends of one fetch.
 Fetch joined(const End& requester, const End& home) {
   const auto& [asking, asked, page_arrives, page_taken] = requester.time_ns;
   const auto& [request_arrives, request_received, reply_left, unused] = home.time_ns;
