@@ -25,7 +25,7 @@ class Ordinals {
   std::unordered_map<std::size_t, std::uint32_t> count_;  // its order is never visible
 };
 
-/// By begin; at equal times the event that was reported first comes first.
+/// By begin; at equal times by the order of the calls.
 bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
 }
