@@ -68,9 +68,9 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + (plan.shares_slots() ? others : 0)  // requests for slots: one from each other node
                          + (plan.shares_slots() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
                          + plan.host_credits                                     // the same from the host
-                         + (plan.shares_slots() ? 1 : others)  // Hold: one from each other node, or from the parent alone
+                         + (plan.shares_slots() ? 1 : others)  // Throttle: one from each other node, or from the parent alone
                          + (plan.shares_slots() ? 1 + tree.place_of(nodes::NodeId{0}).child_count : others)
-                         // acknowledgements: of this node's, and of what it relays
+                         // throttle acknowledgements: of this node, and of what it relays
                          + plan.film_credits                   // acknowledgements: one for each film packet of this node's
                          + tree.packets_max(nodes::NodeId{0})  // tokens or done: nobody has more children than the first
                          + 1                                   // Finish

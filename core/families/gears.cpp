@@ -31,7 +31,7 @@ Material gear_material(int x, int y, int z) {
 }
 
 /// The outline of a face, four points per tooth; `sense` is +1 counter-clockwise from above, -1 clockwise.
-std::vector<Vec3d> proxy(const Gear& gear, double sense, double lowered) {
+std::vector<Vec3d> outline(const Gear& gear, double sense, double lowered) {
   std::vector<Vec3d> points;
   const auto add = [&](double share, double degrees) {
     const double radius = share * gear.radius;
@@ -49,14 +49,14 @@ std::vector<Vec3d> proxy(const Gear& gear, double sense, double lowered) {
 }
 
 void add_gear(const Gear& gear, SceneSink& sink) {
-  const std::vector<Vec3d> top = proxy(gear, 1, 0);
+  const std::vector<Vec3d> top = outline(gear, 1, 0);
   sink.polygon(top);
   const Vec3d down = {0, 0, -gear.thickness};
   for (std::size_t i = 0; i < top.size(); ++i) {
     const Vec3d& next = top[(i + 1) % top.size()];
     sink.polygon({top[i], top[i] + down, next + down, next});
   }
-  sink.polygon(proxy(gear, -1, gear.thickness));
+  sink.polygon(outline(gear, -1, gear.thickness));
 }
 
 }  // namespace
