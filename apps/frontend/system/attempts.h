@@ -12,16 +12,16 @@ namespace dmpc::apps {
 /// Not thread-safe.
 class Attempts {
  public:
-  /// Errors of bad input, or resource exhaustion, are printed to `messages`, which outlives it, a line each, with the program's
-  /// name.
+  /// Errors of bad input and of resource exhaustion are printed to `messages`, which outlives it, one line each, with the
+  /// program's name.
   explicit Attempts(std::ostream& messages, std::string name = "dmpc") : messages_(messages), name_(std::move(name)) {}
 
-  /// Calls `step`; returns whether it succeeded. An Interrupted passes through; a broken pipe, which has no reader, is not
+  /// Calls `step` and returns whether it succeeded. Interrupted passes through; a broken pipe, which has no reader, is not
   /// printed.
   bool make(const std::function<void()>& step);
 
-  /// The exit status of the first failed step. Rethrows an error of another kind than bad input and resource exhaustion, or a
-  /// broken pipe, if there was one.
+  /// Returns the exit status of the first failed step. Rethrows a broken pipe, or an error other than bad input and resource
+  /// exhaustion, if there was one.
   int status() const;
 
  private:

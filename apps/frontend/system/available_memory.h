@@ -14,16 +14,16 @@ struct AvailableMemory {
   bool is_limit = false;  ///< a limit of a container or a shell; the computer may have more
 };
 
-/// The minimum of this computer's memory, the limits of this process's address space and data (ulimit -v, -d), and those of its
-/// control groups (memory.max, memory.limit_in_bytes) and their parents. Swap counts as far as it is allowed. `root` is put
-/// before the names of the files that are read. A file that cannot be read is no limit.
+/// Returns the minimum of this computer's memory, the limits of this process's address space and data (ulimit -v, -d), and those
+/// of its control groups (memory.max, memory.limit_in_bytes) and their parents. Swap counts as far as it is allowed. `root` is a
+/// prefix of the names of the files that are read. A file that cannot be read sets no limit.
 AvailableMemory available_memory(const std::string& root = "");
 
 /// Throws ComputerCapacityError if `bytes` for `what` ("64 nodes") exceed the available memory.
 void check_available_memory(std::uint64_t bytes, const std::string& what, const AvailableMemory& room = available_memory());
 
-/// Limits this process to the available memory: further allocations then fail and can be reported, instead of the system killing
-/// some process.
+/// Limits this process to the available memory, so that further allocations fail and can be reported, instead of the system
+/// killing a process.
 void bound_memory(const AvailableMemory& room = available_memory());
 
 }  // namespace dmpc::apps

@@ -9,11 +9,11 @@
 
 namespace dmpc::apps {
 
-/// Decodes the standard or the URL-safe alphabet; blanks and line ends are skipped, and padding is optional. Nothing if the text
-/// has any other character.
+/// Decodes the standard or the URL-safe alphabet; blanks and line ends are skipped, and padding is optional. Returns nothing if
+/// the text has any other character.
 std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text);
 
-/// With padding.
+/// Encodes with padding.
 std::string base64(std::string_view bytes);
 
 }  // namespace dmpc::apps

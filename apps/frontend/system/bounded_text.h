@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// Throws core::InputError, "PATH: ...", if it cannot be read, or has more than `bytes_max`, of which no further byte is stored;
-/// `expected` describes the expected file.
+/// Throws core::InputError, "PATH: ...", if the file cannot be read or has more than `bytes_max` bytes, which are all that is
+/// stored; `expected` describes the expected file.
 std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected);
 
 }  // namespace dmpc::apps

@@ -18,13 +18,13 @@ struct ChildSettings {
   std::filesystem::path folder = ".";  ///< its working directory
   bool gets_ctrl_c = true;             ///< whether the terminal's Ctrl-C reaches it, too
   int input = -1, output = -1;         ///< open files for its stdin and stdout; below 0: /dev/null
-  /// Nothing of it outlives us: what it has started and left behind is killed when it ends, and it is killed, not asked to end,
-  /// when we end. Not with gets_ctrl_c.
+  /// Its descendants end with it: processes that it leaves behind are killed when it ends, and it is killed when this process
+  /// ends, without being asked to end. Excludes gets_ctrl_c.
   bool leaves_nothing = false;
 };
 
 /// The destructor kills the process and waits for it, unless it has ended. It receives SIGTERM if the thread that made it ends
-/// first. Signals that are blocked or ignored here are reset there.
+/// first. Signals that are blocked or ignored in this process are reset in the child.
 class ChildProcess {
  public:
   /// Throws core::InputError "PROGRAM cannot be started: ...", or ComputerCapacityError if resources of this computer are
@@ -35,11 +35,11 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t id() const { return id_; }
-  /// Its exit status, once it has ended; below 0: the signal that ended it.
+  /// Returns its exit status once it has ended; below 0: the signal that ended it.
   std::optional<int> status();
   /// Waits for the end, and returns status().
   int wait();
-  /// Its output to stderr so far.
+  /// Returns its output to stderr so far.
   std::string errors() const { return errors_.bytes(); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Below 0: none.
+/// A negative value is no descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}

@@ -1,4 +1,4 @@
-// A digest of bytes. It detects accidents, not intent.
+// A digest of bytes. It detects accidental changes, not intended ones.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace dmpc::apps {
 
-/// Adds eight bytes a step, each an invertible change of the state: two inputs that differ in one word never have the same
-/// digest. It depends on how the bytes are divided into calls, too. Not thread-safe.
+/// Adds eight bytes a step, each by an invertible change of the state, so two inputs that differ in one word never have the same
+/// digest. The digest also depends on how the bytes are divided into calls. Not thread-safe.
 class Digest {
  public:
   void add(std::uint64_t word) {
@@ -20,7 +20,7 @@ class Digest {
     value_ ^= value_ >> 32U;
   }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  /// Adds their number, too.
+  /// Also adds their number.
   void add(std::span<const std::byte> bytes) {
     add(std::uint64_t{bytes.size()});
     for (; !bytes.empty(); bytes = bytes.subspan(std::min(sizeof(std::uint64_t), bytes.size()))) {

@@ -15,11 +15,11 @@ struct NamedFile {
   std::filesystem::path path;
 };
 
-/// Throws core::UsageError if an output is the same file as an input or another output, by any path: links and folders are
-/// followed. Pipes and devices never clash, and inputs may be equal.
+/// Throws core::UsageError if an output is the same file as an input or another output. Links and folders are followed. Pipes and
+/// devices never clash, and inputs may be equal.
 void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// Throws core::UsageError if an output is a file that the scene was read from; these are known only after reading.
+/// Throws core::UsageError if an output is a file that the scene was read from; those files are known only after reading.
 void check_not_read(const OpenedFiles& inputs, const std::vector<NamedFile>& outputs);
 
 }  // namespace dmpc::apps

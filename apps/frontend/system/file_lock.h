@@ -10,13 +10,13 @@
 
 namespace dmpc::apps {
 
-/// No other FileLock of any process has the same `path` during its lifetime. The file, which is empty, is created if needed and
-/// removed at the end; a killed process's is removed by the next that locks it, as the kernel releases the lock when a process
-/// ends. Not thread-safe.
+/// During its lifetime, no other FileLock of any process has the same `path`. The file, which is empty, is created if needed and
+/// removed at the end. The kernel releases a killed process's lock, and the next process that locks the file removes it. Not
+/// thread-safe.
 class FileLock {
  public:
-  /// Nothing if another process has it. On file systems without locks it always succeeds. Throws core::InputError if the file
-  /// cannot be made, or is a symbolic link, which is not followed.
+  /// Returns nothing if another process has the lock. On file systems without locks it always succeeds. Throws core::InputError
+  /// if the file cannot be made, or is a symbolic link, which is not followed.
   static std::optional<FileLock> try_lock(const std::filesystem::path& path);
   FileLock(FileLock&& other) = default;
   ~FileLock();

@@ -13,13 +13,13 @@ namespace dmpc::apps {
 /// Not thread-safe. `files` outlives it.
 class FileSource final : private std::streambuf, public std::istream {
  public:
-  /// Fails at the first read if there is no such file.
+  /// The first read fails if there is no such file.
   FileSource(const std::filesystem::path& path, Files& files);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
 
-  /// 0, or errno's value of the first call that failed: then the data are incomplete.
+  /// Returns 0, or the errno of the first call that failed: then the data are incomplete.
   int error() const { return error_; }
 
  private:

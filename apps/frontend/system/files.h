@@ -19,13 +19,13 @@ class Files {
   Files& operator=(const Files&) = delete;
   virtual ~Files() = default;
 
-  /// Returns a descriptor, which child programs do not inherit. New files (O_CREAT) have all permissions that the mask allows.
+  /// Returns a descriptor that child programs do not inherit. New files (O_CREAT) have all permissions that the mask allows.
   virtual int open(const std::filesystem::path& path, int flags) = 0;
   /// Returns the number of bytes, perhaps fewer than there is space for; 0 at the end.
   virtual ssize_t read(int file, std::span<char> room) = 0;
   /// Returns the number of bytes written, perhaps fewer than all.
   virtual ssize_t write(int file, std::string_view bytes) = 0;
-  /// Waits until the file is on the disk; for a folder, its names.
+  /// Waits until the file is on the disk; for a folder, until its names are.
   virtual int sync(int file) = 0;
   virtual int close(int file) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
@@ -35,7 +35,7 @@ class Files {
   virtual void take_mode(int /*file*/, const std::filesystem::path& /*like*/) {}
 };
 
-/// This computer's file system.
+/// Returns this computer's file system.
 Files& real_files();
 
 }  // namespace dmpc::apps

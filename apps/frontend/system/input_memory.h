@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Three quarters of the memory available to this process (in a container, to that) at the first call.
+/// Returns three quarters of the memory available to this process or its container at the first call.
 inline std::uint64_t reader_memory_bytes_max() {
   static const std::uint64_t bytes = available_memory().bytes / 4 * 3;
   return bytes;

@@ -7,16 +7,16 @@
 
 namespace dmpc::apps {
 
-/// Removed at the end of the process, however it ends. Not thread-safe.
+/// The file is removed at the end of the process, however it ends. Not thread-safe.
 class MemoryFile {
  public:
   /// Throws ComputerCapacityError if no further file can be made.
   MemoryFile();
 
   int descriptor() const { return file_.number(); }
-  /// A name by which this process can open it.
+  /// Returns a name by which this process can open it.
   std::string path() const;
-  /// Its contents.
+  /// Returns its contents.
   std::string bytes() const;
 
  private:

@@ -7,7 +7,8 @@
 
 namespace dmpc::apps {
 
-/// Their paths, links resolved, each once: the scene's own file, and the files that it refers to (materials, textures, buffers).
+/// The paths with links resolved, each once: the scene's own file, and the files that it refers to (materials, textures,
+/// buffers).
 class OpenedFiles {
  public:
   void add(const std::filesystem::path& path) {

@@ -1,4 +1,4 @@
-// Writes a file atomically: under a temporary name in the same folder, renamed at the end.
+// Writes a file atomically: under a temporary name in the same folder, and renamed at the end.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@
 
 namespace dmpc::apps {
 
-/// Not thread-safe. `files` outlives it; the descriptor stays its maker's.
+/// Not thread-safe. `files` outlives it; the caller keeps the descriptor.
 class FileStream final : private std::streambuf, public std::ostream {
  public:
   FileStream(Files& files, int file);
 
-  /// Flushes. Returns 0, or errno's value of the first call that failed.
+  /// Flushes. Returns 0, or the errno of the first call that failed.
   int finish();
 
  private:
   int overflow(int character) override;
   std::streamsize xsputn(const char* text, std::streamsize count) override;
   int sync() override;
-  /// Whether the file has taken everything so far.
+  /// Returns whether the file has taken everything so far.
   bool migration(std::string_view bytes);
 
   Files& files_;
@@ -38,8 +38,8 @@ class FileStream final : private std::streambuf, public std::ostream {
 };
 
 /// Throws core::InputError unless a file can be made at `path`, as far as can be known in advance: its folder exists, a file with
-/// contents can be made there (it is removed again), and `path` is no folder. A device is tested for whether it accepts data.
-/// `option` names the option that gave the path, for the message.
+/// contents can be made there (it is removed again), and `path` is no folder. A device is tested for accepting data. `option`
+/// names the option that gave the path, for the message.
 void check_output_path(const std::filesystem::path& path, std::string_view option);
 
 /// Makes a folder for several files at `path` unless it exists. Throws core::InputError unless files can be made in it.
@@ -56,8 +56,8 @@ void finish_output(std::ostream& output, std::string_view what);
 
 /// Choice of the temporary name.
 enum class TemporaryName : std::uint8_t {
-  random,    ///< any number of processes on any number of computers may write the same target
-  of_target  ///< always the same, for a target that one process at a time has: killed processes leave one file at most
+  random, ///< processes on any number of computers may write the same target
+  of_target ///< always the same, for a target that one process at a time writes: killed processes leave at most one file
 };
 
 /// Whether a committed file survives a loss of power.
@@ -66,21 +66,21 @@ enum class Durability : std::uint8_t { on_disk, until_power_loss };
 /// What a committed file replaces.
 enum class Replaces : std::uint8_t {
   what_it_names,  ///< the file behind symbolic links; a device or a pipe is written to
-  name            ///< whatever has the name, a link or a pipe itself: for folders where others may write
+  name ///< whatever has the name, even a link or a pipe: for folders where others may write
 };
 
-/// `.dmpc-WHO-NAME` beside `target`: hidden.
+/// Returns `.dmpc-WHO-NAME` beside `target`, a hidden file.
 std::filesystem::path hidden_name(const std::filesystem::path& target, const std::string& who);
-/// The temporary name of `target`, which is no symbolic link, for TemporaryName::of_target.
+/// Returns the temporary name of `target`, which is no symbolic link, for TemporaryName::of_target.
 std::filesystem::path next_name(const std::filesystem::path& target);
 
-/// The file behind a chain of symbolic links, even if it does not exist yet; `path` itself if it is no link. Throws
-/// core::InputError if the links form a cycle, or if the system does not let us follow them: links of others in a folder where
-/// all may write.
+/// Returns the file behind a chain of symbolic links, even if it does not exist yet; `path` itself if it is no link. Throws
+/// core::InputError if the links form a cycle, or if the system does not let us follow them, as links of other users in a folder
+/// where all may write.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
-/// One output in progress. If its life ends before commit(), the temporary file is removed, also by an Interrupt's immediate end.
-/// Not thread-safe.
+/// One output in progress. If it is destroyed before commit(), the temporary file is removed, also by an Interrupt's immediate
+/// end. Not thread-safe.
 class OutputFile {
  public:
   struct Settings {
@@ -90,23 +90,23 @@ class OutputFile {
     std::string option = {};  ///< option that gave the target, for messages
   };
 
-  /// Makes a new file with a hidden name in the target's folder: no existing file, and no link, is ever opened. If the target
-  /// exists and is no ordinary file (/dev/stdout, a pipe), which cannot be replaced by renaming, it is written directly. A
-  /// symbolic link is followed, so that the file behind it is replaced. The new file keeps the mode of the one that it replaces.
-  /// `settings.replaces` may demand that the name itself is replaced. Throws core::InputError if that fails. `files` outlives it.
+  /// Makes a new file with a hidden name in the target's folder: it never opens an existing file or a link. A target that is no
+  /// ordinary file (/dev/stdout, a pipe) cannot be replaced by renaming and is written directly. A symbolic link is followed, so
+  /// that the file behind it is replaced, unless `settings.replaces` demands that the name itself is. The new file keeps the mode
+  /// of the one that it replaces. Throws core::InputError on failure. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Data go to the file; errors are reported by commit().
+  /// Data written here go to the file; commit() reports errors.
   std::ostream& stream() { return *stream_; }
-  /// Writes `text`. Throws core::InputError if that fails.
+  /// Writes `text`. Throws core::InputError on failure.
   void write(std::string_view text);
 
   /// Gives the finished file its name once it is on the disk, and waits until the name is on the disk, too. Throws
-  /// core::InputError if that fails.
+  /// core::InputError on failure.
   void commit();
 
  private:
@@ -129,11 +129,11 @@ class OutputFile {
   std::optional<RemovedAtOnce> removed_at_once_;
 };
 
-/// Writes `text` to `path` atomically. Throws core::InputError if that fails.
+/// Writes `text` to `path` atomically. Throws core::InputError on failure.
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability = Durability::on_disk,
                 Files& files = real_files());
 
-/// Writes a text to the path, or without one to the standard output, `output`; `what` is for the message.
+/// Writes a text to `path`, or to the standard output, `output`, if there is none; `what` is for the message.
 void write_to(const std::optional<std::filesystem::path>& path, std::string_view text, std::ostream& output,
               std::string_view what);
 

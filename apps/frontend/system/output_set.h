@@ -18,7 +18,7 @@ namespace dmpc::apps {
 /// Throws core::UsageError or core::InputError unless such a file can be made at the path; the message names the option.
 using OutputCheck = void (*)(const std::filesystem::path&, std::string_view);
 
-/// An output file's name, without its contents, by which a set is checked.
+/// An output file's name without its contents, with which a set is checked.
 struct OutputName {
   NamedFile file;
   OutputCheck check = check_output_path;
@@ -30,10 +30,10 @@ void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<Outpu
 
 std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs);
 
-/// Throws core::InputError, naming `what` was to be written and with `advice`, if the standard output does not accept data.
+/// Throws core::InputError, which names `what` was to be written and adds `advice`, if the standard output does not accept data.
 void check_standard_output(const std::string& what, const std::string& advice);
 
-/// Throws ComputerCapacityError unless enough files can be open at a time to write them.
+/// Throws ComputerCapacityError unless enough files can be open at a time to write the outputs.
 void check_open_files();
 
 /// Files that are written from a Result. Not thread-safe.

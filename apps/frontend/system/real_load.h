@@ -6,13 +6,13 @@
 
 namespace dmpc::apps {
 
-/// Online cores of the real computer; at least 1.
+/// Returns the number of online cores of the real computer; at least 1.
 std::uint32_t core_count();
 
-/// The load average of the last minute; 0 where it is unknown.
+/// Returns the load average of the last minute; 0 where it is unknown.
 double machine_load();
 
-/// A sentence with the load `before` and the load now.
+/// Returns a sentence with the load `before` and the load now.
 std::string load_note(double before);
 
 }  // namespace dmpc::apps

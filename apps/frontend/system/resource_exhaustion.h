@@ -13,10 +13,10 @@ struct ComputerCapacityError : core::CapacityError {
   using core::CapacityError::CapacityError;
 };
 
-/// Throws ComputerCapacityError "WHAT: ..." if errno's value means that a resource is exhausted.
+/// Throws ComputerCapacityError "WHAT: ..." if the errno `error` means that a resource is exhausted.
 void throw_if_short(int error, const std::string& what);
 
-/// Throws it if a program that did not get ready reports so, in the words of the dynamic loader and libraries.
+/// Throws it if a program that failed to start reports so, in the words of the dynamic loader and libraries.
 void throw_if_short(std::string_view complaint, const std::string& what);
 
 }  // namespace dmpc::apps

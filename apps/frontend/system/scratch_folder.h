@@ -15,7 +15,7 @@
 namespace dmpc::apps {
 
 /// A process (/bin/sh) that waits for the end of this one, even by SIGKILL, and then removes the folder. It removes nothing if it
-/// is ended first. If it cannot be started, the folder has none: it is for unexpected ends only.
+/// is ended first. It serves unexpected ends only, so the folder does without if it cannot be started.
 class FolderHeir {
  public:
   explicit FolderHeir(const std::filesystem::path& folder);
@@ -28,8 +28,8 @@ class FolderHeir {
   pid_t id_ = -1;
 };
 
-/// Made in the system's folder for temporary files; removed with its contents at the end, however the process ends. Throws
-/// core::InputError if it cannot be made.
+/// The folder is made in the system's folder for temporary files, and removed with its contents at the end, however the process
+/// ends. Throws core::InputError if it cannot be made.
 class ScratchFolder {
  public:
   ScratchFolder() {

@@ -8,10 +8,10 @@
 
 namespace dmpc::apps {
 
-/// Wall clock. Starts on construction. Not thread-safe.
+/// Measures wall clock time from construction on. Not thread-safe.
 class Stopwatch {
  public:
-  /// Seconds since the last call or the making.
+  /// Returns the seconds since the last call or construction.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
@@ -21,13 +21,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time, which other processes hardly influence. Starts on construction.
+/// Measures processor time, which other processes hardly influence, from construction on.
 class ProcessorStopwatch {
  public:
   /// CLOCK_PROCESS_CPUTIME_ID: all threads together; CLOCK_THREAD_CPUTIME_ID: the thread that makes and reads it.
   explicit ProcessorStopwatch(clockid_t clock) : clock_(clock), last_(seconds()) {}
 
-  /// Seconds since the last call or the making.
+  /// Returns the seconds since the last call or construction.
   double lap() {
     const double now = seconds();
     return now - std::exchange(last_, now);
@@ -50,7 +50,7 @@ struct Times {
   double processor_seconds = 0;  ///< sum over all threads of the process
 };
 
-/// Both clocks at once. Starts on construction.
+/// Reads both clocks at once. Starts on construction.
 class DoubleStopwatch {
  public:
   Times lap() { return {wall_.lap(), processor_.lap()}; }

@@ -5,13 +5,13 @@
 
 namespace dmpc::apps {
 
-/// To be called first. Writing to a closed pipe becomes an error instead of a signal that would end the process with half-written
-/// files. A closed standard stream is replaced by an empty one, since otherwise the next opened file would get its number, and
-/// messages would be written into that file. The calling thread gets the default floating-point mode, whatever libraries were
-/// loaded. OpenImageIO does not load plugins from folders named by the environment.
+/// This is called first. Writing to a closed pipe becomes an error instead of a signal that would end the process with
+/// half-written files. A closed standard stream is replaced by an empty one, since otherwise the next opened file would get its
+/// number and receive messages. The calling thread gets the default floating-point mode, whatever libraries were loaded.
+/// OpenImageIO does not load plugins from folders named by the environment.
 void settle_in();
 
-/// Thrown if the standard output has no reader any more.
+/// Thrown if the standard output no longer has a reader.
 struct BrokenPipe : core::InputError {
   using InputError::InputError;
 };

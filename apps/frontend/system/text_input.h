@@ -12,27 +12,27 @@
 
 namespace dmpc::apps {
 
-/// Timeouts of a pipe: for its other end to be opened, and for the next byte.
+/// Timeouts of a pipe for opening its other end and for the next byte.
 struct PipeTimeout {
   std::chrono::milliseconds writer{1000}, byte{60'000};
 };
 
-/// Throws core::InputError, "PATH: ...": from the constructor, if there is no file, or if it is a device or a folder; from
-/// reading, if a pipe reaches a timeout, or gives more than there was memory for its scene.
+/// The constructor throws core::InputError, "PATH: ...", if there is no file, or if it is a device or a folder. Reading throws it
+/// if a pipe reaches a timeout, or delivers more than the memory for its scene.
 class TextInput final : private std::streambuf, public std::istream {
  public:
   explicit TextInput(const std::filesystem::path& path, const PipeTimeout& timeout = {});
 
-  /// The bytes of an ordinary file; nothing for a pipe.
+  /// Returns the bytes of an ordinary file; nothing for a pipe.
   std::uint64_t file_bytes() const { return file_bytes_; }
 
  private:
   std::streambuf::int_type underflow() override;
   [[noreturn]] void fail(const std::string& sentence) const;
-  /// By what errno says.
+  /// Uses errno's message.
   [[noreturn]] void fail_with(const std::string& words) const;
   std::size_t read_some();
-  /// The bytes read; 0 at the end.
+  /// Returns the bytes read; 0 at the end.
   std::size_t read_pipe();
   void wait_for_byte();
 

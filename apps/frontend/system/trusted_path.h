@@ -9,22 +9,22 @@
 
 namespace dmpc::apps {
 
-/// Why `path`, which has to be absolute and without links, may not be opened as code, as "it belongs to user 1001"; nothing if
-/// nobody can have written it, or can put another in its place, but those whose code this process runs anyway: root, its own
-/// user, and the owner of the program that it runs. That is asked of the file and of each folder above it: whose they are, and
-/// that neither their group nor others may write there, but into folders where each may remove only what is his own (the sticky
-/// bit). A group that is the user's alone counts as the user, root's as root, and one that may replace the running program as its
-/// owner; who else an access list lets write counts as none of them. A folder that the running program lies below, too, passes:
-/// whoever may write there may replace that.
+/// Returns why `path`, which has to be absolute and without links, may not be opened as code, as "it belongs to user 1001".
+/// Returns nothing if only trusted users can write or replace it: root, the process's own user, and the owner of the running
+/// program. The file and each folder above it must belong to one of them and must not be writable for their group or for others,
+/// except for folders with the sticky bit, where each user may remove only his own files. A group of which the user is the only
+/// member counts as the user, root's group as root, and a group that may replace the running program as its owner; other entries
+/// of an access list are not trusted. A folder above the running program, too, passes: whoever may write there may replace that
+/// program.
 ///
-/// Whose files are in a user namespace that does not know their owners, as containers of one user have it, cannot be told: such
-/// an owner passes, what may be written does not.
+/// In a user namespace that does not know the owners of files, as in single-user containers, an unknown owner passes, but what
+/// others may write does not.
 std::optional<std::string> why_untrusted(const std::filesystem::path& path);
 
-/// Opens code that a user names, for reading. That is asked of the opened file itself, so nobody can put another in its place in
-/// between, and of the folders above it more strictly: where everybody may write, as in /tmp, nothing is trusted. Throws
-/// core::InputError, whose message begins with the path: it is not absolute, is reached by links, is no ordinary file, or others
-/// can write it.
+/// Opens code that a user names, for reading. The opened file itself is checked, so nobody can replace it in between, and the
+/// folders above it more strictly: nothing is trusted where everybody may write, as in /tmp. Throws core::InputError, whose
+/// message begins with the path, if the path is not absolute or is reached by links, the file is no ordinary one, or others can
+/// write it.
 Descriptor open_trusted(const std::string& path);
 
 }  // namespace dmpc::apps

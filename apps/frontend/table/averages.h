@@ -7,10 +7,10 @@
 
 namespace dmpc::apps {
 
-/// The geometric mean of numbers above 0; nothing if there are none.
+/// Returns the geometric mean of numbers above 0; nothing if there are none.
 std::optional<double> geometric_mean(std::span<const double> numbers);
 
-/// The middle number, or the mean of the two in the middle. Requires at least one.
+/// Returns the middle number, or the mean of the two middle ones. Requires at least one.
 double median(std::vector<double> numbers);
 
 }  // namespace dmpc::apps

@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// A column, and its cell for a subject: a run, a result, or the like.
+/// A column, and how it computes its cell for a subject: a run, a result, or the like.
 template <class Subject>
 struct FilledColumn {
   Column column;
@@ -21,13 +21,13 @@ struct FilledColumn {
 template <class Subject>
 using FilledColumns = std::vector<FilledColumn<Subject>>;
 
-/// An empty cell for nothing.
+/// Returns an empty cell for nothing.
 template <class Value>
 Cell cell_of(const std::optional<Value>& value) {
   return value ? Cell(*value) : Cell();
 }
 
-/// A cell by `cell` for subjects that are `meant`; empty for others.
+/// Returns a function that fills cells by `cell` for subjects that are `meant`, and leaves others empty.
 template <class Meant, class Fill>
 auto only_if(Meant meant, Fill cell) {
   return [meant, cell](const auto& subject) { return meant(subject) ? Cell(cell(subject)) : Cell(); };
@@ -51,7 +51,7 @@ std::vector<Cell> row_of(const FilledColumns<Subject>& columns, const Subject& s
   return row;
 }
 
-/// A row for each of the subjects.
+/// Returns a table with a row for each of the subjects.
 template <class Subject, class Subjects>
 Table filled_table(std::string title, const FilledColumns<Subject>& columns, const Subjects& subjects) {
   Table table(std::move(title), heads_of(columns));

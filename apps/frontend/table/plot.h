@@ -13,26 +13,27 @@
 
 namespace dmpc::apps {
 
-/// Style of a series: computed values as a line from left to right, reference values as points, uncertain ones as hollow points
-/// with an interval; distributions as a box with a line in it and whiskers.
+/// Style of a series: computed values are a line from left to right, reference values are points, uncertain values are hollow
+/// points with an interval, and distributions are a box with a line in it and whiskers.
 enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 
-/// Styles that colour-blind people can tell apart: eight colours, then the first four of them again, dashed or hatched.
+/// Number of styles that colour-blind people can distinguish: eight colours, then the first four of them again, dashed or
+/// hatched.
 inline constexpr std::size_t plot_color_count = 12;
 
-/// The colours as #rrggbb. All but black are legible on white and on black; a dark page turns black into white.
+/// Colours as #rrggbb. All except black are legible on white and on black; a dark page turns black into white.
 extern const std::array<const char*, 8> plot_colors;
 
 /// One column, or some of its rows.
 struct PlotSeries {
   std::string title;   ///< in the legend
   std::string column;  ///< name of a column of numbers
-  /// Only rows with each of these texts in the column named before it.
+  /// Only rows with each of these texts in the named column are drawn.
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
   std::size_t color = 0;                    ///< below plot_color_count; each has its own shape of points, too
-  std::string low = {}, high = {};          ///< intervals and bands: columns of both ends
-  std::string box_low = {}, box_high = {};  ///< bands: columns of the box's ends; `column` is the line in it
+  std::string low = {}, high = {}; ///< ends of intervals and bands: columns
+  std::string box_low = {}, box_high = {}; ///< ends of the box of bands: columns; `column` is the line in it
 };
 
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
@@ -40,13 +41,14 @@ enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
 struct PlotAxis {
   std::string label;  ///< with its unit, unless the ticks have it: for bytes, bytes/s, KiB and times
   PlotScale scale = PlotScale::linear;
-  std::optional<double> least = std::nullopt, most = std::nullopt;  ///< limits of the axis; nothing: those of the figures
+  std::optional<double> least = std::nullopt, most = std::nullopt; ///< limits of the axis; nothing: those of the drawn values
 };
 
-/// large: a file of its own. small: part of a page, legible on a telephone, with the legend below, as high as that needs.
+/// large: a file of its own. small: a part of a page, legible on a telephone, with the legend below, which has the height that it
+/// needs.
 enum class PlotSize : std::uint8_t { large, small };
 
-/// The series are all bars or bands, or none is.
+/// Either all series are bars or bands, or none is.
 struct Plot {
   std::string name;  ///< file name without an extension
   std::string title;
@@ -60,18 +62,18 @@ struct Plot {
   PlotSize size = PlotSize::large;
 };
 
-/// Series over one column.
+/// Returns a plot of series over one column.
 Plot curves(std::string name, std::string title, std::string place, PlotAxis x, PlotAxis y, std::vector<PlotSeries> series);
-/// One or several bars for each node, by the column `node`: side by side, or stacked.
+/// Returns a plot with one or several bars for each node, by the column `node`: side by side, or stacked.
 Plot bars_by_node(std::string name, std::string title, PlotAxis y, std::vector<PlotSeries> series, bool is_stacked = false);
-/// All columns but the first upon one another.
+/// Returns a plot in which all columns except the first are stacked.
 Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std::vector<Column>& columns);
-/// Numbers of nodes, and percent from 0.
+/// Axes for numbers of nodes, and for percent from 0.
 PlotAxis node_axis();
 PlotAxis percent_axis(const std::string& what);
 
-/// A gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg there;
-/// nothing if no row of the table is drawn. Expects columns that the table has.
+/// Returns a gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg
+/// there; nothing if no row of the table is drawn. Requires columns that the table has.
 std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file);
 
 }  // namespace dmpc::apps

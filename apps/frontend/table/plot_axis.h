@@ -1,4 +1,4 @@
-// The axes of a plot in gnuplot's language, and what else it takes to speak it.
+// The axes of a plot in gnuplot's language, and helpers for writing it.
 #pragma once
 
 #include <limits>
@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// Without more digits than it needs.
+/// Writes no more digits than needed.
 std::string gnuplot_number(double number);
-/// A text as gnuplot reads it, on one line.
+/// Quotes a text for gnuplot, on one line.
 std::string gnuplot_text(const std::string& text);
-/// A tic's text at a position along its axis. gnuplot puts the position where such a text has a format, so '%' is said twice.
+/// Returns a tic's text at a position along its axis. gnuplot takes such a text as a format for the position, so '%' is doubled.
 std::string gnuplot_tic(std::string text, const std::string& position);
 
-/// The least and the largest of what is drawn.
+/// The least and the largest value drawn.
 struct PlotExtent {
   double least = std::numeric_limits<double>::infinity();
   double largest = -std::numeric_limits<double>::infinity();
@@ -23,10 +23,9 @@ struct PlotExtent {
   void add(double value);
 };
 
-/// Label, limits and scale of the axis "x" or "y".
+/// Returns label, limits and scale of the axis "x" or "y".
 std::string axis_lines(const std::string& name, const PlotAxis& axis);
-/// Lines for an axis with round ticks as people read them, for numbers counted in `unit`; those of powers of two are gnuplot's
-/// own.
+/// Returns lines for an axis with round ticks for numbers counted in `unit`; gnuplot itself places ticks at powers of two.
 std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent& extent, const std::string& unit);
 
 }  // namespace dmpc::apps

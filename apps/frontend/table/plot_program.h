@@ -1,4 +1,4 @@
-// gnuplot, as a process of its own.
+// Runs gnuplot as a separate process.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,21 @@
 
 namespace dmpc::apps {
 
-/// What became of a picture.
+/// Result of drawing a picture.
 struct PlotOutcome {
   bool is_drawn = false;
   bool is_program_missing = false;
-  std::string complaint;  ///< if it is not drawn: a sentence, with what the program said
+  std::string complaint; ///< if it is not drawn: a sentence with the program's message
 };
 
-/// What to tell about a picture that is not drawn: a sentence without its full stop, the same for all if the program is missing.
+/// Returns the message about a picture that is not drawn: a sentence without its full stop, the same for all if the program is
+/// missing.
 std::string sentence_on(const PlotOutcome& outcome);
 
-/// Writes NAME.gnuplot into `folder`, where `data_file` is the table as CSV, and lets `program` make NAME.svg of it there;
-/// nothing if there is nothing to draw. An older NAME.svg goes first, and so does one that was not finished. `program` is looked
-/// for along PATH unless it has a slash; waits for its end. What goes wrong with it is told by the outcome alone, for a picture
-/// is an extra; throws core::InputError if the script cannot be written. Signals that are blocked here are not blocked there.
-/// Thread-safe for different names.
+/// Writes NAME.gnuplot into `folder`, where `data_file` is the table as CSV, and has `program` make NAME.svg of it there; returns
+/// nothing if there is nothing to draw. An older or unfinished NAME.svg is removed. `program` is searched along PATH unless it
+/// has a slash; draw() waits for its end. The outcome alone reports its errors, as a picture is optional; throws core::InputError
+/// if the script cannot be written. The program does not inherit blocked signals. Thread-safe for different names.
 std::optional<PlotOutcome> draw(const Plot& plot, const Table& table, const std::filesystem::path& folder,
                                 const std::string& data_file, const std::string& program = "gnuplot");
 

@@ -1,4 +1,4 @@
-// Measuring in rounds.
+// Measures in rounds.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
   }
 }
 
-/// Calls visit(index) round by round, and shows the number of rounds done.
+/// Calls visit(index) round by round, and shows the number of finished rounds.
 template <class Visit>
 void round_by_round(std::size_t rounds, std::size_t count, Progress& progress, const Visit& visit) {
   round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {

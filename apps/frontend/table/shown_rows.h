@@ -12,7 +12,7 @@
 
 namespace dmpc::apps {
 
-/// Whether a user waits at a terminal for a table that is printed there.
+/// Returns whether a user waits at a terminal for a table that is printed there.
 bool shows_rows(const TableOutput& output, bool quiet);
 
 /// Shows each row once. Not thread-safe.
@@ -23,8 +23,8 @@ class ShownRows {
 
   bool is_shown() const { return is_shown_; }
 
-  /// Writes the table's new rows, each as a line above the progress line, which is rewritten below them. Rows are the same if
-  /// their first `key_count` cells have the same texts.
+  /// Writes the table's new rows, each as a line above the progress line, which is rewritten below them. Rows count as the same
+  /// if their first `key_count` cells have the same texts.
   void show(const Table& table, std::size_t key_count = std::numeric_limits<std::size_t>::max());
 
  private:

@@ -20,11 +20,11 @@ struct Column {
   std::string name;  ///< in words, unique within the table: "average load"
   std::string unit;  ///< "%", "bytes"; empty for dimensionless numbers and texts
   int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all digits
-  /// For a first column of texts: in Markdown, rows with the same text form a table of their own below it.
+  /// For a first column of texts: in Markdown, rows with the same text form a separate table below it.
   bool is_heading = false;
 };
 
-/// Heading in CSV and Markdown: "average load (%)".
+/// Returns the heading in CSV and Markdown: "average load (%)".
 std::string header_of(const Column& column);
 
 enum class TableFormat : std::uint8_t { markdown, csv, json, json_lines };
@@ -55,35 +55,33 @@ class Table {
   std::function<void(const Table&)> reported_;
 };
 
-/// Line width in letters, for a terminal and for a page.
+/// Line width in letters for a terminal and for a page.
 inline constexpr std::size_t markdown_width_max = 120;
 
-/// A row's cells in Markdown.
+/// Returns a row's cells in Markdown.
 std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
 
-/// Nothing if it is not a number.
+/// Returns nothing if the cell is not a number.
 std::optional<double> number_of(const Cell& cell);
-/// Index of the column with this name. Requires that it exists.
+/// Returns the index of the column with this name. Requires that it exists.
 std::size_t number_of_column(const Table& table, std::string_view name);
-/// The number in the column with this name; nothing if there is no such column, or the cell has no number.
+/// Returns the number in the column with this name; nothing if there is no such column, or the cell has no number.
 std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column);
 
-/// Names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
+/// Returns names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit on a line.
 std::string row_text(const Table& table, const std::vector<Cell>& row);
 
 /// Quotes a text for CSV where needed (RFC 4180).
 std::string csv_text(const std::string& text);
 
-/// The whole table with a line end.
-///   markdown   the title in bold, the table with its columns in line, the notes as a list, folded; a table that is wider than
-///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart; a heading in
-///              bold, behind the column's name, and its rows below it
-///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
-///   json       {"format", "title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores
-///   for spaces,
-///              units null where there are none
-///   json_lines its rows alone, a line each
-/// What is missing is empty, in JSON null.
+/// Returns the whole table with a line end. An absent value is empty; in JSON it is null.
+/// - markdown: the title in bold, the table with aligned columns, and the notes as a folded list. A table wider than
+///   markdown_width_max is split into parts, each of which repeats the left columns that distinguish the rows. A heading follows
+///   the column's name in bold, and its rows stand below it.
+/// - csv: a line of column names with their units, then a line for each row with RFC 4180 quoting; neither title nor notes.
+/// - json: {"format", "title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores for
+///   spaces, and null for a missing unit.
+/// - json_lines: the rows alone, a line each.
 std::string text_of(const Table& table, TableFormat format);
 
 }  // namespace dmpc::apps

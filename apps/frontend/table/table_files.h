@@ -21,13 +21,13 @@
 
 namespace dmpc::apps {
 
-/// Writes plots to one folder. Plots that cannot be drawn are reported to `complaints`, which outlives this, each reason once:
-/// plots are optional.
+/// Writes plots to one folder. Plots are optional, so those that cannot be drawn are reported to `complaints`, which outlives
+/// this, each reason once.
 class PlotFolder {
  public:
   PlotFolder(std::filesystem::path folder, std::ostream& complaints) : folder_(std::move(folder)), complaints_(complaints) {}
 
-  /// Writes the table as CSV to `data_file`, and then draws its plots: each file is one of the attempts.
+  /// Writes the table as CSV to `data_file`, and then draws its plots. Each file is one attempt.
   void add(const Table& table, const std::string& data_file, std::span<const Plot> plots, Attempts& attempts);
 
  private:
@@ -38,7 +38,7 @@ class PlotFolder {
   std::set<std::string> reported_;
 };
 
-/// The files in the folder of plots: a table as CSV, and its plots.
+/// A table's files in the folder of plots: the CSV file and the plots.
 struct PlottedNames {
   std::string data_file;
   std::vector<std::string> plots;  ///< without an extension
@@ -52,9 +52,9 @@ struct PlottedTable {
   std::vector<Plot> plots;
 };
 
-/// The results to write. The functions are called only if their output is asked for.
+/// The results to write. The functions are called only if their output is requested.
 struct TableResult {
-  std::string text;  ///< the table in the format asked for; may be several tables
+  std::string text; ///< the table in the requested format; may be several tables
   std::function<std::string()> page = {};
   std::function<std::vector<PlottedTable>()> plotted = {};
 };
@@ -68,15 +68,15 @@ struct OtherFiles {
 /// Not thread-safe.
 class TableFiles {
  public:
-  /// Makes the folder of plots. Throws core::UsageError if an output is the same file as an input or another output,
-  /// core::InputError if one cannot be made, as far as can be known in advance, including the standard output.
+  /// Makes the folder of plots. Throws core::UsageError if an output is the same file as an input or another output, and
+  /// core::InputError if an output cannot be made, as far as can be known in advance, including the standard output.
   TableFiles(const TableOutput& asked, const std::vector<PlottedNames>& plotted, const OtherFiles& others = {});
 
-  /// All outputs, including other files: none may be a file that a scene is read from.
+  /// All outputs, including other files: none of them may be a file that a scene is read from.
   const std::vector<NamedFile>& names() const { return names_; }
 
   /// Writes the table to its file (atomically) or to `output`, then the page, then the plots; a failure does not prevent later
-  /// ones. Plots that cannot be drawn are reported to `complaints`: plots are optional.
+  /// ones. Plots are optional, so those that cannot be drawn are reported to `complaints`.
   void write(const TableResult& result, std::ostream& output, std::ostream& complaints, Attempts& attempts) const;
 
  private:
