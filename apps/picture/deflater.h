@@ -10,14 +10,13 @@ struct libdeflate_compressor;
 
 namespace dmpc::apps {
 
-/// Compresses one stream after the other (RFC 1950), each in one call. Equal bytes give equal streams. Thread safety: one thread
-/// at a time.
+/// Compresses streams (RFC 1950), each in one call. Equal bytes give equal streams. Not thread-safe.
 class Deflater {
  public:
-  /// `level`: from 1, which is fast, to 12. Takes up to a mebibyte of memory. Throws std::bad_alloc.
+  /// `level` ranges from 1, which is fast, to 12. Takes up to a mebibyte of memory. Throws std::bad_alloc.
   explicit Deflater(int level);
 
-  /// Upper bound for the packed size of `byte_count` bytes.
+  /// Returns an upper bound for the packed size of `byte_count` bytes.
   std::size_t packed_bytes_max(std::size_t byte_count) const;
   /// Compresses `bytes` into `room`, and returns the size; 0 if `room` is too small, with some bytes to spare.
   std::size_t pack(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept;

@@ -15,13 +15,13 @@ namespace dmpc::apps {
 struct ExrRows {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< names
-  /// Writes the numbers of pixels from the `first` on, as many as fit, each pixel's in the channels' order.
-  /// Several threads call it at once.
+  /// Writes the numbers of pixels from `first` on, as many as fit, each pixel's in the channels' order. Several threads call it
+  /// at the same time.
   std::function<void(std::size_t first, std::span<float> numbers)> take;
-  std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
+  std::vector<std::pair<std::string, std::string>> remarks; ///< text attributes
 };
 
-/// The file's bytes, equal for equal pictures. `threads`: the number that compress rows; 0: one per core. Requires at least a
+/// Returns the file's bytes, which are equal for equal pictures. `threads` compress rows; 0: one per core. Requires at least a
 /// pixel and a channel, and distinct names of 1 to 31 bytes.
 std::string exr_file(const ExrRows& picture, std::uint32_t threads = 0);
 

@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// Mean linear radiance of each pixel, computed on demand, with the film's scale as a remark. The film outlives it; requires
-/// samples > 0.
+/// Returns the mean linear radiance of each pixel, computed on demand, with the film's scale as a remark. The film outlives it;
+/// requires samples > 0.
 ImageRows rows_of(const core::Film& film);
 
-/// As above, as a whole.
+/// As above, but with all pixels.
 Image image_of(const core::Film& film);
 
-/// A scale for people and files: "1", "2^34".
+/// Returns a scale as text: "1", "2^34".
 std::string text_of(core::FilmScale scale);
 
 }  // namespace dmpc::apps

@@ -11,12 +11,12 @@ namespace dmpc::apps {
 
 inline constexpr int glyph_width = 5, glyph_height = 7;
 
-/// The beginning of a text, and the width and height of its dots in pixels (>= 1).
+/// The start of a text, and the width and height of its dots in pixels (>= 1).
 struct TextPlace {
   int x = 0, y = 0, dot = 1;
 };
 
-/// Pixels from the left of the first to the right of the last letter.
+/// Returns the pixels from the left of the first to the right of the last letter.
 int text_width(std::string_view text, int dot);
 
 /// Writes in capitals; each byte of a character without a glyph, such as an accented letter, becomes an empty box. Text outside

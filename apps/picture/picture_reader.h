@@ -1,4 +1,4 @@
-// Pictures, read by a process of their own.
+// Reads pictures in a separate process.
 #pragma once
 
 #include <cstdint>
@@ -19,40 +19,41 @@ struct PictureFile {
   Descriptor descriptor;
   std::uint64_t bytes = 0;
   std::string name;
-  std::string ending;  ///< "tga": for formats that the content does not identify
-  bool is_new = true;  ///< its bytes have renewed no time yet
+  std::string ending; ///< "tga": for formats that the content does not identify
+  bool is_new = true; ///< its bytes have not yet added reading time
 };
 
-/// The ordinary file at `path`. Throws core::InputError "PATH: ..." if there is none.
+/// Opens the ordinary file at `path`. Throws core::InputError "PATH: ..." if there is none.
 PictureFile open_picture(const std::filesystem::path& path);
-/// A copy in memory of what lies there.
+/// Returns a copy in memory of these bytes.
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
-/// Keeps its process from one picture to the next, as long as that lives: one that reads PNG, JPEG and EXR alone, until one
-/// comes that it does not read, and from then on that which reads all, and takes long to start. All pictures together have one
-/// budget of time, which their bytes alone renew, and textures one of memory, which is looked at before there is room for one.
-/// All throw core::InputError "NAME: ...", and core::CapacityError, which says so, if this computer has no room for the process
-/// or for the picture.
+/// Keeps its process from one picture to the next, as long as the process lives. The first process reads only PNG, JPEG and EXR;
+/// once a picture comes that it does not read, it is replaced by the one that reads all formats and is slow to start. All
+/// pictures share one time budget, which only their bytes renew, and textures share one memory budget, which is checked before
+/// memory is allocated. All functions throw core::InputError "NAME: ...", and core::CapacityError if this computer has not enough
+/// memory for the process or for the picture.
 class PictureReader {
  public:
   explicit PictureReader(const ReaderLimits& limits = {}) : budget_(limits) {}
 
-  /// Adds reading time for the bytes of files that pictures lie in.
+  /// Adds reading time for the bytes of files that contain pictures.
   void add_bytes(std::uint64_t bytes) { budget_.add_bytes(bytes); }
 
-  /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its
-  /// smaller levels. Alpha is left out, and the colours are as they are without it; where it counts, and some of it is not 1,
+  /// Reads the first three channels (the first one is repeated if there are one or two) of the first picture in the file, and
+  /// makes its smaller levels. Alpha is left out, and the colours stay as they are; if alpha counts, and some of it is not 1,
   /// texels have 8 bits a channel with it (core::TexelFormat::srgb_alpha). Integers are taken as sRGB, whatever the file says of
   /// gamma or profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared exponent.
   /// Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or than any
-  /// database, has no texels, several layers, or several samples a texel.
+  /// database, or if it has no texels, several layers, or several samples a texel.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
-  /// Adds up what the textures of a scene take, by what stands before their pixels: read_texture() of all comes later. Throws
-  /// core::CapacityError at the one that is too much, named and with both sizes, core::InputError where it cannot be told.
+  /// Adds the size of a texture, from the bytes before its pixels, to the total of the scene's textures, as read_texture() of all
+  /// of them comes later. Throws core::CapacityError, with the texture's name and both sizes, at the one that exceeds the memory,
+  /// and core::InputError if the size cannot be determined.
   void weigh_texture(const PictureFile& file);
-  /// How many of the textures had alpha that is not shown, of those where that is to be said.
+  /// Returns how many textures had alpha that is not shown, among those for which that is to be reported.
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }
-  /// As apps/picture/image_file.h says.
+  /// Reads as read_image() of apps/picture/image_file.h does.
   Image read_image(const PictureFile& file);
   /// As above for a sky; that it is not too large for a scene and for this computer is checked before memory is allocated.
   Image read_sky(const PictureFile& file);
@@ -64,12 +65,12 @@ class PictureReader {
     bool hides_alpha;
   };
 
-  /// What is asked for of a picture.
+  /// A request to the process for a picture.
   struct Request {
     Saying saying;
     TextureAlpha alpha;
   };
-  /// The program that reads PNG, JPEG and EXR as nearly all are, or the one of all formats.
+  /// `plain` reads common PNG, JPEG and EXR pictures, `any` all formats.
   enum class Program : std::uint8_t { plain, any };
 
   template <class Take>

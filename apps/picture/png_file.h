@@ -1,4 +1,4 @@
-// PNG files (ISO 15948), as dmpc writes them: 8 bits a channel on the sRGB curve.
+// PNG files (ISO 15948) as dmpc writes them: 8 bits a channel with the sRGB curve.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace dmpc::apps {
 
-/// A picture of which nobody holds all bytes.
+/// A picture whose bytes are never all in memory.
 struct PngRows {
   int width = 0, height = 0;
-  /// Writes three bytes for each pixel from the `first` on, as many as fit. Several threads call it at once.
+  /// Writes three bytes for each pixel from `first` on, as many as fit. Several threads call it at the same time.
   std::function<void(std::size_t first, std::span<std::uint8_t> rgb)> take;
 };
 
-/// The file's bytes, the same for the same picture. `threads`: how many filter its rows; 0: one for each core. Requires a pixel.
+/// Returns the file's bytes, which are equal for equal pictures. `threads` filter its rows; 0: one per core. Requires a pixel.
 std::string png_file(const PngRows& picture, std::uint32_t threads = 0);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// A PNG's rows before they are packed: what their bytes differ by from their neighbours (ISO 15948, clause 9).
+// Filters a PNG's rows before compression: bytes are replaced by differences to their neighbours (ISO 15948, clause 9).
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// Filters rows of three bytes a pixel. Thread safety: one thread at a time.
+/// Filters rows of three bytes a pixel. Not thread-safe.
 class PngFilter {
  public:
   explicit PngFilter(std::size_t row_bytes);
 
-  /// `row` as PNG has it: the filter's number, then what is left of each byte. Of the five filters it is the one whose
-  /// differences are the least in sum, signs apart, as the standard advises (12.8). `above`: the row above, none for the first.
-  /// Requires `room` for a byte more than a row has.
+  /// Returns `row` in PNG's form: the filter's number, then the filtered bytes. Of the five filters it takes the one with the
+  /// least sum of absolute differences, as the standard advises (12.8). `above` is the row above, empty for the first. Requires
+  /// `room` for one byte more than a row has.
   void filter(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above, std::span<std::uint8_t> room);
 
  private:

@@ -1,4 +1,4 @@
-// What becomes of a picture that is read as a texture.
+// How a picture is used as a texture.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace dmpc::apps {
 
-/// What becomes of a texture's alpha: it means nothing, it means something that is not shown, and is said, or it counts.
+/// Use of a texture's alpha: it has no meaning; it has one but is not shown, which is reported; or it counts.
 enum class TextureAlpha : std::uint8_t { ignored, said, kept };
 
-/// How a texture goes on beyond its edges, along each side, and what its alpha does.
+/// How a texture continues beyond its edges, along each side, and how its alpha is used.
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
   TextureAlpha alpha = TextureAlpha::ignored;
@@ -22,9 +22,9 @@ struct TextureEdges {
 };
 inline constexpr double coat_max = 0.99;
 
-/// What comes out through such a coat of a channel.
+/// Returns the part of a channel that comes out through such a coat.
 constexpr double below_coat(double channel, double coat) { return channel * (1 - coat) / (1 - channel * coat); }
-/// That for all texels of `texture`, which has no smaller levels yet.
+/// Applies below_coat() to all texels of `texture`, which has no smaller levels yet.
 void put_below_coat(core::Texture& texture, double coat);
 
 /// Throws core::InputError "NAME: ..." for a texture that has no texels, or more than core::Texture::size_max along a side.

@@ -1,4 +1,4 @@
-// What renders count beside what any program does (apps/frontend/show/counters.h), by name.
+// Names the counters of renders, in addition to those of any program (apps/frontend/show/counters.h).
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr auto counters_of<svm::QuestionCounters> = std::array{
     counter<&svm::QuestionCounters::answers>({"answers", "packets received", "answers"}),
 };
 
-/// What rays did on their way.
+/// Events of rays on their way.
 template <>
 inline constexpr auto counters_of<dataflow::RayCounters> = std::array{
     counter<&dataflow::RayCounters::hits_sent_back>({"hits_sent_back", "to the node that found them"}),
@@ -82,7 +82,7 @@ inline constexpr auto counters_of<dataflow::MovementCounters> = std::array{
         {"rays_sent_on", "that came for a unit which was another's by then"}),
 };
 
-/// What rays met.
+/// Hits of rays.
 inline constexpr std::array hit_counters = {
     counter<&core::Operations::primary_hits>({"primary"}),
     counter<&core::Operations::secondary_hits>({"secondary", "of reflected and refracted rays"}),

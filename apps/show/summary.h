@@ -7,9 +7,9 @@
 
 namespace dmpc::apps {
 
-/// A few lines: the scene, the computer and its memory by category, its ranks if it has some, rays, what the strategy is about
-/// (pages; or travel, load and regions), virtual time and its parts if a machine was modelled, times by the wall clock, the
-/// picture and its film's hash.
+/// Prints a few lines: the scene, the computer and its memory by category, its ranks if there are any, rays, the strategy's main
+/// figures (pages; or travel, load and regions), virtual time and its parts on a modelled machine, wall clock times, the picture
+/// and its film's hash.
 void print_summary(std::ostream& output, const RenderRecord& record);
 
 }  // namespace dmpc::apps

@@ -15,22 +15,22 @@ namespace dmpc::apps {
 
 template <class Real>
 struct EmitterAim {
-  core::Vec3<Real> way;      ///< to the place
+  core::Vec3<Real> way; ///< to the point on the emitter
   core::Vec3<Real> towards;  ///< direction as a unit vector
   Real density;              ///< probability density of this direction, per steradian, including the emitter's probability
 };
 
-/// As the product has it: who is nearer than this to a sphere, in radii from its middle, does not aim at it.
+/// As in the product, a point nearer to a sphere's centre than this, in radii, does not sample the sphere.
 template <class Real>
 constexpr Real sphere_clearance = 1 + Real{1} / 10'000;
 
-/// 1 less the cosine that a sphere's rim has to the way to its middle.
+/// Returns 1 less the cosine between the direction to a sphere's rim and the direction to its centre.
 template <class Real>
 Real rim_height(Real sine) {
   return sine * sine / (1 + std::sqrt(std::max(Real{0}, 1 - sine * sine)));
 }
 
-/// Nothing where it is seen edge-on.
+/// Returns nothing where the triangle is seen edge-on.
 template <class Real>
 std::optional<EmitterAim<Real>> aim_at_triangle(const std::array<core::Vec3<Real>, 3>& corner, Real chance,
                                                 const core::Vec3<Real>& from, Real x, Real y) {
@@ -43,7 +43,7 @@ std::optional<EmitterAim<Real>> aim_at_triangle(const std::array<core::Vec3<Real
              : std::nullopt;
 }
 
-/// Nothing from within or next to it.
+/// Returns nothing from within or next to the sphere.
 template <class Real>
 std::optional<EmitterAim<Real>> aim_at_sphere(const core::Vec3<Real>& middle, Real radius, Real chance,
                                               const core::Vec3<Real>& from, const core::SamplePair& place) {
@@ -62,7 +62,8 @@ std::optional<EmitterAim<Real>> aim_at_sphere(const core::Vec3<Real>& middle, Re
                           chance / (2 * std::numbers::pi_v<Real> * less)};
 }
 
-/// How densely a sphere is aimed at that lies so far from here, of which `by_area` is how densely its surface is; per steradian.
+/// Returns the density per steradian with which a sphere at this distance is sampled, where `by_area` is the density on its
+/// surface.
 template <class Real>
 Real density_of_sphere(Real by_area, const core::Vec3<Real>& to_middle, Real radius) {
   const Real square = dot(to_middle, to_middle), sine = radius / std::sqrt(square);

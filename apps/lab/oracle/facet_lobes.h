@@ -1,5 +1,4 @@
-// Surfaces of tiny mirrors, written anew from the definition, in single precision and in double: what core's are measured
-// against.
+// Microfacet surfaces, written anew from the definition, in single and in double precision: core's are measured against them.
 #pragma once
 
 #include <algorithm>
@@ -16,36 +15,37 @@
 
 namespace dmpc::apps {
 
-/// What is known of a hit on one. The normals lie on the ray's side.
+/// What is known of a hit on a microfacet surface. The normals lie on the ray's side.
 template <class Real>
 struct FacetedPlace {
-  core::Vec3<Real> base;                          ///< the colour there
-  Real metallic = 0, alpha = 1, reflectance = 0;  ///< the latter of what is no metal, straight ahead
-  Real there = 1;                                 ///< the share of the surface that is, its opacity included
-  Real matt = 0;                                  ///< the share of what goes in that is scattered
-  Real absent = 0, passing = 0;                   ///< shares of what passes by the mirrors, and of what goes in and through
-  Real index = 1;                                 ///< ratio of refractive indices: the ray's side over the other one
-  core::Vec3<Real> direction;                     ///< the ray's
-  core::Vec3<Real> normal, true_normal;           ///< the former for shading
+  core::Vec3<Real> base; ///< the colour at the hit
+  Real metallic = 0, alpha = 1, reflectance = 0; ///< `reflectance`: of a dielectric at normal incidence
+  Real there = 1; ///< the share of the surface that is present, its opacity included
+  Real matt = 0; ///< the share of the entering light that is scattered
+  Real absent = 0, passing = 0; ///< shares of the light that passes the surface without reflection, and of the entering light
+                                                  ///< that is transmitted
+  Real index = 1; ///< ratio of refractive indices: the ray's side over the other side
+  core::Vec3<Real> direction; ///< the ray's
+  core::Vec3<Real> normal, true_normal; ///< `normal` is for shading
 };
 
-/// A way on; `kind` of the ray that takes it.
+/// A direction in which a path continues; `kind` is that of the continuing ray.
 template <class Real>
 struct FacetedStep {
   core::Vec3<Real> towards, weight;
   core::RayKind kind{};
-  Real density = std::numeric_limits<Real>::infinity();  ///< per steradian, of what is scattered
+  Real density = std::numeric_limits<Real>::infinity(); ///< per steradian, of scattered light
 };
 
-/// What comes back of light from somewhere.
+/// The response to light from a direction.
 template <class Real>
 struct FacetedResponse {
-  core::Vec3<Real> value;  ///< response to a radiance of 1 from there, per steradian, including the cosine
+  core::Vec3<Real> value; ///< response to a radiance of 1 from that direction, per steradian, including the cosine
   Real density = 0;        ///< probability density of that direction
 };
 
-/// GGX, height-correlated Smith, Schlick's Fresnel, over a Lambertian that is coupled to a smooth surface. Directions come from
-/// the product's chances; of the product's maps only those to a disc and about an axis.
+/// GGX with height-correlated Smith masking and Schlick's Fresnel, over a Lambertian that is coupled to a smooth surface.
+/// Directions are chosen with the product's probabilities; of the product's maps only those to a disc and about an axis are used.
 template <class Real>
 class FacetLobes {
  public:
@@ -66,10 +66,10 @@ class FacetLobes {
     all_ = scattered_ + reflected_ + through_;
   }
 
-  /// Whether ways lead to more than one direction.
+  /// Returns whether paths continue in more than one direction.
   bool scatters() const { return scattered_ > 0 || (is_spread() && reflected_ > 0); }
 
-  /// To light from the unit direction `in`; nothing below either normal.
+  /// Returns the response to light from the unit direction `in`; nothing below either normal.
   FacetedResponse<Real> response(const Vec& in) const {
     const Real cosine = std::min(dot(in, place_.normal), Real{1});
     if (!(cosine > 0) || !(dot(in, place_.true_normal) > 0) || !(all_ > 0)) {
@@ -90,7 +90,7 @@ class FacetLobes {
     return found;
   }
 
-  /// Chosen in proportion to the brightest channels of all; nothing if it leads nowhere.
+  /// Chooses in proportion to the brightest channels of all lobes; returns nothing if no path continues.
   std::optional<FacetedStep<Real>> step(const core::SamplePair& choice, const core::SamplePair& direction) const {
     const Real place = static_cast<Real>(choice.x) * all_;
     if (place < scattered_) {
@@ -121,18 +121,18 @@ class FacetLobes {
 
   /// Whether the microfacets differ in direction.
   bool is_spread() const { return place_.alpha >= static_cast<Real>(core::sharpest_alpha); }
-  /// What they let in of what they do not reflect straight ahead: of light from within, by the angle outside.
+  /// The share of the light not reflected at normal incidence that enters, or leaves from within, at this angle outside.
   Real unreflected(Real cosine) const {
     const Real squared = 1 - place_.index * place_.index * (1 - cosine * cosine);
     const Real less = 1 - (place_.index > 1 ? std::sqrt(std::max(Real{0}, squared)) : cosine), square = less * less;
     return 1 - square * square * less;
   }
-  /// Concentration of light that the matt layer sends inwards: refraction crowds its directions in a cone.
+  /// Returns the concentration of the light that the matt layer sends inwards: refraction narrows its directions to a cone.
   Real crowding(Real cosine) const {
     const Real square = std::max(Real{1}, place_.index * place_.index);
     return square * (1 - cosine * cosine) < 1 ? square : Real{0};
   }
-  /// Where a direction outside leads, by Snell.
+  /// Refracts a direction outside by Snell's law.
   Vec below_surface(const Vec& outside) const {
     if (!(place_.index > 1)) {
       return outside;
@@ -143,18 +143,18 @@ class FacetLobes {
   Vec tinted(Real cosine) const { return straight_ + (grey(place_.there) - straight_) * (1 - unreflected(cosine)); }
   Vec mirrored() const { return place_.direction - place_.normal * (2 * dot(place_.direction, place_.normal)); }
 
-  /// Twice what Smith's function makes of a cosine, less that.
+  /// Returns twice Smith's function of a cosine, less the cosine.
   Real roughened(Real cosine) const {
     const Real square = place_.alpha * place_.alpha;
     return std::sqrt(square + (1 - square) * cosine * cosine);
   }
-  /// How many tiny mirrors have normals at this cosine.
+  /// Returns the density of microfacets whose normals have this cosine.
   Real mirrors_at(Real cosine) const {
     const Real square = place_.alpha * place_.alpha, spread = 1 - cosine * cosine * (1 - square);
     return square * std::numbers::inv_pi_v<Real> / (spread * spread);
   }
 
-  /// By whichever of both the direction was found, it counts for both.
+  /// The direction may come from either lobe and counts for both.
   std::optional<FacetedStep<Real>> spread(const Vec& in) const {
     const FacetedResponse<Real> there = response(in);
     return there.density > 0
@@ -162,7 +162,7 @@ class FacetLobes {
                : std::nullopt;
   }
 
-  /// By a normal that is seen, as Heitz (2018) draws it.
+  /// Reflects at a visible normal, drawn as Heitz (2018) does.
   Vec mirrored_by_facet(const core::SamplePair& direction) const {
     const Vec& normal = place_.normal;
     const Real alpha = place_.alpha;
@@ -181,10 +181,10 @@ class FacetLobes {
   }
 
   FacetedPlace<Real> place_;
-  Vec out_;  ///< whence it comes, or above the normal beside that
+  Vec out_; ///< the direction that the ray comes from, or one above the normal close to it
   Real cosine_;
   Vec straight_, matt_;
-  Real scattered_ = 0, reflected_ = 0, through_ = 0, all_ = 0;  ///< how likely each way is, times all
+  Real scattered_ = 0, reflected_ = 0, through_ = 0, all_ = 0; ///< weights of the directions, and their sum
 };
 
 }  // namespace dmpc::apps

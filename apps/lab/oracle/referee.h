@@ -1,4 +1,4 @@
-// The double-precision referee: brute force over all primitives, to settle what grid and oracle disagree on.
+// The double-precision referee: brute force over all primitives, to decide where grid and oracle disagree.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace dmpc::apps {
 
-/// What a renderer said of a ray: a closest hit by name, or only whether a shadow ray is blocked.
+/// A renderer's answer for a ray: the closest hit, or only whether a shadow ray is blocked.
 struct Answer {
   bool hit = false;
-  std::uint32_t primitive = core::no_primitive;  ///< a closest hit's; unused for shadow rays
-  float t = 0;                                   ///< as the renderer gave it, for reports
+  std::uint32_t primitive = core::no_primitive; ///< of a closest hit; unused for shadow rays
+  float t = 0; ///< as the renderer gave it, for reports
 
   bool operator==(const Answer& other) const { return hit == other.hit && primitive == other.primitive; }
 };
 
-/// How a difference comes about. The first four are explained; the others are errors of our grid.
+/// Causes of a difference. The first four are explained; the others are errors of our grid.
 enum class Verdict : std::uint8_t {
   tie,           ///< both name a primitive that is surely hit, and rounding may order the two distances either way
-  silhouette,    ///< the ray passes an edge or a tangent within what rounding may move it by
+  silhouette, ///< the ray passes an edge or a tangent within rounding
   end,           ///< a hit lies within rounding of the ray's start or end
   oracle_wrong,  ///< our grid's answer can be explained by rounding, Embree's cannot (it leaks where triangles meet)
   grid_wrong,    ///< Embree's answer can be explained by rounding, our grid's cannot
@@ -37,7 +37,7 @@ std::string_view name_of(Verdict verdict);
 
 struct Ruling {
   Verdict verdict{};
-  Answer exact;               ///< by exact geometry: edges belong to their triangle, equal distances go to the lower id
+  Answer exact; ///< by exact geometry: edges belong to their triangle, and the lower id wins at equal distances
   bool favours_grid = false;  ///< its answer is the exact one
   bool favours_oracle = false;
 };
@@ -50,15 +50,15 @@ class Referee {
       : primitives_(primitives), planes_(planes) {}
   explicit Referee(const core::Database& database) : Referee(database.primitives(), database.planes()) {}
 
-  /// Every primitive that rounding may let `ray` hit (its ignored triangle left out), by distance and then id.
+  /// Returns every primitive that rounding may let `ray` hit (without its ignored triangle), by distance and then id.
   std::vector<ExactIntersection> exact_intersections(const core::Ray& ray) const;
-  /// The exact answer; for a shadow ray only `hit` is meant. NaN or infinite rays miss.
+  /// Returns the exact answer; for a shadow ray only `hit` has a meaning. NaN or infinite rays miss.
   Answer exact(const core::Ray& ray) const;
-  /// Whether `answer` is what `renderer` may have found after rounding, no matter what the other one said.
+  /// Returns whether `renderer` may have found `answer` after rounding, whatever the other renderer answered.
   bool admissible(const core::Ray& ray, const Answer& answer, Renderer renderer) const;
-  /// Judges two answers; meant for different ones, but equal ones are judged as well.
+  /// Judges two answers that differ, or are equal.
   Ruling settle(const core::Ray& ray, const Answer& grid, const Answer& oracle) const;
-  /// How near `ray` is to hitting primitive `id`, whether it does or not.
+  /// Returns how near `ray` is to hitting primitive `id`, whether it does or not.
   ExactIntersection examine(const core::Ray& ray, std::uint32_t id) const {
     return apps::examine(ray, primitives_[id], id, plane_of(id));
   }
@@ -68,7 +68,7 @@ class Referee {
              const Answer& answer, const ExactIntersection* hit, Renderer renderer) const;
   bool admissible(const core::Ray& ray, const std::vector<ExactIntersection>& met, const Answer& answer, Renderer renderer) const;
 
-  /// None of a triangle that doubles do not tell from others.
+  /// Returns nullptr for a triangle that does not need doubles to be distinguished from others.
   const core::FacePlane* plane_of(std::uint32_t id) const;
 
   std::span<const core::PrimitiveValues> primitives_;

@@ -1,4 +1,5 @@
-// What came of a trial in one line, the last that a judge prints: what was tried, what failed, the worst, and where.
+// The result of a trial in one line, the last that a judge prints: what was tried, what failed, the worst case, and where it
+// occurred.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// "pixel (3, 4)", of one by its number in a picture so wide.
+/// Returns "pixel (3, 4)" for a pixel's number in a picture of this width.
 inline std::string pixel_text(std::uint64_t pixel, std::uint64_t width) {
   return "pixel (" + std::to_string(pixel % width) + ", " + std::to_string(pixel / width) + ")";
 }
@@ -19,10 +20,10 @@ struct Trial {
   using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< counts, each with the singular name of what is counted
 
   Counts tried, failed = {};
-  std::string worst = {}, where = {};  ///< empty: nothing was off
+  std::string worst = {}, where = {}; ///< empty: nothing was off
 };
 
-/// "Tried: 1,200 rays. Failed: nothing. Worst: a silhouette, in pixel (3, 4)."
+/// Returns "Tried: 1,200 rays. Failed: nothing. Worst: a silhouette, in pixel (3, 4)."
 inline std::string line_of(const Trial& trial) {
   const auto list = [](const Trial::Counts& counts) {
     std::string text;

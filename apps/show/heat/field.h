@@ -32,11 +32,12 @@ struct HeatField {
   double sum() const;
 };
 
-/// The field of a run that has filled its heat map. Requires record.heat with this kind.
+/// Returns the field of a run that has filled its heat map. Requires record.heat with this kind.
 ///
-/// Repeatable are rays, depth and samples, which are also the same for every strategy and number of nodes; references and pages,
-/// which are the same for every number of nodes; everything in virtual time; with threads, faults and node if no pixel changes
-/// its node and (faults) each node has one pixel in flight at a time, or if there is one node; and dataflow's node.
+/// These kinds are repeatable: rays, depth and samples, which are also the same for every strategy and number of nodes;
+/// references and pages, which are the same for every number of nodes; everything in virtual time; with threads, faults and node
+/// if there is one node, or if no pixel changes its node and (faults) each node has one pixel in flight at a time; and dataflow's
+/// node.
 HeatField heat_field(core::HeatKind kind, const RenderRecord& record);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The page of two runs on one clock, of what their own pages have kept.
+// The page that compares two runs on one clock, from the data in their own pages.
 #pragma once
 
 #include <array>
@@ -13,27 +13,27 @@
 
 namespace dmpc::apps::html {
 
-/// One of them.
+/// One of the two.
 struct ComparedPage {
   std::string file;  ///< as it was typed
   PlayedRun run;
   Image picture;
 };
 
-/// A and B, and what is known of both beside that.
+/// A and B, and what else is known of both.
 struct Comparison {
   std::array<ComparedPage, 2> pages;
-  std::string picture_sentence;        ///< how far the pictures lie apart; empty: nothing to say
-  std::string counter_sentence;        ///< what became of their counters
+  std::string picture_sentence; ///< difference of the pictures; empty: nothing to report
+  std::string counter_sentence; ///< comparison of their counters
   std::optional<Table> counters = {};  ///< counters that differ
 };
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs' clocks
-/// differ, of which one time would be said then, or if no temporary file can be written.
+/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs'
+/// clocks differ, so that they have no common time, or if no temporary file can be written.
 std::string comparison_page(const Comparison& comparison, const Origin& origin, std::ostream& complaints);
 
-/// Milliseconds of a node's mean by what it did or waited for: a row each that either run has, and one for the whole run, to
-/// which the others add up.
+/// Returns milliseconds of a node's mean by what it did or waited for: a row for each item that either run has, and one for the
+/// whole run, to which the others add up.
 Table time_table(const std::array<ComparedPage, 2>& pages);
 
 }  // namespace dmpc::apps::html

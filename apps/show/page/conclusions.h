@@ -1,4 +1,4 @@
-// What the figures of a render come to: a sentence or two for each section of its page, empty where there is nothing to say.
+// Conclusions from the figures of a render: a sentence or two for each section of its page, empty if there is nothing to say.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace dmpc::apps::html {
 std::string ray_conclusion(std::span<const std::uint64_t> rays, std::uint64_t shot);
 std::string node_conclusion(const Account& account);
 std::string memory_conclusion(const Account& account, std::size_t database_bytes);
-/// The conclusion from what adds up over pixels.
+/// Returns the conclusion from the fields that add up over pixels.
 std::string heat_conclusion(const HeatField& field);
 
 }  // namespace dmpc::apps::html

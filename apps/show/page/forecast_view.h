@@ -1,4 +1,4 @@
-// How long a run would take with other caches, as a page shows it: a table and a plot, and what its script draws.
+// A page's forecast of a run's time with other cache sizes: a table and a plot, and the data that its script draws.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +18,31 @@ namespace dmpc::apps::html {
 extern const WebPart what_if_style;   ///< what_if.css
 extern const WebPart what_if_script;  ///< for a page that plays no run: draws the band alone
 
-/// A run that was made: its cache, and what it took.
+/// A run that was measured: its cache, and its time.
 struct MadeRun {
   std::uint32_t cache_pages = 0;
   double total_ns = 0;
 };
 
-/// A band beside runs.
+/// A band of predicted times beside measured runs.
 struct ForecastView {
   std::uint32_t cache_pages = 0;  ///< the measured run's
-  std::string why;                ///< the band is as wide as it is: sentences
-  std::vector<TimeBand> sizes;    ///< in ascending order, whether narrow enough to be shown or not
+  std::string why; ///< explains the band's width: sentences
+  std::vector<TimeBand> sizes; ///< in ascending order, whether narrow enough to be shown or not
   std::vector<MadeRun> runs;
 };
 
-/// Forecast from a finished run: nothing unless pages travel on a modelled machine and references were recorded, or if no
-/// forecast can be made from them.
+/// Returns the forecast of a finished run; nothing unless pages travel on a modelled machine and references were recorded, or if
+/// no forecast can be made from them.
 std::optional<ForecastView> forecast_view(const RenderRecord& record);
 
-/// For scripts: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
+/// Returns the scripts' data: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
 nlohmann::json json_of(const ForecastView& view);
-/// What the page of a render says, read back; nothing if that has none. `file` is what messages call it. Throws core::InputError
-/// for data that do not hold together.
+/// Reads the forecast back from the page of a render; nothing if it has none. `file` names the page in messages. Throws
+/// core::InputError for inconsistent data.
 std::optional<ForecastView> forecast_in(std::string_view page, const std::string& file);
 
-/// Says it in a sentence and a table, and draws it: by gnuplot, and where scripts run by them, in a place of its own.
+/// Adds the forecast as a sentence, a table and a drawing: by gnuplot and, where scripts run, by a script in its own element.
 void add_forecast(Page& page, const ForecastView& view);
 /// As above for a page that plays no run, with its scripts.
 void add_forecast_alone(Page& page, const ForecastView& view);

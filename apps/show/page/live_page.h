@@ -1,4 +1,4 @@
-// The page of --serve while the run goes on, and of `dmpc view`.
+// The page of --serve during a run, and of `dmpc view`.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace dmpc::apps::html {
 extern const WebPart live_style;   ///< live/live.css
 extern const WebPart live_script;  ///< live/live.js
 
-/// A run that is looked on at, or a scene that is looked round in.
+/// A run that is observed, or a scene that is viewed interactively.
 enum class LiveKind { run, view };
 
-/// The whole document, about what has this title. It asks its server for `events`, and sends it `stop` or a `camera`; its policy
-/// allows what it has in itself, and that.
+/// Returns the whole document with this title. It requests `events` from its server, and sends it `stop` or a `camera`; its
+/// policy allows only its own contents and these requests.
 PageServer::Page live_page(const std::string& title, LiveKind kind);
 
 }  // namespace dmpc::apps::html

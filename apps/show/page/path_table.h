@@ -1,4 +1,4 @@
-// The critical path of a run, by name.
+// The critical path of a run, with names for its parts.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace dmpc::apps::html {
 
-/// As people read it: "page reply".
+/// Returns a readable name: "page reply".
 std::string packet_text(const std::string& kind_name);
 
-/// Nanoseconds by name, those of which there are any; they add up to the path's.
+/// Returns nanoseconds by name, without zeros; they add up to the path's.
 std::vector<std::pair<std::string, std::uint64_t>> path_parts(const nodes::PathTimes& path);
 
-/// A row for each part, and for messages one for each of their kinds, too.
+/// Returns a table with a row for each part, and for messages also a row for each kind.
 Table path_table(const nodes::PathTimes& path, std::span<const char* const> kind_names);
-/// In a sentence.
+/// Returns the path in a sentence.
 std::string path_conclusion(const nodes::PathTimes& path, std::span<const char* const> kind_names);
 
 }  // namespace dmpc::apps::html

@@ -1,4 +1,4 @@
-// Pictures of many colours within a page.
+// Embeds pictures of many colours in a page.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace dmpc::apps::html {
 
-/// Pixels.
+/// Limit in pixels.
 inline constexpr int picture_side_max = 1024;
 
-/// `description`: for those who do not see it. Larger pictures than picture_side_max a side are shrunk, and the page says so; the
-/// link saves them whole. Others are in the page once: a script makes the link.
+/// `description` is for readers who cannot see it. Pictures larger than picture_side_max a side are shrunk, and the page says so;
+/// the link saves them in full. Smaller pictures are in the page once: a script makes the link.
 void add_picture(Page& page, const Image& image, const std::string& description, const std::string& caption);
 
-/// The picture as a PNG within its own address. Throws core::InputError if no temporary file can be written.
+/// Returns the picture as a PNG in a data URL. Throws core::InputError if no temporary file can be written.
 std::string picture_url(const Image& image);
 
 }  // namespace dmpc::apps::html

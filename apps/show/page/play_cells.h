@@ -1,4 +1,4 @@
-// Squares of pixels of a picture that has too many of them to be played one by one.
+// Groups the pixels of a picture into square cells if there are too many to be played one by one.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,21 @@
 
 namespace dmpc::apps::html {
 
-/// Cells, row by row from the top left, of a side that is the least power of two with which there are `cells_max` at most.
+/// Cells, row by row from the top left; their side is the least power of two that gives at most `cells_max` of them.
 class PlayCells {
  public:
-  /// Expects a picture with a pixel, and `cells_max` > 0.
+  /// Requires a picture with a pixel, and `cells_max` > 0.
   PlayCells(int width, int height, std::size_t cells_max);
 
-  /// Pixels; the last cells of a row or column may have fewer.
+  /// In pixels; the last cells of a row or column may have fewer.
   int side() const { return side_; }
   int wide() const { return count(width_); }
   int high() const { return count(height_); }
 
-  // By cell, of values by pixel.
+  // Reduce values by pixel to values by cell.
   std::vector<std::uint64_t> sums(std::span<const std::uint64_t> values) const;
   std::vector<std::uint64_t> largest(std::span<const std::uint64_t> values) const;
-  /// The value of the pixel that was done last; of several the first.
+  /// Takes the value of each cell's pixel that was done last; of several the first.
   std::vector<std::uint64_t> of_last(std::span<const std::uint64_t> values, std::span<const std::uint64_t> done) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the page of a render plays: one JSON text with a head and arrays, which the scripts in apps/show/page/play read.
+// Data for playing a run in its page: one JSON text with a head and arrays, which the scripts in apps/show/page/play read.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,13 +8,13 @@
 
 namespace dmpc::apps::html {
 
-/// The version of the text: counted up when a key goes or comes to mean something else.
+/// The version of the text: incremented when a key is removed or changes its meaning.
 inline constexpr int play_format = 3;
 
 /// Pictures of more pixels are played in cells of 2x2, 4x4, ... pixels.
 inline constexpr std::size_t play_cells_max = std::size_t{1} << 17U;
 
-/// The time at which a cell is done is given in this many parts of the run.
+/// Resolution of the time at which a cell is done: this many parts of the run.
 inline constexpr std::uint64_t done_parts = 65'535;
 
 /// Requires record.view, and record.heat with the time at which pixels were done. Keys, times in nanoseconds:

@@ -1,4 +1,4 @@
-// What shows runs as they went, where the reader lets scripts run: the sources in apps/show/page/play, as they are.
+// Plays runs in a page if the reader allows scripts, with the sources in apps/show/page/play.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,11 +8,11 @@
 
 namespace dmpc::apps::html {
 
-/// `data`: play_data() of a run, or {"runs": [...]} of two, each with a "name", which play on one clock. Only the
-/// scripts go into the page that draw something of theirs.
+/// `data`: play_data() of a run, or {"runs": [...]} of two, each with a "name", which play on one clock. Only scripts that draw
+/// something of these data go into the page.
 void add_player(Page& page, const nlohmann::json& data);
 
-/// As it stands in a page: in ASCII, texts that are no UTF-8 mended.
+/// Returns the data as in a page: in ASCII, with invalid UTF-8 repaired.
 std::string data_text(const nlohmann::json& data);
 
 }  // namespace dmpc::apps::html

@@ -1,4 +1,4 @@
-// The page of --report: what a render was, showed, took and lost.
+// The page of --report: settings, picture, costs and losses of a render.
 #pragma once
 
 #include <iosfwd>
@@ -9,8 +9,8 @@
 
 namespace dmpc::apps::html {
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can
-/// be written.
+/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary
+/// file can be written.
 std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

@@ -1,4 +1,4 @@
-// What a render counted, as tables, and plots of them.
+// A render's counters as tables, and plots of them.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace dmpc::apps::html {
 
-/// A row for each node: what it did and what passed through it.
+/// Returns a row for each node: its activities and its traffic.
 Table node_table(const RenderRecord& record);
 std::vector<Plot> node_plots(const RenderRecord& record);
 
 Losses losses_of(const Account& account);
 
-/// A row for each node: bytes by category, as far as any node has some.
+/// Returns a row for each node: bytes by category, without categories that no node uses.
 Table memory_table(const Account& account);
 Plot memory_plot(const Account& account);
 
-/// The packets of all nodes together.
+/// Returns the packets of all nodes together.
 std::vector<PacketKindTraffic> packets_of(const Account& account);
 
 }  // namespace dmpc::apps::html

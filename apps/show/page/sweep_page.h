@@ -1,4 +1,4 @@
-// The page of a study: what a sweep found, as plots and tables.
+// The page of a study: the results of a sweep as plots and tables.
 #pragma once
 
 #include <iosfwd>
@@ -14,7 +14,7 @@
 
 namespace dmpc::apps::html {
 
-/// A table and the plots of it.
+/// A table and its plots.
 struct SweepPart {
   std::string heading;  ///< heading of its section; empty: none
   const Table& table;   ///< outlives this
@@ -27,12 +27,12 @@ struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs
   std::vector<SweepPart> parts;
-  Facts results = {};                         ///< by which another run is known to be the same
-  std::optional<ForecastView> forecast = {};  ///< from one of its runs, beside all of them
+  Facts results = {}; ///< identify another run with the same results
+  std::optional<ForecastView> forecast = {}; ///< from one of the sweep's runs, shown beside all of them
 };
 
-/// The whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary file can
-/// be written.
+/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary
+/// file can be written.
 std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

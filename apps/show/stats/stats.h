@@ -1,4 +1,4 @@
-// What a render counted, as JSON with stable keys. Only stats.cpp and what it stands on name nlohmann-json.
+// A render's counters as JSON with stable keys. Only stats.cpp and the files below it name nlohmann-json.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// One JSON object, indented, with a line end. The keys are an interface: stats.schema.json, which is installed, says what each
-/// means and allows no other. Every key is always there; what does not apply is null, and no number is NaN or infinite.
+/// Returns one indented JSON object with a line end. The keys are an interface: stats.schema.json, which is installed, defines
+/// each and allows no other. Every key is always present; it is null if it does not apply, and no number is NaN or infinite.
 std::string stats_json(const RenderRecord& record);
 
 }  // namespace dmpc::apps

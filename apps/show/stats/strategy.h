@@ -1,4 +1,4 @@
-// What one strategy adds to the counters: for stats.cpp alone; stats.schema.json says what every key means.
+// A strategy's part of the counters, for stats.cpp alone; stats.schema.json defines every key.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@ namespace dmpc::apps {
 
 using Json = nlohmann::ordered_json;
 
-/// Objects whose values take the places of nulls in what all strategies have in common.
+/// Objects whose values replace nulls in the part that all strategies share.
 struct StrategyStats {
   Json all, chaos, host;
   std::vector<Json> nodes;               ///< by number
-  std::uint64_t packets_overflowed = 0;  ///< to the host for want of credits
+  std::uint64_t packets_overflowed = 0; ///< sent to the host for want of credits
 };
 
 StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& report);
 StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Report& report);
 
-/// Rays by kind and in total.
+/// Returns rays by kind and in total.
 Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays);
 
 }  // namespace dmpc::apps

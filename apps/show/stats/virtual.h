@@ -1,4 +1,4 @@
-// What a run in virtual time adds to the counters: for stats.cpp alone; stats.schema.json says what every key means.
+// The counters of a run in virtual time, for stats.cpp alone; stats.schema.json defines every key.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Objects whose values take the places of nulls, empty without virtual time.
+/// Objects whose values replace nulls; empty without virtual time.
 struct VirtualStats {
   Json all = Json::object(), host = Json::object();
   std::vector<Json> nodes;  ///< by number

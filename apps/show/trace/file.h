@@ -1,4 +1,4 @@
-// What stands in the file of --trace.
+// The contents of the --trace file.
 #pragma once
 
 #include <iosfwd>
@@ -9,12 +9,12 @@
 
 namespace dmpc::apps {
 
-/// What the record's options ask for of its trace. Requires that they do, and that it has one.
+/// Writes the trace in the form that the record's options request. Requires that they request one, and that the record has one.
 void write_trace(const RenderRecord& record, std::ostream& stream);
 
-/// A sentence on what was lost of a trace, and what leaves room; empty if nothing was lost.
+/// Returns a sentence on what was lost of a trace, and how to avoid that; empty if nothing was lost.
 std::string loss_note(const nodes::Trace& trace);
-/// A sentence on a trace without any activity or message; else empty.
+/// Returns a sentence if a trace has no activity or message; else empty.
 std::string empty_note(const nodes::Trace& trace);
 
 }  // namespace dmpc::apps

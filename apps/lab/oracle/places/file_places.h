@@ -1,5 +1,5 @@
-// What the oracle reads of a scene's file by itself: where the faces stand, and the camera. Nothing of it is the product's
-// readers', so that what these do to positions is judged, too.
+// What the oracle itself reads from a scene's file: the positions of the faces, and the camera. It shares nothing with the
+// product's readers, so that their effect on positions is judged, too.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +15,19 @@
 
 namespace dmpc::apps {
 
-/// In doubles and world coordinates, unless a file needs more time or memory than a judge has.
+/// Positions in doubles and world coordinates, unless a file needs more time or memory than a judge has.
 struct FilePlaces {
   core::Scene scene;
   std::optional<core::View> view;  ///< the file's own
   core::SceneBuilder builder{scene};
   std::uint64_t steps_left = std::uint64_t{1} << 23U;
 
-  /// One face of at least three corners. Throws core::InputError, why a file is not judged, if there are too many.
+  /// Adds a face of at least three corners. Throws core::InputError, which says why a file is not judged, if there are too many.
   void add(const std::vector<core::Vec3d>& corners) {
     spend(2 * corners.size());
     builder.polygon(corners);
   }
-  /// On vertices, nodes, whatever a file may have many of. Throws likewise.
+  /// Spends steps on vertices, nodes, or whatever else a file may have many of. Throws likewise.
   void spend(std::uint64_t steps) {
     steps_left -= std::min(steps, steps_left);
     if (steps_left == 0) {
@@ -36,10 +36,10 @@ struct FilePlaces {
   }
 };
 
-/// The bytes of what a file names beside itself.
+/// Returns the bytes of a file that the scene's file names.
 using BytesOfNamed = std::function<std::string(const std::string& name)>;
 
-/// Reads a .gltf or .glb file: the scene of its nodes, all coordinates times `scale`, with a picture of `size` pixels. Throws
+/// Reads a .gltf or .glb file: the scene of its nodes, with all coordinates times `scale`, and a picture of `size` pixels. Throws
 /// NotJudged for unsupported features (instances, skins, morph targets, compression), and std::exception for invalid files.
 void read_gltf_places(const std::string& file, const BytesOfNamed& bytes_of, double scale, const Resolution& size,
                       FilePlaces& places);

@@ -1,5 +1,5 @@
-// One primitive in double precision: what a ray meets, and the surface there. Shares no arithmetic with core's kernels and
-// shading.
+// One primitive in double precision: its intersection with a ray, and the surface there. It shares no arithmetic with core's
+// kernels and shading.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 namespace dmpc::apps {
 
 /// World coordinates.
-///   triangle   place: its three corners
-///   sphere     place[0]: the centre, radius[0]; a negative radius shows the inside only
-///   cone       place[0], place[1]: base and apex, with their radii; any of them negative shows the inside only
+/// - triangle: `place` has its three corners
+/// - sphere: place[0] is the centre, radius[0] the radius; a negative radius shows the inside only
+/// - cone: place[0] and place[1] are base and apex, with their radii; any negative radius shows the inside only
 struct ReferenceBody {
   static constexpr std::uint32_t flat = 0xffffffffU;
 
@@ -28,37 +28,38 @@ struct ReferenceBody {
   std::uint32_t first_normal = flat;      ///< smooth triangle: index of its three normals in ReferenceScene::normals
   std::uint32_t first_place = flat;       ///< textured triangle: index of its three texture coordinates in ReferenceScene::places
   std::uint32_t first_color = flat;       ///< triangle with vertex colours: index in ReferenceScene::colors
-  bool is_light_sampled = false;          ///< by paths, as it shines by itself
-  std::array<std::uint32_t, 3> corner{};  ///< triangle: which corners of the object it has
+  bool is_light_sampled = false; ///< paths sample it as a light, as it emits
+  std::array<std::uint32_t, 3> corner{}; ///< triangle: its corners' indices in the object
 
   bool is_smooth() const { return first_normal != flat; }
   bool is_textured() const { return first_place != flat; }
   bool has_colors() const { return first_color != flat; }
 };
 
-/// The place that a ray hits.
+/// The point that a ray hits.
 struct ReferenceSurface {
-  core::Vec3d point;               ///< on the body, whatever rounding did to t
-  core::Vec3d normal;              ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
+  core::Vec3d point; ///< on the body, however t was rounded
+  core::Vec3d normal; ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
   std::array<double, 3> weight{};  ///< a triangle's barycentric coordinates
 };
 
-/// Whether there is something to hit: a triangle with an area, a radius, a length; all coordinates below 1e30.
+/// Returns whether there is something to hit: a triangle has an area, a sphere a radius, a cone a length, and all coordinates are
+/// below 1e30.
 bool is_usable(const ReferenceBody& body);
 
-/// The least distance in (0, ray.t_max) at which `ray` meets `body`. Triangles: the signs of the volumes that the ray spans with
-/// the edges; an edge gives both its triangles the same number, so nothing passes between them. Spheres and cones: the two stable
-/// roots of the quadratic about the point of the ray that is nearest to the body.
+/// Returns the least distance in (0, ray.t_max) at which `ray` meets `body`. For triangles, the signs of the volumes that the ray
+/// spans with the edges decide; an edge gives both its triangles the same number, so nothing passes between them. For spheres and
+/// cones, the two stable roots of the quadratic about the point of the ray nearest to the body are used.
 std::optional<double> distance_to(const ReferenceBody& body, const ReferenceRay& ray);
 
 /// As above for a ray that starts on `body`, without the offset that keeps it from its start: the second intersection with a
-/// curved body. Never outside, as all bodies bulge outwards, and never a triangle.
+/// curved body. It is never outside, as all bodies bulge outwards, and never on a triangle.
 std::optional<double> distance_across(const ReferenceBody& body, const ReferenceRay& ray);
 
-/// The surface where `ray` meets `body` at `t`, which distance_to() gave.
+/// Returns the surface where `ray` meets `body` at `t`, which distance_to() returned.
 ReferenceSurface surface_at(const ReferenceBody& body, const ReferenceRay& ray, double t);
 
-/// Encloses the body.
+/// Returns a box that encloses the body.
 core::Box bounds_of(const ReferenceBody& body);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// From a place on the picture to a primary ray in double precision.
+// Computes primary rays from points on the picture in double precision.
 #pragma once
 
 #include "apps/lab/oracle/reference/ray.h"
@@ -10,24 +10,25 @@ namespace dmpc::apps {
 /// The pinhole that core/picture/camera/camera.h defines, in world coordinates.
 class ReferenceCamera {
  public:
-  /// `bounds` are those of what is seen: rays of an eye that is far from there start before it, as long double has them, since at
-  /// the eye double would tell neither its rays nor what they meet apart. Empty: all rays start at the eye. Requires width,
-  /// height > 0.
+  /// `bounds` are those of the visible scene. Rays of an eye that is far from them start just before them, computed in long
+  /// double, since doubles at the eye could distinguish neither its rays nor what they meet. Empty: all rays start at the eye.
+  /// Requires width, height > 0.
   ReferenceCamera(const core::View& view, int width, int height, const core::Box& bounds = {});
 
-  /// Through the point (column, row), in pixels; whole numbers are the centres of pixels, (0, 0) the first one's.
+  /// Returns the ray through the point (column, row), in pixels; whole numbers are the centres of pixels, and (0, 0) is the first
+  /// one's.
   ReferenceRay ray_through(double column, double row) const;
   int width() const { return width_; }
   int height() const { return height_; }
   core::Vec3d eye() const { return core::Vec3d(eye_); }
-  /// Where the ray through the picture's middle starts.
+  /// Returns the start of the ray through the picture's middle.
   core::Vec3d start() const { return core::Vec3d(eye_ + forward_ * lead_); }
 
  private:
   using Vec3l = core::Vec3<long double>;
 
   Vec3l eye_, forward_, right_, down_;  ///< right_, down_: one pixel's step in the plane at distance 1
-  long double lead_ = 0;                ///< how far from the eye rays start
+  long double lead_ = 0; ///< distance from the eye at which rays start
   int width_, height_;
 };
 

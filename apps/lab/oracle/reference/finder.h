@@ -1,4 +1,4 @@
-// What a ray in double precision hits: Embree offers the boxes on its way, and the hit in each is computed in double.
+// Finds the hit of a ray in double precision: Embree offers the boxes along it, and the hit in each is computed in double.
 #pragma once
 
 #include <memory>
@@ -20,11 +20,11 @@ class ReferenceFinder {
   ReferenceFinder(const ReferenceFinder&) = delete;
   ReferenceFinder& operator=(const ReferenceFinder&) = delete;
 
-  /// The hit with the least (t, body) in (0, ray.t_max); the triangle ray.ignored_body is left out, and at the ray's start what
-  /// lies in its plane. Of triangles of one plane (share_plane()) that are hit there together, that of the least
-  /// core::Material::rank_in_plane() counts, the first of those; it is asked at each hit.
+  /// Returns the hit with the least (t, body) in (0, ray.t_max); the triangle ray.ignored_body is left out, and at the ray's
+  /// start all that lies in its plane. Of triangles in one plane (share_plane()) that are hit there together, the first with the
+  /// least core::Material::rank_in_plane() counts, as evaluated at each hit.
   ReferenceHit closest(const ReferenceRay& ray) const;
-  /// Some hit, or none.
+  /// Returns any hit, or none.
   ReferenceHit any(const ReferenceRay& ray) const;
 
  private:

@@ -1,4 +1,4 @@
-// A whole picture by the accurate renderer.
+// A whole picture by the reference renderer.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct Attendance {
   std::stop_token stop;
 };
 
-/// Renders with all cores; the same bits for every number of them. `finder` is made of `scene`. Throws Interrupted when a stop is
-/// requested.
+/// Renders with all cores; the bits are the same for every number of them. `finder` is made from `scene`. Throws Interrupted when
+/// a stop is requested.
 ReferencePicture render_accurately(const ReferenceScene& scene, const ReferenceFinder& finder, const ReferenceCamera& camera,
                                    const SamplePattern& pattern, const core::ShadeOptions& options,
                                    const Attendance& attendance = {});

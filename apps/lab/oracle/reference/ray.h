@@ -1,4 +1,4 @@
-// Rays and hits of the accurate renderer: double precision, the scene's own coordinates.
+// Rays and hits of the reference renderer: double precision, the scene's own coordinates.
 #pragma once
 
 #include <array>
@@ -15,24 +15,24 @@ struct ReferenceRay {
   core::Vec3d origin;
   core::Vec3d direction;                                   ///< unit vector
   double t_max = std::numeric_limits<double>::infinity();  ///< hits count in (0, t_max)
-  std::uint32_t ignored_body = core::no_primitive;         ///< the body it starts on, which it hits only across
-  core::Vec3d weight{1, 1, 1};  ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
+  std::uint32_t ignored_body = core::no_primitive; ///< the body on which it starts; only its far side can be hit
+  core::Vec3d weight{1, 1, 1}; ///< factor of the light it finds; for a shadow ray, the light that it brings if nothing blocks it
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;
   std::uint32_t light = 0;  ///< shadow ray: index into the scene's lights
-  /// The width, where it starts, of what it stands for; of a primary ray how far from the eye it starts.
+  /// The width of its footprint at its start; for a primary ray, the distance of its start from the eye.
   double cone = 0;
-  /// By how much the directions of its pixel's primary rays change from column to column and from row to row.
+  /// Change of the directions of its pixel's primary rays per column and per row.
   std::array<core::Vec3d, 2> apart{};
-  /// core::density_of() the bits of that with which a surface scattered it; infinite for all others.
+  /// core::density_of() the bits of the density with which a surface scattered it; infinite for all others.
   double density = std::numeric_limits<double>::infinity();
-  std::uint32_t pixel = 0, sample = 0;  ///< by which a path has its chances
+  std::uint32_t pixel = 0, sample = 0; ///< determine a path's random numbers
 };
 
-/// The narrower of the two angles, in radians, in which the pixel of a ray is seen from the eye.
+/// Returns the narrower of the two angles, in radians, under which a ray's pixel is seen from the eye.
 double narrow_angle(const ReferenceRay& ray);
 
-/// The least (t, body) that a ray meets; of a shadow ray some hit, whichever was found.
+/// The least (t, body) that a ray meets; for a shadow ray any hit.
 struct ReferenceHit {
   double t = std::numeric_limits<double>::infinity();
   std::uint32_t body = core::no_primitive;  ///< index into ReferenceScene::bodies

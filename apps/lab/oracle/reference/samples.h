@@ -1,4 +1,4 @@
-// Where the samples of a pixel lie.
+// Positions of a pixel's samples.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ struct SamplePosition {
   double column = 0, row = 0;
 };
 
-/// A rule that gives each pixel the positions of its samples; a pure function of pixel and sample.
+/// A rule for the positions of each pixel's samples; a pure function of pixel and sample.
 class SamplePattern {
  public:
   /// Sample positions of core/picture/camera/camera.h, for a comparison sample by sample: the centre for one sample, else the
   /// product's jitter.
   static SamplePattern of_product(std::uint32_t samples) { return {samples, 1, 0, Kind::product}; }
-  /// One sample at a random place in each cell of a lattice over the pixel; another seed, other places.
+  /// One sample at a random position in each cell of a lattice over the pixel; another seed gives other positions.
   static SamplePattern stratified(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) {
     return {columns, rows, seed, Kind::stratified};
   }
 
-  /// Samples of each pixel.
+  /// Returns the number of samples of each pixel.
   std::uint32_t count() const { return columns_ * rows_; }
   SamplePosition position(std::uint32_t pixel, std::uint32_t sample) const {
     if (kind_ == Kind::stratified) {
@@ -44,7 +44,7 @@ class SamplePattern {
     core::expect(columns > 0 && rows > 0, "a pixel has samples");
   }
 
-  /// Uniform in [0, 1), unlike the product's.
+  /// Returns a number uniform in [0, 1), independent of the product's.
   double random(std::uint32_t pixel, std::uint32_t sample, std::uint64_t dimension) const {
     const std::uint64_t place = core::mix((std::uint64_t{pixel} << 32U | sample) ^ core::mix(seed_ + 0x5851f42d4c957f2dULL));
     return static_cast<double>(core::mix(place + 2 * dimension + 1) >> 11U) * 0x1p-53;

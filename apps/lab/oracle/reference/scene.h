@@ -1,4 +1,4 @@
-// A scene in double precision as the accurate renderer takes it: flat lists, world coordinates.
+// A scene in double precision for the reference renderer: flat lists, world coordinates.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace dmpc::apps {
 struct ReferenceLight {
   core::Vec3d position;
   core::Vec3d intensity;
-  core::LightSpread spread;  ///< as rounded as the product has it
+  core::LightSpread spread; ///< rounded as in the product
 };
 
-/// What paths aim at, and how likely.
+/// An emitter that paths sample, and its probability.
 struct ReferenceEmitter {
   std::uint32_t body;
   double chance;
 };
 
-/// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits
-/// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
+/// Bodies are in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits them.
+/// The product leaves out what has no area in float; this leaves out only what has none in double. Immutable once made.
 struct ReferenceScene {
   std::vector<ReferenceBody> bodies;
   std::vector<core::Vec3d> normals;    ///< smooth triangles' unit normals; 0 for none
@@ -38,16 +38,16 @@ struct ReferenceScene {
   core::Box bounds;           ///< bounds of all bodies
   double size = 1;            ///< the largest extent of `bounds`, above 0
   bool has_emission = false;  ///< some material emits
-  // None of these unless aim_as_product() was called:
+  // These are empty unless aim_as_product() was called:
   std::vector<ReferenceEmitter> emitters;
-  std::vector<core::EmitterChoice> choices;  ///< the product's, by which one is drawn
+  std::vector<core::EmitterChoice> choices; ///< the product's choices, from which one is drawn
   double emitter_density = 0;                ///< probability density of a point on an emitter, by area, over its emission
 
-  /// Whether hits send light by themselves.
+  /// Returns whether hits send light by themselves.
   bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }
 };
 
-/// Lights without a colour get 1 / sqrt(their number), as in the product. Requires a sky of colours, no picture.
+/// Lights without a colour get 1 / sqrt(their number), as in the product. Requires a sky of colours without a picture.
 ReferenceScene reference_scene(const core::Scene& scene);
 
 }  // namespace dmpc::apps

@@ -1,5 +1,5 @@
-// A filtered look-up in a texture in double precision: what core/picture's footprints and look-ups are defined to give, by
-// arithmetic of its own.
+// A filtered texture look-up in double precision: the result that core/picture's footprints and look-ups are defined to give, by
+// independent arithmetic.
 #pragma once
 
 #include <array>
@@ -12,30 +12,30 @@ namespace dmpc::apps {
 /// (s, t) on a texture: to the right and downwards, 0 to 1 over the whole.
 using ReferencePlace = std::array<double, 2>;
 
-/// A textured triangle as its texture sees it.
+/// A textured triangle as a look-up needs it.
 struct ReferencePaint {
   std::array<core::Vec3d, 3> corner;
   std::array<ReferencePlace, 3> place;  ///< the corners' texture coordinates
 };
 
-/// What a look-up is the mean over: a line about `middle`, `strides` long, of probes of `width` texels.
+/// The area that a look-up averages: a line of probes about `middle`, `strides` long, each `width` texels wide.
 struct ReferenceFootprint {
   ReferencePlace middle{}, stride{};
   double width = 0, strides = 1;
 };
 
-/// Two steps from a ray, in world units, that span what it stands for.
+/// Two vectors across a ray, in world units, that span its footprint.
 using ReferenceReach = std::array<core::Vec3d, 2>;
 
-/// Reach of a cone around a unit direction, `width` wide.
+/// Returns the reach of a cone around a unit direction, `width` wide.
 ReferenceReach cone_about(const core::Vec3d& direction, double width);
 
-/// The footprint of what a ray along `direction` stands for, where it meets the triangle in the point with these weights of its
-/// corners. What has no width sees a point.
+/// Returns the footprint of a ray along `direction` where it meets the triangle in the point with these weights of its corners.
+/// Without a width it is a point.
 ReferenceFootprint footprint_of(const ReferencePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
                                 const core::Vec3d& direction, const ReferenceReach& reach);
 
-/// Linear light, and what of it is there.
+/// Linear light, and the share of it that is present.
 struct ReferenceTexel {
   core::Vec3d light;
   double alpha = 0;
@@ -44,7 +44,7 @@ struct ReferenceTexel {
   ReferenceTexel operator*(double share) const { return {light * share, alpha * share}; }
 };
 
-/// The mean of alpha and, in linear light, of what of the texels is there.
+/// Returns the mean of alpha and, in linear light, of the texels' colours weighted by what is present.
 ReferenceTexel texture_sum(const core::Texture& texture, const ReferenceFootprint& footprint);
 
 }  // namespace dmpc::apps

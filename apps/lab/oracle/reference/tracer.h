@@ -1,5 +1,5 @@
-// The light that a ray brings, in double precision throughout: NFF's surfaces as Haines defines them, written anew from the
-// definition, as what core's shading is measured against.
+// Computes the light that a ray brings, in double precision throughout: NFF's surfaces as Haines defines them, written anew from
+// the definition. Core's shading is measured against it.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +14,41 @@
 
 namespace dmpc::apps {
 
-/// Sees, and may disturb, every ray of a tracer. Rays come in the order of the product: depth first, a hit's shadow rays in the
-/// order of the lights, then its reflected ray with all that follows from it, then the refracted one.
+/// Observes, and may disturb, every ray of a tracer. Rays come in the order of the product: depth first, a hit's shadow rays in
+/// the order of the lights, then its reflected ray with all that follows from it, then the refracted one.
 class RayWatcher {
  public:
   virtual ~RayWatcher() = default;
 
   /// A ray is about to be traced.
   virtual void shoot(ReferenceRay&) {}
-  /// A ray that is no shadow ray met `body` here.
+  /// A ray other than a shadow ray met `body` here.
   virtual void touch(const ReferenceRay&, const ReferenceBody&, ReferenceSurface&) {}
-  /// A texture is about to be looked up there.
+  /// A texture is about to be looked up with this footprint.
   virtual void look_up(ReferenceFootprint&) {}
   /// A ray was traced.
   virtual void end(const ReferenceRay&, const ReferenceHit&) {}
 };
 
-/// Not thread-safe: one a thread.
+/// Not thread-safe: each thread needs its own.
 class ReferenceTracer {
  public:
   /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-13 of their body's coordinates and radius off it.
-  /// Rays look at textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the
-  /// options give them no share of it, at points. By paths rays have the chances of the product's, if its grid has the world's
+  /// Texture look-ups match those of the product's first samples, with the pixel coverage of the ray's own camera; they are point
+  /// look-ups if the options give the rays no share of it. Paths use the product's random numbers if its grid has the world's
   /// axes.
   ReferenceTracer(const ReferenceScene& scene, const ReferenceFinder& finder, const core::ShadeOptions& options,
                   RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}
 
-  /// Linear radiance that a ray brings, with all rays that follow from it.
+  /// Returns the linear radiance of a ray with all rays that follow from it.
   core::Vec3d radiance(ReferenceRay ray);
-  /// What a hit sends back along `ray`, which is no shadow ray, by itself: its own light, and of the ambient one
-  /// what its diffuse part reflects.
+  /// Returns the light that a hit by itself sends back along `ray`, which is no shadow ray: its emission, and the ambient light
+  /// that its diffuse part reflects.
   core::Vec3d glow(const ReferenceRay& ray, const ReferenceHit& hit) const;
-  /// The rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
+  /// Returns the rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
   std::vector<ReferenceRay> spawned(const ReferenceRay& ray, const ReferenceHit& hit) const;
-  /// Rays traced so far, of all kinds.
+  /// Returns the number of rays traced so far, of all kinds.
   std::uint64_t rays() const { return rays_; }
 
  private:
