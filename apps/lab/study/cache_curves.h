@@ -1,4 +1,4 @@
-// What caches of several sizes miss of the same references, under every policy.
+// Misses of caches of several sizes for the same references, under every policy.
 #pragma once
 
 #include <cstddef>
@@ -17,54 +17,54 @@
 
 namespace dmpc::apps {
 
-/// The curves of all nodes together, each with a cache of its own. A value.
+/// The curves of all nodes together; each node has its own cache. A value type.
 class CacheCurves {
  public:
-  /// The references of one node, in order; those of one page in a row may be one.
+  /// The references of one node, in order; consecutive references to one page may count as one.
   using NodeReferences = std::span<const svm::PageId>;
 
-  /// Beside dmpc's own.
+  /// Policies other than dmpc's own.
   using Policies = std::span<const ForeignPolicy>;
-  /// Called from any thread while caches are fed.
+  /// Called from any thread while references are fed to the caches.
   struct Watch {
-    std::function<void()> check;        ///< often; may throw
-    std::function<void()> fed = [] {};  ///< once for each of cache_count()
+    std::function<void()> check; ///< called often; may throw
+    std::function<void()> fed = [] {}; ///< called once for each of cache_count()
   };
 
-  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. On all cores. Throws what a policy or check()
-  /// does.
+  /// `reference_count` is the denominator of a share of misses; `sizes` are in pages. Uses all cores. Throws what a policy or
+  /// check() throws.
   CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count, std::vector<std::uint32_t> sizes,
               Policies more, const Watch& watch);
 
   static std::uint64_t cache_count(std::size_t node_count, std::size_t size_count, Policies more);
-  /// The columns of the cells that row() has. `share`: what the second says that the cache is a share of.
+  /// Returns the columns of the cells that row() has. `share` heads the second: the whole of which the cache is a share.
   static std::vector<Column> columns(const std::string& share, Policies more);
   static Plot plot(Policies more);
   static PlotAxis size_axis();
-  /// Where the figures come from.
+  /// Returns a note on the source of the figures.
   static std::string note();
 
   const std::vector<std::uint32_t>& sizes() const { return sizes_; }
   std::vector<Cell> row(std::size_t index, std::uint32_t page_count) const;
-  /// One for each size.
+  /// Adds a row for each size.
   void add_rows(std::uint32_t page_count, Table& table) const;
-  /// How many pages the nodes have to do with.
+  /// Returns a note on how many pages the nodes use.
   std::string needs_note() const;
 
  private:
   std::vector<std::uint32_t> sizes_;
   std::uint64_t reference_count_;
   svm::MissCurve lru_;
-  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, of more, then of the optimum
+  std::vector<std::vector<std::uint64_t>> faults_; ///< by size: of each of the other policies, of `more`, then of the optimum
 };
 
-/// Declares --cache-pages: sizes in pages, about 12 of them where none are given.
+/// Declares --cache-pages: sizes in pages, about 12 of them by default.
 void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages);
 
-/// Declares --policy, several times: where policies are, as ForeignPolicy takes it.
+/// Declares --policy, which may be given several times: the location of a policy, as ForeignPolicy takes it.
 void add_policies(OptionSet set, std::vector<std::string>& places);
 
-/// In their order, each with a name of its own. `check` is called meanwhile and may throw. Throws core::InputError as
+/// Loads them in their order; each has its own name. `check` is called meanwhile and may throw. Throws core::InputError as
 /// ForeignPolicy does.
 std::vector<ForeignPolicy> load_policies(const std::vector<std::string>& places, const std::function<void()>& check);
 

@@ -18,11 +18,11 @@ struct StudyOptions {
   PictureOptions picture;
   DatabaseOptions database;
   TableOutput table;
-  std::string machine_name;  ///< as given on the command line, if it was
+  std::string machine_name; ///< as given on the command line
   bool quiet = false;        ///< no progress
 };
 
-/// Declares those that all studies share, and those of the study that `options` holds now.
+/// Declares the options that all studies share, and those of the study that `options` holds now.
 void add_options(OptionSet set, StudyOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::InputError for a scene that cannot be read or outputs that cannot be

@@ -1,4 +1,4 @@
-// The runs of a study: one scene rendered again and again by other computers, which must all give one film.
+// The runs of a study: one scene rendered repeatedly by different computers, which must all give the same film.
 #pragma once
 
 #include <cstddef>
@@ -23,35 +23,36 @@
 
 namespace dmpc::apps {
 
-/// Where the progress of runs is shown, if at all.
+/// Where the progress of runs is shown.
 struct StudyProgress {
   std::ostream& output;
   bool is_shown = false;
 };
 
-/// What became of a run on a modelled machine.
+/// Result of a run on a modelled machine.
 struct StudyOutcome {
   std::optional<Report> report;    ///< of a finished run
-  std::string misfit;              ///< without one: why the scene does not fit, naming the memory and what would do
-  std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
+  std::string misfit; ///< if there is no report: why the scene does not fit, with the memory and a remedy
+  std::vector<std::string> notes; ///< sentences on what had to be reduced to fit
 };
 
-/// Notes of `who`, such as "8 nodes", what was reduced to fit, or why the scene does not.
+/// Adds notes about `who`, such as "8 nodes": what was reduced to fit, or why the scene does not.
 void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table);
 
-/// A run on a modelled machine, and what it renders: the study's scene, maybe in another structure. That outlives the run.
+/// A run on a modelled machine, and the scene that it renders: the study's, maybe in another structure. The scene outlives the
+/// run.
 struct StudyRun {
   StrategyOptions options;
   const core::Database* database;
   const core::RenderSettings* settings;
 };
 
-/// All else by default, on the ipsc2: what studies that model a machine begin from.
+/// Returns the options with which studies that model a machine begin: the ipsc2, and defaults.
 StrategyOptions on_usual_machine();
-/// "Machine ipsc2, ... (machine_digest 0123...)", for a note.
+/// Returns "Machine ipsc2, ... (machine_digest 0123...)", for a note.
 std::string machine_text(const nodes::Machine& machine);
-/// "1 pixel", or of forest "a quarter of a node's share, 16 to 256 pixels": what is in flight on a modelled machine unless asked
-/// otherwise.
+/// Returns "1 pixel", or for forest "a quarter of a node's share, 16 to 256 pixels": what is in flight on a modelled machine by
+/// default.
 std::string in_flight_text(Strategy strategy);
 
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
@@ -65,41 +66,41 @@ class StudyRuns {
   StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
             const Interrupt& interrupt);
 
-  /// So many there will be in all, which progress tells from now on.
+  /// Sets the total number of runs for the progress from now on.
   void expect_runs(std::size_t count) { expected_ = count; }
-  /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` says which they are, in
-  /// a few words, to who is waiting. Rays that travel walk alone: with whom else they walk depends on the schedule, and their
-  /// work on that. Throws as the run does, Interrupted if a signal comes before its end, and core::InternalError if the film is
-  /// not the first run's.
+  /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` names it in a few words
+  /// for a waiting user. Travelling rays are traversed singly: the composition of bundles depends on the schedule, and the work
+  /// depends on the bundles. Throws as the run does, Interrupted if a signal comes before its end, and core::InternalError if the
+  /// film is not the first run's.
   dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
   svm::Report run(const std::string& computer, svm::RunOptions options);
 
-  /// Told of runs[i]: one at a time, in the order of i, on any thread.
+  /// Receives the outcome of runs[i]: one at a time, in the order of i, on any thread.
   using Take = std::function<void(std::size_t, const StudyOutcome&)>;
   /// Renders by any strategies on modelled machines, which have no threads, as many at a time as the real computer has cores.
-  /// After a signal the runs that it stopped or kept from beginning are left out, and check() throws. Throws NothingFits when
-  /// `take` has been told of a misfit for every run, if there are any; before that core::UsageError for options that their
-  /// strategy does not take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has
-  /// then been told of all runs before that one, and of none after it.
+  /// After a signal, the runs that it stopped or prevented are left out, and check() throws. Throws NothingFits after `take` has
+  /// received a misfit for every run, if there are any; before that core::UsageError for options that their strategy does not
+  /// take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has then received all
+  /// runs before that one, and none after it.
   void run_side_by_side(std::span<const StudyRun> runs, const Take& take);
   /// Runs side by side over the study's database.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
-  /// What the study renders.
+  /// The scene that the study renders.
   const core::Database& database() const { return database_; }
   const core::RenderSettings& settings() const { return settings_; }
 
-  /// Throws Interrupted if a signal has come. From any thread.
+  /// Throws Interrupted if a signal has come. Thread-safe.
   void check() const { interrupt_.check(); }
 
-  /// Throws core::InternalError unless `film` equals those that came before: every run's film is held against the first's.
+  /// Throws core::InternalError unless `film` equals the first run's.
   void compare(const core::Film& film);
-  /// A run by somebody else has ended, with a film of this hash: compares, and counts.
+  /// Compares and counts a run carried out elsewhere, whose film has this hash.
   void take(std::uint64_t film_hash);
 
-  /// Runs that have ended.
+  /// Returns the number of finished runs.
   std::uint32_t count() const { return count_; }
-  /// The hash of every run's film; nothing before the first.
+  /// Returns the hash of every run's film; nothing before the first.
   std::optional<std::uint64_t> film_hash() const { return film_hash_; }
 
  private:
@@ -112,10 +113,10 @@ class StudyRuns {
 
   const core::Database& database_;
   const core::RenderSettings& settings_;
-  core::RenderSettings alone_;  ///< the same, for rays that walk alone
+  core::RenderSettings alone_; ///< the same, for rays that are traversed singly
   StudyProgress progress_;
   const Interrupt& interrupt_;
-  std::size_t expected_ = 0;  ///< 0: not known
+  std::size_t expected_ = 0; ///< 0: unknown
   std::uint32_t count_ = 0;
   std::optional<std::uint64_t> film_hash_;
 };

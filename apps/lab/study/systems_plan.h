@@ -1,4 +1,4 @@
-// Which runs the study `systems` is made of, and what each renders.
+// The runs of the study `systems`, and the subject of each.
 #pragma once
 
 #include <compare>
@@ -18,10 +18,10 @@
 
 namespace dmpc::apps {
 
-/// "of the papers".
+/// Returns "of the papers".
 std::string text_of(SystemStructures structures);
 
-/// What a system is rendered from: of structures, rules for voxels and pages all that decides.
+/// What a system is rendered from: the deciding properties of structures, rules for voxels and pages.
 struct StructureAsked {
   core::Structure structure = core::Structure::grid;
   bool is_original = false;         ///< of voxels: by the article's rule
@@ -40,24 +40,24 @@ struct SystemRun {
   StructureAsked asked() const;
 };
 
-/// The runs, the rows, and by row the run that is good for it.
+/// The runs, the rows, and for each row the index of its run.
 struct SystemPlan {
   std::vector<SystemRun> runs, rows;
   std::vector<std::size_t> run_of;
-  /// The runs of one node with the whole scene, that efficiencies are by: the first of all.
+  /// The runs on one node with the whole scene, the base of efficiencies: the first of all.
   std::map<core::Structure, std::size_t> alone;
 };
-/// The rows, each with the first run that is good for it. The study outlives the plan.
+/// Returns the rows, each with the first run that serves it. The study outlives the plan.
 SystemPlan plan_of(const SystemsStudy& study);
 
-/// What a system renders.
+/// The subject of a system's render.
 struct Rendered {
   const core::Database* database;
   const core::RenderSettings* settings;
 };
 
-/// The study's scene, and the same in other structures that its systems ask for, each built when it is first wanted. Not
-/// thread-safe. What it is made from outlives it.
+/// The study's scene, and the same scene in other structures that its systems need, each built on first use. Not thread-safe.
+/// What it is made from outlives it.
 class Structures {
  public:
   Structures(const Rendered& usual, const SystemsStudy::Build& build) : usual_(usual), build_(build) {}

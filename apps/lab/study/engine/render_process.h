@@ -1,4 +1,4 @@
-// A `dmpc render` as a process of its own, and what it tells.
+// Runs `dmpc render` as a separate process, and reads its results.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 
 namespace dmpc::apps {
 
-/// "dmpc: there is no room\n" as "there is no room".
+/// Turns "dmpc: there is no room\n" into "there is no room".
 std::string sentence_of(std::string complaint);
 
-/// What became of it.
+/// Result of such a process.
 struct RenderEnd {
-  std::optional<std::vector<Figure>> figures;       ///< of its --stats; nothing if there was no room for it
-  std::string misfit;                               ///< without figures: why, without a full stop
-  std::optional<std::size_t> peak_anonymous_bytes;  ///< if it was seen with any
+  std::optional<std::vector<Figure>> figures; ///< of its --stats; nothing if there was not enough memory
+  std::string misfit; ///< the reason if there are no figures, without a full stop
+  std::optional<std::size_t> peak_anonymous_bytes; ///< if any was observed
 };
 
-/// Thread-safe, if no two renders at a time have one name.
+/// Thread-safe if no two renders at a time have the same name.
 class RenderProcesses {
  public:
   /// Both outlive it.
@@ -32,13 +32,13 @@ class RenderProcesses {
 
   using Keep = std::function<void(const std::filesystem::path& stats)>;
 
-  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to a scratch file, which `keep` may
-  /// copy once they are read, its picture nowhere. A computer out of memory ends a process by the signal that cannot be caught:
-  /// that is no room, too. Throws Interrupted after a signal, core::InputError if the program cannot be started or its input is
-  /// bad, core::InternalError for any other end.
+  /// Runs `words`, a line of `render` without its outputs, to its end. Its counters go to a scratch file, which `keep` may copy
+  /// once they are read; its picture is discarded. A computer out of memory kills a process with SIGKILL, which also counts as
+  /// not enough memory. Throws Interrupted after a signal, core::InputError if the program cannot be started or its input is bad,
+  /// core::InternalError for any other end.
   RenderEnd run(std::vector<std::string> words, const std::string& name, const Keep& keep = {}) const;
 
-  /// With the words that say where counters and picture go.
+  /// Adds the words for the destinations of counters and picture.
   static std::vector<std::string> with_outputs(std::vector<std::string> words, const std::string& stats,
                                                const std::string& picture);
 

@@ -1,4 +1,4 @@
-// What studies of one scene have in common on the command line, and in their tables' last words.
+// Command line options and closing notes that all studies of one scene share.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace dmpc::apps {
 
-/// Where a study declares the options that are its own.
+/// The context in which a study declares its own options.
 struct StudyLine {
   OptionSet set;
-  std::string& machine_name;  ///< becomes what was typed, if a machine was: the table must not replace its file
-  DatabaseOptions& database;  ///< of the scene
+  std::string& machine_name; ///< set to the typed text if a machine was typed: the table must not replace its file
+  DatabaseOptions& database; ///< of the scene
 };
 
-/// Declares --nodes: several numbers, whose defaults are those there.
+/// Declares --nodes: several numbers, whose defaults are in `counts`.
 void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts);
 
-/// The last row that has a number in each of these columns; nullptr if none has.
+/// Returns the last row that has a number in each of these columns; nullptr if there is none.
 const std::vector<Cell>* last_with(const Table& table, std::initializer_list<std::string_view> names);
-/// "64 nodes", by the column `nodes`.
+/// Returns "64 nodes", from the column `nodes`.
 std::string nodes_text(const Table& table, const std::vector<Cell>& row);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Where the nodes' time goes, as columns of a table.
+// Columns for the parts of the nodes' time.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Adds a column for each part of a time, with what parts(subject), TimeParts or none, has of it in percent.
+/// Adds a column for each part of time, in percent of parts(subject), which is TimeParts or nothing.
 template <class Subject, class Parts>
 void add_time_parts(int digits, const Parts& parts, FilledColumns<Subject>& columns) {
   for (std::size_t part = 0; part < time_part_count; ++part) {
@@ -20,7 +20,7 @@ void add_time_parts(int digits, const Parts& parts, FilledColumns<Subject>& colu
   }
 }
 
-/// "data wait" of the column "data_wait".
+/// Returns "data wait" for the column "data_wait".
 inline std::string time_part_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

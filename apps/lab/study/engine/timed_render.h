@@ -1,4 +1,4 @@
-// A render whose phase `render` is timed, by nobody watched.
+// Times the phase `render` of a render without observers.
 #pragma once
 
 #include "apps/frontend/system/interrupt.h"
@@ -15,7 +15,7 @@ struct TimedRender {
   Times times;
 };
 
-/// Makes the run ready, then times it. Throws as make_ready() and the run do, Interrupted if a signal comes before its end.
+/// Prepares the run, then times it. Throws as make_ready() and the run do, Interrupted if a signal comes before its end.
 TimedRender render_timed(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                          const Interrupt& interrupt);
 

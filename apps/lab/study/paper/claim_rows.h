@@ -11,16 +11,16 @@
 
 namespace dmpc::apps {
 
-/// What becomes of a claim.
+/// Verdicts on a claim.
 inline constexpr const char *held = "held", *not_held = "not held", *tie = "a tie", *not_judged = "not judged";
 
-/// Times that differ by no more than this share do not tell which is better.
+/// Times that differ by no more than this share count as equal.
 inline constexpr double tie_share = 0.01;
 
 /// Rows of claims.
 class Claims {
  public:
-  /// Prices are fitted to the article's resolution: pictures of another say nothing about its claims.
+  /// Prices are fitted to the article's resolution, so pictures of another resolution do not judge its claims.
   Claims(const std::string& title, std::uint32_t resolution)
       : is_judged_(resolution == paper_resolution), table_(title, {{"claim"}, {"verdict"}, {"found"}}) {}
 
@@ -35,8 +35,8 @@ class Claims {
   Table table_;
 };
 
-/// That trees of extents need less memory but more time than a subdivision of space, which are these runs of one node with the
-/// whole scene; `remark` stands behind the figures.
+/// Adds the claim that trees of extents need less memory but more time than a subdivision of space; these are the runs on one
+/// node with the whole scene. `remark` follows the figures.
 void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents,
                    const std::string& remark);
 

@@ -1,4 +1,4 @@
-// What the article of 1994 prints: D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for Ray Tracing in
+// The printed figures of the 1994 article: D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for Ray Tracing in
 // Parallel", IEEE CG&A 14(4), Tables 2 and 3.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// About so many KB of the 4 MB of a node's memory serve the shared memory: its own pages and its cache. So says the text.
+/// According to the text, about this many KB of the 4 MB of a node's memory are shared memory: its own pages and its cache.
 inline constexpr double shared_kilobytes = 3.2 * 1024;
 
 /// Pixels a side of its pictures.
@@ -20,12 +20,12 @@ inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 1
 
 /// A cell of Table 3.
 struct PaperPlace {
-  std::size_t scene = 0, column = 0;  ///< of paper_scenes and paper_node_counts
+  std::size_t scene = 0, column = 0; ///< indices in paper_scenes and paper_node_counts
 
   bool operator==(const PaperPlace&) const = default;
 };
 
-/// One of its scenes, and which of ours stands for it.
+/// A scene of the article, and our corresponding scene.
 struct PaperScene {
   const char* title;
   const char* scene;  ///< a built-in scene's name
@@ -34,7 +34,7 @@ struct PaperScene {
   double pages_a_pixel;                              ///< Table 2
   std::array<std::uint32_t, 7> seconds;              ///< Table 3, by paper_node_counts; 0: not printed
 
-  /// The first column with a time: what its efficiencies are held against.
+  /// Returns the first column with a time, the base of its efficiencies.
   std::size_t base() const {
     std::size_t column = 0;
     while (seconds[column] == 0) {
@@ -42,8 +42,8 @@ struct PaperScene {
     }
     return column;
   }
-  /// What the cache of one of so many nodes holds, as a share of the database: what is left of the shared memory, of so many KB,
-  /// beside the node's own pages, at most all others.
+  /// Returns the size of the cache of one of `node_count` nodes as a share of the database: the rest of the shared memory, of
+  /// `shared` KB, beside the node's own pages, at most all others.
   constexpr double cache_share(std::uint32_t node_count, double shared = shared_kilobytes) const {
     const double own = 1.0 / node_count;
     return std::clamp(shared / static_cast<double>(database_kilobytes) - own, 0.0, 1 - own);

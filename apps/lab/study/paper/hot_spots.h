@@ -1,4 +1,4 @@
-// How unevenly what travels comes to the nodes: where the lights are, and where pages are at home.
+// How unevenly rays and pages are distributed over the nodes: by the positions of lights, and by the homes of pages.
 #pragma once
 
 #include "core/database/database.h"
@@ -8,14 +8,14 @@
 
 namespace dmpc::apps {
 
-/// The finest cell of the grid that a light lies in, or that is nearest to it.
+/// Returns the finest cell of the grid that contains a light, or is nearest to it.
 core::Corner cell_of_light(const core::DatabaseHeader& header, const core::LightRecord& light);
 
-/// Shadow rays that come to the region of a light from others, over the mean of all regions: of the light with the most. 0
-/// without lights, and where no shadow ray travels.
+/// Returns the shadow rays that come to the region of a light from others, over the mean of all regions, for the light with the
+/// most. 0 without lights, or if no shadow ray travels.
 double shadow_flood(const core::Database& database, const dataflow::Report& report);
 
-/// Pages that a node sends, over the mean of all nodes: of the node that sends most. 0 where no page travels.
+/// Returns the pages that a node sends, over the mean of all nodes, for the node that sends the most. 0 if no page travels.
 double page_flood(const svm::Report& report);
 
 }  // namespace dmpc::apps

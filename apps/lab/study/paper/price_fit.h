@@ -1,4 +1,4 @@
-// Prices of operations by least squares over cells of the article's Table 3.
+// Fits prices of operations by least squares over cells of the article's Table 3.
 #pragma once
 
 #include <array>
@@ -10,24 +10,24 @@
 
 namespace dmpc::apps {
 
-/// What a ray takes in a run whose pages travelled, in node-milliseconds, as it hangs on the prices.
+/// The time of a ray in a run with travelling pages, in node-milliseconds, as a function of the prices.
 struct RayTime {
-  std::array<double, 3> per_price{};  ///< for one of each of VoxelPrices, in their order; nodes that idle for want of work do
-                                      ///< so for as much longer as computing takes longer
-  double rest = 0;                    ///< messages and waits for pages, as they were in the run
+  std::array<double, 3> per_price{}; ///< per unit of each of VoxelPrices, in their order; idle time for want of work grows in
+                                      ///< proportion to computing
+  double rest = 0; ///< messages and waits for pages, as in the run
 
   double milliseconds(const VoxelPrices& prices) const;
 };
-/// A run on voxel_machine() with this number of nodes.
+/// Returns the ray time of a run on voxel_machine() with this number of nodes.
 RayTime ray_time_of(const PaperResult& result);
 
-/// A cell to be met.
+/// A cell to be fitted.
 struct PricedCell {
   RayTime time;
   double printed = 0;  ///< node-milliseconds a ray
 };
-/// The non-negative prices with the least squares of relative errors; where cells leave some of them open, those are 0. Nothing
-/// of no cells.
+/// Returns the non-negative prices with the least squares of relative errors; prices that the cells do not determine are 0.
+/// Returns nothing if there are no cells.
 std::optional<VoxelPrices> fit_prices(std::span<const PricedCell> cells);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The report of the study `paper`: its tables, and the pictures of them.
+// The report of the study `paper`: its tables and their pictures.
 #pragma once
 
 #include <cstdint>
@@ -22,35 +22,35 @@ struct NamedTable {
 
 struct PaperReport {
   std::vector<NamedTable> tables;
-  std::uint32_t resolution = 0;  ///< pixels a side of the pictures that the tables are of
+  std::uint32_t resolution = 0; ///< pixels a side of the pictures on which the tables are based
   bool is_complete = true;       ///< no row is missing
 };
 
-/// In Markdown, without pictures.
+/// Returns the report in Markdown, without pictures.
 std::string text_of(const PaperReport& report);
 
-/// What write_report() writes, whatever rows the tables have, as outputs of `option`.
+/// Returns the files that write_report() writes, whatever rows the tables have, as outputs of `option`.
 std::vector<OutputName> report_files(const PaperReport& report, const std::filesystem::path& folder, const std::string& option);
 
 /// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
-/// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in
-/// report.md, too. Each file is one of the attempts.
+/// the text with links to the pictures as report.md. Returns sentences about pictures that could not be drawn, which report.md
+/// has, too. Each file is one attempt.
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
 
-/// The report as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
-/// written.
+/// Returns the report as a page. Pictures that could not be drawn are reported to `complaints`. Throws core::InputError if no
+/// temporary file can be written.
 std::string page_of(const PaperReport& report, std::ostream& complaints);
 
 /// A plot of one of its tables.
 struct PaperPlot {
-  std::string table;  ///< by the name of its files: "table_3"
+  std::string table; ///< name of the table's files: "table_3"
   Plot plot;
 };
 
-/// What the article prints is drawn as points, what we found as lines or bars.
+/// The article's values are drawn as points, ours as lines or bars.
 std::vector<PaperPlot> paper_plots();
 
-/// `name` is that of the table's files: "table_3". Empty for a table that there is not.
+/// `name` is that of the table's files: "table_3". Returns an empty text for an unknown table.
 std::string paper_conclusion(const std::string& name, const Table& table);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The runs behind the study `paper`: the article's scenes on modelled machines, as many at once as there are cores.
+// The runs of the study `paper`: the article's scenes on modelled machines, as many at a time as there are cores.
 #pragma once
 
 #include <array>
@@ -29,46 +29,48 @@ struct PaperRun {
   std::uint32_t node_count = 1;
   Strategy strategy = Strategy::svm;
   nodes::Machine machine;
-  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
-  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm, in place of a share: what a node's cache holds
-  /// For svm, in place of either: what a node's own pages leave of so many for its cache, at most all others, at least a page.
+  std::optional<double> cache_share = std::nullopt; ///< svm: size of a node's cache as a share of the database; at least a page
+  std::optional<std::uint32_t> cache_pages = std::nullopt; ///< svm: size of a node's cache, in place of a share
+  /// svm, in place of either: pages of a node's shared memory. The cache gets what the node's own pages leave of them, at most
+  /// all others, at least a page.
   std::optional<std::uint32_t> shared_pages = std::nullopt;
-  /// Grid: dmpc's own. Voxels: the article's, by core::article_voxels, without the skips that its program did not have.
+  /// Grid is dmpc's own structure; voxels is the article's, by core::article_voxels, without the skips that its program did not
+  /// have.
   core::Structure structure = core::Structure::grid;
-  bool lacks_later_skips = false;             ///< of grid and extents: without those skips, too
-  svm::PageOptions pages = {.in_flight = 1};  ///< of svm and replicated, but for the cache
-  dataflow::RayOptions rays = {};             ///< of dataflow; regions are mapped onto the machine
+  bool lacks_later_skips = false; ///< grid and extents: also without those skips
+  svm::PageOptions pages = {.in_flight = 1}; ///< svm and replicated, except for the cache
+  dataflow::RayOptions rays = {}; ///< dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
   std::size_t page_size_bytes = 1024;
-  /// One light in the middle of the scene, which is Rings4, in place of its own, which stand outside. Rays then visit the regions
-  /// on their way where they meet nothing, too.
+  /// One light in the middle of the scene, which is Rings4, replaces its own lights, which are outside. Rays then also visit
+  /// regions on their way in which they hit nothing.
   bool has_inner_light = false;
 };
 
-/// What it came to.
+/// Result of a run.
 struct PaperResult {
   std::uint64_t total_ns = 0;
   TimeParts parts;  ///< summed over the nodes
   std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
   std::uint64_t tests = 0;        ///< of rays against primitives
-  core::ChargeCounts charges{};   ///< what computing was charged, if pages travelled
+  core::ChargeCounts charges{}; ///< operations that computing was charged for, if pages travelled
   double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
-  double overflowed = 0;          ///< packets of rays by way of the host over all, in [0, 1]
-  std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by whatever way
-  double flood = 0;               ///< what comes to a light's region or from a page's home, over the mean (hot_spots.h)
+  double overflowed = 0; ///< packets of rays sent by way of the host over all, in [0, 1]
+  std::uint64_t ray_bytes = 0; ///< of the packets with rays, by either way
+  double flood = 0; ///< arrivals at a light's region or at a page's home, over the mean (hot_spots.h)
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::size_t database_bytes = 0;
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
-  /// Percent of the nodes' time.
+  /// Returns the percentage of the nodes' time.
   double percent(TimePart part) const { return parts.percent()[static_cast<std::size_t>(part)]; }
-  /// The share of the look-ups of pages for which a page had to travel.
+  /// Returns the share of page look-ups for which a page had to travel.
   double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
-  /// Bytes of pages that a node receives a second.
+  /// Returns the bytes of pages that a node receives per second.
   double page_rate(std::uint32_t node_count) const {
     return static_cast<double>(page_bytes) / static_cast<double>(node_count) / seconds();
   }
@@ -85,68 +87,70 @@ struct PaperSubject {
   bool lacks_later_skips = false;
   Subject subject;
 
-  /// Whether it is the run's.
+  /// Returns whether this is the run's scene.
   bool is_of(const PaperRun& run) const {
     return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
            page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light && structure == run.structure &&
            lacks_later_skips == run.lacks_later_skips;
   }
 };
-/// Loads the scenes that the runs need. Takes a second or so for the largest.
+/// Loads the scenes that the runs need. The largest takes about a second.
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
-/// The one that the run needs, which must be there.
+/// Returns the subject that the run needs, which must exist.
 const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects);
 
-/// By a run's number; nothing where it did not come to its end.
+/// Results by a run's index; nothing if it was not completed.
 using PaperResults = std::vector<std::optional<PaperResult>>;
 
-/// `told` hears of each result, when it has its place. Gives each run its place in `results`, as many as runs; after a signal
-/// some are left as they are, the last ones mostly. Progress on stderr if that is a terminal. Throws core::InternalError if two
-/// runs of one scene and size give different films, and whatever a run throws: `results` has what was finished before.
+/// Stores each run's result in `results`, which has as many elements as there are runs, and then reports it to `told`; after a
+/// signal some results, mostly the last, are left unchanged. Progress goes to stderr if that is a terminal. Throws
+/// core::InternalError if two runs of one scene and size give different films, and whatever a run throws: `results` has what was
+/// finished before.
 void carry_out(
     std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
     const std::function<void()>& reported = [] {});
 
 struct Catalogue;
 
-/// Numbers of runs, one for each of paper_node_counts.
+/// Indices of runs, one for each of paper_node_counts.
 using RunsByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
 
 /// Pages of a node's shared memory: its own and its cache.
 inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes);
 
-/// Numbers of runs, one for each of paper_scenes.
+/// Indices of runs, one for each of paper_scenes.
 using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
 
-/// The runs that the prices of voxel_machine() are fitted to: the smallest and the largest machine of Mountain and of Rings4.
+/// The runs to which the prices of voxel_machine() are fitted: the smallest and the largest machine of Mountain and of Rings4.
 inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
 
 /// A scene of the article's Figures 8 to 10, on 32 nodes.
 struct VoxelCaches {
-  std::size_t scene = 0;                 ///< of paper_scenes
+  std::size_t scene = 0; ///< index in paper_scenes
   std::array<std::uint32_t, 6> pages{};  ///< of 1 KB
 };
-/// The sizes of cache_scenes with which a picture does not take minutes: with smaller ones most look-ups of another page miss.
+/// The sizes of cache_scenes with which a picture does not take minutes: with smaller caches most look-ups of another node's page
+/// miss.
 inline constexpr std::array<VoxelCaches, 2> voxel_caches_tried = {
     {{2, {102, 204, 408, 811, 1621, 3242}}, {3, {51, 102, 204, 408, 1448, 2895}}}};
 
-/// Nodes that regions of Rings3 are cut for.
+/// Numbers of nodes for which regions of Rings3 are cut.
 inline constexpr std::array<std::uint32_t, 3> loaded_node_counts = {16, 32, 64};
 
-/// Numbers of runs, by scene.
+/// Indices of runs, by scene.
 struct VoxelRuns {
   RunsByScene counted{};                                                       ///< Table 2
   RunsByScene extents{};                                                       ///< the same on a tree of extents
   std::array<RunsByNodeCount, paper_scenes.size()> timed{};                    ///< Table 3
-  RunsByScene one_worker{};                                                    ///< on the smallest machine that is printed
-  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{};  ///< by size; on one node: those that are counted
-  /// Rays that travel, Rings3, by loaded_node_counts: regions by a subsampled picture, cut in alternating directions, and of
+  RunsByScene one_worker{}; ///< on the smallest printed machine
+  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{}; ///< by size; the runs on one node are `counted`
+  /// Travelling rays on Rings3, by loaded_node_counts: regions from a subsampled picture, cut in alternating directions, and of
   /// equal size; and one node.
   std::array<std::size_t, loaded_node_counts.size()> subsampled{}, equal_size{};
   std::size_t one_region = 0;
 };
 
-/// Adds them.
+/// Adds the runs on voxels to the catalogue.
 void add_voxel_runs(Catalogue& catalogue);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// How much of Table 3 hangs on each figure of the modelled machine.
+// How much Table 3 depends on each figure of the modelled machine.
 #pragma once
 
 #include <array>
@@ -14,20 +14,20 @@ namespace dmpc::apps {
 /// A machine with one of its figures changed.
 struct Variation {
   std::string figure;
-  std::string value;   ///< as it is unchanged, with its unit; empty for a switch
-  std::string change;  ///< "-20 %", "+20 %"; in words if it is neither, and then no part of the picture
+  std::string value; ///< unchanged value with its unit; empty for a switch
+  std::string change; ///< "-20 %", "+20 %"; other changes are in words and not in the picture
   nodes::Machine machine;
 };
 
-/// Each price of an operation that is not zero by a fifth less and more, all of them together, the figures of messages and of the
-/// interrupt likewise, a home look-up (which is free in the presets) at a fifth of a cached one's price, and without contention.
-/// Prices of operations that no run of Table 3 does are left out: spheres, cones, and rays that travel.
+/// Returns these variations: each price of an operation other than zero a fifth lower and higher, all of them together, the
+/// figures of messages and of the interrupt likewise, a home look-up (free in the presets) at a fifth of a cached one's price,
+/// and no contention. Prices of operations that no run of Table 3 performs are left out: spheres, cones, and travelling rays.
 std::vector<Variation> variations_of(const nodes::Machine& machine);
 
-/// The runs whose efficiencies are watched: Mountain on 2 and 64 nodes, Rings4 on 64, Tetra9 on 32 and 64.
+/// The cells whose efficiencies are compared: Mountain on 2 and 64 nodes, Rings4 on 64, Tetra9 on 32 and 64.
 inline constexpr std::array<PaperPlace, 5> watched_cells = {{{1, 1}, {1, 6}, {2, 6}, {3, 5}, {3, 6}}};
 
-/// The runs of one variation, by scene and column: those of the watched cells and of what they are held against.
+/// The runs of one variation, by scene and column: those of the watched cells and of their bases.
 struct VariedRuns {
   Variation variation;
   std::array<Catalogue::ByNodeCount, paper_scenes.size()> timed{};
@@ -36,8 +36,8 @@ struct VariedRuns {
 /// Adds the runs of all variations of Table 3's machine, one variation after the other, to the catalogue.
 std::vector<VariedRuns> add_variations(Catalogue& catalogue);
 
-/// A row a variation whose runs have ended: what becomes of the watched cells' efficiencies, and of how far they lie from what is
-/// printed.
+/// Returns a row for each variation whose runs have ended: its effect on the watched cells' efficiencies, and on their
+/// differences from the printed ones.
 Table sensitivity(const Catalogue& catalogue, const PaperResults& results, const std::vector<VariedRuns>& varied);
 
 }  // namespace dmpc::apps

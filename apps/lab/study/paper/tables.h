@@ -1,4 +1,4 @@
-// The tables of the study `paper`: what the article prints beside what our runs came to.
+// The tables of the study `paper`: the article's printed values beside our results.
 #pragma once
 
 #include <algorithm>
@@ -16,23 +16,23 @@
 
 namespace dmpc::apps {
 
-/// In percent: how well `node_count` nodes are used, against `base_count`.
+/// Returns the efficiency of `node_count` nodes in percent, against `base_count`.
 constexpr double efficiency(double base_seconds, std::uint32_t base_count, double seconds, std::uint32_t node_count) {
   return 100 * base_seconds * base_count / (seconds * node_count);
 }
 
-/// The efficiency that is printed in a scene's row of Table 3, against the row's first time. Requires a column with a time.
+/// Returns the printed efficiency in a scene's row of Table 3, against the row's first time. Requires a column with a time.
 inline double printed_efficiency(const PaperScene& scene, std::size_t column) {
   const std::size_t base = scene.base();
   return efficiency(scene.seconds[base], paper_node_counts[base], scene.seconds[column], paper_node_counts[column]);
 }
-/// The efficiency of a row of runs, against the one at `base`; nothing if either has no result.
+/// Returns the efficiency of a row of runs, against the one at `base`; nothing if either has no result.
 std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
                                        std::size_t column);
 
-/// What Table 3 says of one scene on so many nodes, printed and found; nothing if it is not printed or not known.
+/// A cell of Table 3, printed and found; either is nothing if it is not printed or not known.
 struct CellOfTable3 {
-  std::size_t scene = 0;  ///< of paper_scenes
+  std::size_t scene = 0; ///< index in paper_scenes
   const char* title = "";
   std::uint32_t nodes = 0;
   double printed_seconds = 0, seconds = 0, printed_efficiency = 0, efficiency = 0;
@@ -41,17 +41,17 @@ struct CellOfTable3 {
   bool is_base = false;
   TimeParts parts;
 
-  /// Neither calibrated nor 100 % by definition.
+  /// Returns whether the cell is neither calibrated nor 100 % by definition.
   bool is_predicted() const { return !is_calibrated && !is_base; }
-  /// In percent, against one worker.
+  /// Returns the efficiency in percent, against one worker.
   std::optional<double> efficiency_by_worker() const {
     return one_worker_seconds ? std::optional(apps::efficiency(*one_worker_seconds, 1, seconds, nodes)) : std::nullopt;
   }
 };
-/// How many are printed.
+/// Returns the number of printed cells.
 std::size_t printed_cell_count();
 
-/// How far predictions lie from what is printed, in points.
+/// Differences of predictions from printed values, in points.
 struct Differences {
   double sum = 0, worst = 0;
   std::uint32_t count = 0;
@@ -65,44 +65,44 @@ struct Differences {
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
-/// All that are printed and whose runs have ended, scene by scene.
+/// Returns all printed cells whose runs have ended, scene by scene.
 std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results);
 
-/// Says in a note how many of its `expected` rows are missing, if any: their runs were interrupted, or an error ended the study.
+/// Adds a note on how many of the `expected` rows are missing, if any: their runs were interrupted, or an error ended the study.
 void note_missing_rows(Table& table, std::size_t expected);
 
-/// Each has the rows whose runs have ended, and says how many are missing.
+/// Each table has the rows whose runs have ended, and says how many are missing.
 Table table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
 Table table_3(const Catalogue& catalogue, const PaperResults& results);
-/// Where the time of the nodes of Table 3 goes.
+/// The parts of the nodes' time in Table 3.
 Table losses(const Catalogue& catalogue, const PaperResults& results);
-/// Figures 5 and 7: rays that travel beside pages that travel.
+/// Figures 5 and 7: travelling rays beside travelling pages.
 Table algorithms(const Catalogue& catalogue, const PaperResults& results);
-/// What the ways for rays to travel are worth on 64 nodes.
+/// Effect of the variants of travelling rays on 64 nodes.
 Table ray_ways(const Catalogue& catalogue, const PaperResults& results);
-/// "3x3", or "static" of 0.
+/// Returns "3x3", or "static" for 0.
 std::string item_text(std::uint32_t side);
-/// What the size of a work item is worth.
+/// Effect of the size of a work item.
 Table work_items(const Catalogue& catalogue, const PaperResults& results);
-/// What the size of a page is worth where software looks pages up, and where hardware does.
+/// Effect of the page size with page look-ups in software and in hardware.
 Table page_sizes(const Catalogue& catalogue, const PaperResults& results);
-/// Figures 8 to 10: what the size of the cache is worth.
+/// Figures 8 to 10: effect of the cache size.
 Table caches(const Catalogue& catalogue, const PaperResults& results);
 
-/// Efficiencies of the scenes that miss pages: with caches of the article's share of the database, as in Table 3, the same with
-/// records without an order in space, with the share that the article's Figures 8 to 10 speak for, and with memories of its 4 MB;
-/// each beside what is printed.
+/// Efficiencies of the scenes that miss pages: with caches of the article's share of the database, as in Table 3; the same with
+/// records without an order in space; with the share that the article's Figures 8 to 10 suggest; and with memories of its 4 MB.
+/// Each stands beside the printed value.
 Table memories(const Catalogue& catalogue, const PaperResults& results);
-/// A row a claim of the article's text whose runs have ended: the claim, "held" or "not held", and what was found. Of pictures
-/// that are not of the article's resolution none is judged.
+/// A row for each claim of the article's text whose runs have ended: the claim, "held" or "not held", and the result. Nothing is
+/// judged from pictures of another resolution than the article's.
 Table claims(const Catalogue& catalogue, const PaperResults& results);
 
 /// A cell of Table 3 whose run on voxels has ended.
 struct VoxelCell {
   PaperPlace place;
   double printed_seconds = 0, seconds = 0;
-  PricedCell ray;           ///< node-milliseconds of a ray, by prices; printed over the rays that are printed
-  double milliseconds = 0;  ///< node-milliseconds of a ray, found
+  PricedCell ray; ///< node-milliseconds of a ray, by prices; printed ones over the printed number of rays
+  double milliseconds = 0; ///< node-milliseconds of a ray in our run
   double printed_efficiency = 0;
   std::optional<double> efficiency;  ///< nothing if the scene's smallest machine has no time
   std::optional<double> one_worker_seconds;
@@ -111,25 +111,26 @@ struct VoxelCell {
   std::uint32_t nodes() const { return paper_node_counts[place.column]; }
   bool is_base() const { return place.column == scene().base(); }
   bool is_fitted() const;
-  /// Found over printed. Per ray since ours are not quite as many as the article's (Table 2), and prices are those of a ray.
+  /// Returns found over printed. Both are per ray, since our rays are slightly fewer than the article's (Table 2), and prices are
+  /// those of a ray.
   double ratio() const { return milliseconds / ray.printed; }
 };
-/// Scene by scene.
+/// Returns the cells scene by scene.
 std::vector<VoxelCell> voxel_cells(const Catalogue& catalogue, const PaperResults& results);
 
-/// Kilobytes and pages a pixel beside what is printed.
+/// Kilobytes and pages a pixel beside the printed values.
 Table voxel_table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
-/// Seconds and efficiencies beside what is printed.
+/// Seconds and efficiencies beside the printed values.
 Table voxel_table_3(const Catalogue& catalogue, const PaperResults& results);
-/// The machine's prices beside those that its four cells ask for.
+/// The machine's prices beside those that its four cells require.
 Table voxel_prices(const Catalogue& catalogue, const PaperResults& results);
-/// What prices fitted to any two scenes, smallest and largest machine, say of all: a row a pair.
+/// Predictions for all cells from prices fitted to any two scenes, smallest and largest machine: a row for each pair.
 Table voxel_pairs(const Catalogue& catalogue, const PaperResults& results);
-/// Figures 8 to 10: what the size of the cache, in the article's pages, is worth on 32 nodes.
+/// Figures 8 to 10: effect of the cache size, in the article's pages, on 32 nodes.
 Table voxel_caches(const Catalogue& catalogue, const PaperResults& results);
-/// How evenly regions of Rings3 are loaded.
+/// Balance of the load of Rings3's regions.
 Table voxel_loads(const Catalogue& catalogue, const PaperResults& results);
-/// Claims of the article's text that a structure decides, as claims() has them of dmpc's grid.
+/// Claims of the article's text that depend on the structure, as claims() has them for dmpc's grid.
 Table voxel_claims(const Catalogue& catalogue, const PaperResults& results);
 
 }  // namespace dmpc::apps

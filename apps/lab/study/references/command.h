@@ -1,4 +1,4 @@
-// The command `study references`: what caches would miss of references that a file has.
+// The command `study references`: cache misses for references from a file.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 namespace dmpc::apps {
 
 struct ReferencesOptions {
-  std::string file;                        ///< "-": the standard input
-  ReferenceColumns columns;                ///< what those of the file are called
+  std::string file; ///< "-" is the standard input
+  ReferenceColumns columns; ///< their names in the file
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages
-  std::vector<std::string> policies;       ///< that are not dmpc's own, as ForeignPolicy takes them
+  std::vector<std::string> policies; ///< other than dmpc's own, as ForeignPolicy takes them
   TableOutput table;
   bool quiet = false;  ///< no progress
 };
@@ -26,7 +26,7 @@ struct ReferencesOptions {
 void add_options(OptionSet set, ReferencesOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for references that
-/// cannot be read and outputs that cannot be made, core::CapacityError for more than there is memory for.
+/// cannot be read and outputs that cannot be made, core::CapacityError for more references than fit memory.
 int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

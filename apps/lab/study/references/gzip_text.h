@@ -1,4 +1,4 @@
-// What a text packed by gzip says.
+// Reads a text packed by gzip.
 #pragma once
 
 #include <istream>
@@ -8,10 +8,10 @@
 
 namespace dmpc::apps {
 
-/// Reading throws core::InputError, a sentence that goes on "PATH: ...", for what is damaged or cut short. Not thread-safe.
+/// Reading throws core::InputError, a sentence that continues "PATH: ...", if the data are damaged or truncated. Not thread-safe.
 class GzipText final : private std::streambuf, public std::istream {
  public:
-  /// `packed` outlives it: one file after the other, as gzip writes and joins them (RFC 1952).
+  /// `packed` outlives it; it has one or several files in sequence, as gzip writes and joins them (RFC 1952).
   explicit GzipText(std::istream& packed);
   ~GzipText() override;
 
@@ -19,9 +19,9 @@ class GzipText final : private std::streambuf, public std::istream {
   struct Stream;
 
   std::streambuf::int_type underflow() override;
-  /// Some bytes more of what is packed; false at the end.
+  /// Reads more packed bytes; returns false at the end.
   bool take_packed();
-  /// The bytes of text that are new; 0 at the end.
+  /// Returns the number of new bytes of text; 0 at the end.
   std::size_t unpack();
 
   std::istream& packed_;

@@ -1,4 +1,4 @@
-// The command `study scale`: what larger scenes and more nodes take, and how fast that grows.
+// The command `study scale`: the cost of larger scenes and more nodes, and its growth.
 #pragma once
 
 #include <iosfwd>
@@ -19,8 +19,8 @@ struct ScaleOptions {
 /// Declares them.
 void add_options(OptionSet set, ScaleOptions& options);
 
-/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for scenes that
-/// there are not, for outputs that cannot be made, or if no run found room (core::CapacityError); and as measure_scale().
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for unknown scenes
+/// or outputs that cannot be made, core::CapacityError if no run had enough memory; and as measure_scale().
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

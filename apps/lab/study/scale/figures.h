@@ -1,4 +1,4 @@
-// What one run of the study `scale` is found to take.
+// The measured costs of one run of the study `scale`.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@
 
 namespace dmpc::apps {
 
-/// Its columns of the table. Seconds of wall clock by phase, as `render --stats` has them, and of all; `processor` those of all
-/// threads together in the phase render. Bytes as megabytes. Memory: the process's anonymous memory at its peak, above that of a
-/// dmpc that does nothing; local memory: all nodes' together. Moves: how often a ray of dataflow goes on to another node.
+/// The table's columns. Seconds are wall clock by phase, as in `render --stats`, and in total; `processor` is that of all threads
+/// together in the phase render. Bytes are in megabytes. Memory is the peak of the process's anonymous memory above that of an
+/// idle dmpc; local memory is that of all nodes together. Moves count how often a ray of dataflow goes on to another node.
 const std::vector<Column>& scale_figure_columns();
 
 struct ScaleFigures {
-  std::map<std::string, double> by_name;  ///< of the columns, as far as they apply
+  std::map<std::string, double> by_name; ///< of the applicable columns
   std::uint64_t primitives = 0;           ///< in the database
   std::string film_hash;
 
@@ -31,14 +31,15 @@ struct ScaleFigures {
   }
 };
 
-/// From what `render --stats` writes, and the memory if it is known. Throws core::InternalError if figures are missing there.
+/// Reads them from the output of `render --stats`, with the memory if it is known. Throws core::InternalError if figures are
+/// missing there.
 ScaleFigures scale_figures_of(const std::vector<Figure>& stats, std::optional<std::size_t> memory_bytes);
 
-/// Median by median of runs that give one film, which is asserted. Requires one at least.
+/// Returns the medians, figure by figure, of runs with the same film, which is asserted. Requires at least one.
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds);
 
-/// The slope of log y over log x by least squares: y grows as x to that power. Only points with both above 0 count; nothing
-/// unless two of those differ in x. Points are (x, y).
+/// Returns the slope of log y over log x by least squares: y grows as x to that power. Only points (x, y) with both above 0
+/// count; returns nothing unless two of those differ in x.
 std::optional<double> growth_exponent(std::span<const std::pair<double, double>> points);
 
 }  // namespace dmpc::apps

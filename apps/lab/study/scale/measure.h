@@ -1,4 +1,4 @@
-// The runs of the study `scale`: each is a `dmpc render` of its own, whose memory is watched.
+// The runs of the study `scale`: each is a separate `dmpc render` whose memory is observed.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,20 @@
 
 namespace dmpc::apps {
 
-/// What became of a run.
+/// Result of a run.
 struct ScaleResult {
   ScaleRun run;
   std::optional<ScaleFigures> figures;
-  std::string misfit;  ///< without figures: a sentence that says why, without its full stop
+  std::string misfit; ///< if there are no figures: a sentence that says why, without its full stop
 };
 
-/// The words after `dmpc`, but for its outputs.
+/// Returns the words after `dmpc`, without outputs.
 std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettings& settings);
 
-/// Carries the runs out one after the other, each settings.rounds times, and tells `take` of each; progress goes to stderr if
-/// that is a terminal. A run that this computer or the nodes' memory has no room for is a misfit. Throws Interrupted after a
-/// signal, core::InputError if the program cannot be run or refuses its input for another reason than a lack of room,
-/// core::InternalError if it fails by a fault of its own or two runs of a scene give different films: `take` has then been told
-/// of all runs before.
+/// Carries the runs out one after the other, each settings.rounds times, and reports each to `take`; progress goes to stderr if
+/// that is a terminal. A run for which this computer or the nodes have not enough memory is a misfit. Throws Interrupted after a
+/// signal, core::InputError if the program cannot be run or refuses its input for another reason, core::InternalError if the
+/// program fails or two runs of a scene give different films: `take` has then received all runs before.
 void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
                    const std::function<void(ScaleResult)>& take);
 

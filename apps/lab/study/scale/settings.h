@@ -1,4 +1,4 @@
-// What the study `scale` measures: which scenes, on how many nodes, by which method.
+// Settings of the study `scale`: the scenes, the numbers of nodes and the methods.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace dmpc::apps {
 
 /// What grows: the scene, or the computer.
 enum class ScalePart : std::uint8_t { sizes, nodes };
-/// As the command line and the table call it.
+/// Returns the name on the command line and in the table.
 const char* name_of(ScalePart part);
 
-/// Who renders: svm with a cache of so many bytes on each node, svm with the cache that `render` gives it by default (a quarter
-/// of the database, at least 64 pages), or dataflow.
+/// The method of rendering: svm with a cache of a given size on each node, svm with the default cache of `render` (a quarter of
+/// the database, at least 64 pages), or dataflow.
 enum class ScaleMethod : std::uint8_t { cache, quarter, dataflow };
 
 struct ScaleSettings {
@@ -35,15 +35,15 @@ struct ScaleSettings {
   std::optional<std::string> nodes_scene;                                       ///< of part nodes; nothing: scene_of_nodes()
   std::size_t cache_bytes = std::size_t{1} << 20U;                              ///< a node's, of method cache
   Resolution resolution{512, 512};
-  std::uint32_t rounds = 1;  ///< everything is run so often, and medians are taken
+  std::uint32_t rounds = 1; ///< each run is repeated this often, and medians are taken
   std::filesystem::path program = "/proc/self/exe";
 
-  /// The scenes of a family, in order. Throws core::InputError for what is no family, or has no such size.
+  /// Returns the scenes of a family, in order. Throws core::InputError if the family or a size is unknown.
   std::vector<core::SceneName> scenes_of(const std::string& family) const;
-  /// The scene of part nodes: the middle one of the first family if none is given. Throws core::InputError if there is no such
-  /// built-in scene.
+  /// Returns the scene of part nodes: the middle one of the first family if none is given. Throws core::InputError if there is no
+  /// such built-in scene.
   core::SceneName scene_of_nodes() const;
-  /// How the table calls it: "svm 1MiB", "svm quarter", "dataflow".
+  /// Returns the name in the table: "svm 1MiB", "svm quarter", "dataflow".
   std::string name_of(ScaleMethod method) const;
 };
 
@@ -55,20 +55,20 @@ struct ScaleRun {
   std::uint32_t node_count = 1;
 };
 
-/// All runs, in the order of the table: from small to large, and all methods with one scene and one number of nodes before the
-/// next, so that what else the real computer does troubles all alike. A quarter of the database on every one of many nodes is
-/// more than it has: part nodes leaves that method out. Throws as scenes_of() and scene_of_nodes().
+/// Returns all runs in the order of the table: from small to large, and all methods with one scene and one number of nodes before
+/// the next, so that other load on the real computer affects all alike. Part nodes leaves out the method with a quarter of the
+/// database on each node, since many nodes need more memory than the computer has. Throws as scenes_of() and scene_of_nodes().
 std::vector<ScaleRun> scale_runs(const ScaleSettings& settings);
 
-/// The sizes of a family from a thousand primitives to the most that there are, each with at least twice as many as the one
-/// before; 1 if none has a thousand. Throws core::InputError for what is no family.
+/// Returns the sizes of a family from a thousand primitives to the largest, each with at least twice as many as the one before; 1
+/// if none has a thousand. Throws core::InputError for an unknown family.
 std::vector<int> standard_sizes(const std::string& family);
 
-/// "5-9", "4,6,8-10" as sizes in order, without repetition. Throws core::UsageError for anything else.
+/// Parses "5-9", "4,6,8-10" into sizes in order, without repetition. Throws core::UsageError for anything else.
 std::vector<int> parse_scale_sizes(const std::string& text);
-/// "sizes,nodes". Throws core::UsageError for other words, or one that is there twice.
+/// Parses "sizes,nodes". Throws core::UsageError for other or repeated words.
 std::set<ScalePart> parse_scale_parts(const std::string& text);
-/// "cache,quarter,dataflow". Likewise.
+/// Parses "cache,quarter,dataflow" likewise.
 std::vector<ScaleMethod> parse_scale_methods(const std::string& text);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The command `study sweep`: one scene by all combinations of any options of `render`, and the figures asked for.
+// The command `study sweep`: one scene with all combinations of any options of `render`, and the requested figures.
 #pragma once
 
 #include <iosfwd>
@@ -14,16 +14,16 @@ namespace dmpc::apps {
 
 struct StudySweepOptions {
   SweepSettings settings;
-  std::map<std::string, bool> flags;  ///< of `render`, by name: set where the line has them
+  std::map<std::string, bool> flags; ///< of `render`, by name: set by the line
   TableOutput table;
   bool quiet = false;  ///< no progress
 };
 
-/// Declares its own and all those of `render` that say how it renders.
+/// Declares its own options and all options of `render` that determine how it renders.
 void add_options(OptionSet set, StudySweepOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for a combination that `render` would not take,
-/// core::InputError for bad input, core::CapacityError if no run found room.
+/// core::InputError for bad input, core::CapacityError if no run had enough memory.
 int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

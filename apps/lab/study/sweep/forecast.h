@@ -1,4 +1,4 @@
-// How long the runs of a sweep over sizes of caches would take by one of them alone.
+// Predicts the times of a sweep over cache sizes from one of its runs.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 
 namespace dmpc::apps {
 
-/// The run of the middle size among those that found room, by its number: nothing unless --cache-pages alone varies, and pages
-/// travel on a modelled machine.
+/// Returns the index of the run of the middle size among those with enough memory; nothing unless --cache-pages alone varies, and
+/// pages travel on a modelled machine.
 std::optional<std::size_t> predicting_run(const SweepSettings& settings, const std::vector<SweepResult>& results);
 
-/// What that run's page predicts, for which it is rendered once more, beside all runs. Nothing if there is no such run, or
-/// nothing can be told from it. Throws as RenderProcesses::run().
+/// Returns the prediction of that run's page, for which it is rendered once more, beside all runs; nothing if there is no such
+/// run or no prediction. Throws as RenderProcesses::run().
 std::optional<html::ForecastView> sweep_forecast(const SweepSettings& settings, const std::vector<SweepResult>& results,
                                                  const Interrupt& interrupt);
 

@@ -1,4 +1,4 @@
-// Counters of runs in a folder, so that a sweep that was stopped goes on and a larger one takes what is there.
+// Keeps the counters of runs in a folder, so that a stopped sweep can continue and a larger one can reuse them.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 namespace dmpc::apps {
 
 /// KEY.json for each run. The key is a digest of all that the counters depend on: the bytes of the program and of its readers and
-/// modules, the options, in whatever order, and the bytes of files that they and the scene are read from. What lies there is
-/// believed only as far as it is an ordinary file of counters with all that is asked for; links are not followed, and what is
-/// anything else is run again and replaced. Safe to be shared by processes: dmpc writes a file whole or not at all.
+/// modules, the options in any order, and the bytes of the files from which they and the scene are read. A file is used only if
+/// it is an ordinary file of counters with all requested figures; links are not followed, and for anything else the run is
+/// repeated and the file replaced. Processes may share a folder: dmpc writes files atomically.
 class KeptRuns {
  public:
-  /// Makes the folder unless there is one, and reads the program and the scene's files. `columns` are the names of figures that
-  /// a table has. Throws core::InputError unless files can be made there.
+  /// Makes the folder if needed, and reads the program and the scene's files. `columns` are the names of the table's figures.
+  /// Throws core::InputError unless files can be made there.
   KeptRuns(const std::filesystem::path& folder, const std::filesystem::path& program, const OpenedFiles& scene,
            std::vector<std::string> columns = {});
 
-  /// Where the run's counters lie, or are to lie.
+  /// Returns the path of the run's counters.
   std::filesystem::path file_of(const SweepRun& run) const;
-  /// Nothing if they are not there, damaged, or not all that is asked for.
+  /// Returns nothing if they are absent, damaged, or incomplete.
   std::optional<std::vector<Figure>> find(const SweepRun& run) const;
-  /// Keeps what --stats has written. Throws core::InputError if that fails.
+  /// Keeps the counters that --stats has written. Throws core::InputError on failure.
   void keep(const SweepRun& run, const std::filesystem::path& stats) const;
 
  private:

@@ -1,4 +1,4 @@
-// The runs of a sweep, each a `dmpc render` of its own.
+// The runs of a sweep, each a separate `dmpc render`.
 #pragma once
 
 #include <functional>
@@ -12,18 +12,18 @@
 
 namespace dmpc::apps {
 
-/// What became of a run.
+/// Result of a run.
 struct SweepResult {
   SweepRun run;
-  std::optional<std::vector<Figure>> figures;  ///< what its --stats has; nothing if there was no room for it
-  std::string misfit;                          ///< without figures: why
-  bool is_kept = false;                        ///< by an earlier sweep
+  std::optional<std::vector<Figure>> figures; ///< of its --stats; nothing if there was not enough memory
+  std::string misfit; ///< if there are no figures: why
+  bool is_kept = false; ///< from an earlier sweep
 };
 
 /// Runs them in order, as many at a time as there are cores; one at a time if one of them has a thread for each node, since that
-/// is timed by the wall clock. `scene` is what the scene is read from. `take` gets the results one by one, in order, in the
-/// thread that called or another. Throws core::InputError if a run goes wrong otherwise than by a lack of room, saying which;
-/// Interrupted after a signal.
+/// is timed by the wall clock. `scene` lists the files from which the scene is read. `take` gets the results one by one, in
+/// order, in the calling thread or another. Throws core::InputError, which names the run, if one fails for another reason than
+/// lack of memory; Interrupted after a signal.
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take);
 

@@ -1,4 +1,4 @@
-// What a sweep found, as a table and its pictures.
+// The results of a sweep as a table and its pictures.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace dmpc::apps {
 
-/// Names of the figures that the table has: those asked for, or what is of use for the runners and strategies of the runs.
+/// Returns the names of the table's figures: the requested ones, or those useful for the runners and strategies of the runs.
 std::vector<std::string> figures_of(const SweepSettings& settings, const std::vector<SweepRun>& runs);
 
-/// A row for each result: the values of what varies, which are numbers where all are numbers or sizes (in bytes), and the
-/// figures. What a run does not have is empty; below stands why there was no room for some.
+/// Returns a row for each result: the values of the variations, as numbers if all are numbers or sizes (in bytes), and the
+/// figures. Missing figures are empty; notes say why some runs had not enough memory.
 Table sweep_table(const SweepSettings& settings, const std::vector<SweepRun>& runs, const std::vector<SweepResult>& results);
 
-/// A picture for each figure that is a number: over the first of what varies by numbers, with a curve for each combination of the
-/// rest, or bars; none for more curves than can be told apart.
+/// Returns a picture for each numeric figure: over the first numeric variation, with a curve for each combination of the rest, or
+/// bars; none for more curves than can be distinguished.
 std::vector<Plot> sweep_plots(const SweepSettings& settings, const std::vector<SweepRun>& runs);
 
 }  // namespace dmpc::apps
