@@ -1,5 +1,5 @@
-// The command `check`: every ray of a render against the Embree oracle and the double-precision referee, and the file's positions
-// against the oracle's own reading.
+// The command `check`: compares every ray of a render with the Embree oracle and the double-precision referee, and the file's
+// positions with the oracle's own reading.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace dmpc::apps {
 struct CheckOptions {
   PictureOptions picture;
   DatabaseOptions database;
-  std::uint32_t list = 10;        ///< differences to print in full, at most
-  std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
-  std::uint64_t certify = 0;      ///< hits of the render whose certificates are held against rational arithmetic
-  std::string certify_text;       ///< the command line's word for that; empty: none
+  std::uint32_t list = 10; ///< maximum number of differences printed in full
+  std::uint64_t brute_force = 0; ///< rays of the render that the referee judges whether they differ or not
+  std::uint64_t certify = 0; ///< hits of the render whose certificates are checked against rational arithmetic
+  std::string certify_text; ///< `certify` as typed; empty: not given
   bool quiet = false;             ///< no progress
 };
 
@@ -27,7 +27,7 @@ struct CheckOptions {
 void add_options(OptionSet options, CheckOptions& check);
 
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
-/// difference is unexplained, no certificate fails and no pixel sees another place, 3 otherwise. Throws core::InputError for a
+/// difference is unexplained, no certificate fails and no pixel sees another position, 3 otherwise. Throws core::InputError for a
 /// scene that cannot be read or a report that cannot be written, Interrupted if a signal came before.
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output);
 

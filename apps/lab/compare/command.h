@@ -1,4 +1,4 @@
-// The command `compare`: how far two pictures lie apart, in which counters two runs differ, or both on one clock.
+// The command `compare`: the difference of two pictures, the counters that differ between two runs, or both runs on one clock.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,20 @@ enum class CompareFormat : std::uint8_t { text, json };
 struct CompareOptions {
   /// Two pictures, two files of counters, which end in .json, or two pages of renders, which end in .html.
   std::filesystem::path a, reference;
-  std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
-  std::optional<std::filesystem::path> flip;        ///< where the picture of perceived differences goes
+  std::optional<std::filesystem::path> difference; ///< output: the picture |A - B|
+  std::optional<std::filesystem::path> flip; ///< output: the picture of perceived differences
   CompareFormat format = CompareFormat::text;
   std::vector<Limit> limits = {};                    ///< for pictures
   FigureChoice figures = {};                         ///< for counters
-  std::optional<std::filesystem::path> report = {};  ///< where the page of both runs goes, of two pages
+  std::optional<std::filesystem::path> report = {}; ///< output: the page of both runs, for two pages
   Sandbox sandbox = Sandbox::available;              ///< for the pictures' reader
 };
 
 /// Declares them.
 void add_options(OptionSet options, CompareOptions& compare);
 
-/// Reads both, writes the pictures or the page asked for, prints to `output` the figures of PictureError, or the counters that
-/// differ. A signal ends the process. Returns differs_status, with a sentence on stderr, where a limit is passed or a counter
+/// Reads both, writes the requested pictures or page, and prints to `output` the figures of PictureError, or the counters that
+/// differ. A signal ends the process. Returns differs_status, with a sentence on stderr, if a limit is exceeded or a counter
 /// differs, else 0. Throws core::UsageError if a picture would replace another one of them, core::InputError if a file cannot be
 /// read or something cannot be written, Interrupted if a signal came before.
 int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output);

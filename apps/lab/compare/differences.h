@@ -1,4 +1,4 @@
-// Where the figures of two runs differ.
+// Compares the figures of two runs.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace dmpc::apps {
 
-/// Numbers at a key, as is_within() takes it, count as equal when they differ by no more than this share of the reference's.
+/// Numbers at a key, as is_within() takes it, count as equal if they differ by no more than this share of the reference's.
 struct Tolerance {
   std::string key;
   double share = 0;
 };
 
-/// "pages.faults:0.05": a key, a colon and a number from 0 on. Throws core::UsageError for anything else.
+/// Parses "pages.faults:0.05": a key, a colon and a number from 0 on. Throws core::UsageError for anything else.
 Tolerance parse_tolerance(const std::string& text);
 
-/// Which figures are compared. What hangs on the clock of this computer is left out (seconds, heat maps of processor time), and
-/// so are dmpc's version and names of files, unless a tolerance has them.
+/// The figures to compare. Those that depend on the clock of this computer (seconds, heat maps of processor time), dmpc's version
+/// and names of files are left out unless a tolerance names them.
 struct FigureChoice {
   std::vector<std::string> only;  ///< keys; none: all figures
   std::vector<Tolerance> tolerances;
 };
 
-/// Nothing where a file has no such figure.
+/// A value is nothing if its file has no such figure.
 struct Difference {
   std::string name;
   std::optional<FigureValue> figure, reference;
@@ -38,7 +38,8 @@ struct FigureComparison {
   std::vector<Difference> differences;
 };
 
-/// In the order of the reference, then what it does not have. Throws core::InputError for a key at which neither has a figure.
+/// Figures are in the order of the reference, followed by those that it does not have. Throws core::InputError for a key at which
+/// neither has a figure.
 FigureComparison compare_figures(std::span<const Figure> figures, std::span<const Figure> reference, const FigureChoice& choice);
 
 }  // namespace dmpc::apps

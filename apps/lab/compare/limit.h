@@ -1,4 +1,4 @@
-// How far apart two pictures may lie before they count as different: --fail-above.
+// The difference at which two pictures count as different: --fail-above.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace dmpc::apps {
 
 /// One measure of PictureError.
 struct Measure {
-  const char* name;  ///< as --fail-above calls it
+  const char* name; ///< its name in --fail-above
   double (*of)(const PictureError& error);
 };
 
@@ -20,14 +20,14 @@ struct Limit {
   std::string text;  ///< as typed: "1/255"
 };
 
-/// "rmse|max|...", for help.
+/// Returns "rmse|max|...", for help.
 std::string measure_names();
 
-/// "rmse:1/255": a measure, a colon and a number from 0 on. Throws core::UsageError for anything else.
+/// Parses "rmse:1/255": a measure, a colon and a number from 0 on. Throws core::UsageError for anything else.
 Limit parse_limit(const std::string& text);
 
-/// Why the pictures count as different, one sentence a limit that is passed: "rmse 0.25 is above 1/255". What is infinite, or no
-/// number, is above any limit.
+/// Returns why the pictures count as different, one sentence for each exceeded limit: "rmse 0.25 is above 1/255". Infinity and
+/// NaN are above any limit.
 std::vector<std::string> passed_limits(const std::vector<Limit>& limits, const PictureError& error);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Two pages of renders held against each other: their counters, and a page with both runs on one clock.
+// Compares two pages of renders: their counters, and a page with both runs on one clock.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@ struct PlayedPage {
   html::PlayedRun run;
 };
 
-/// Reads what a page plays. Throws core::InputError if it cannot be read, is none of a render, or does not hold together.
+/// Reads the run that a page plays. Throws core::InputError if it cannot be read, is not a render's page, or is inconsistent.
 PlayedPage read_page(const std::filesystem::path& file);
 
-/// Compares the counters stored in pages. If a page has none: returns nothing if `may_be_absent` and none are asked for, else
+/// Compares the counters stored in pages. If a page has none, returns nothing if `may_be_absent` and none are requested, else
 /// throws core::InputError.
 std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage, 2>& pages, const FigureChoice& choice,
                                                     bool may_be_absent);
 
-/// Says which of them has no counters, and what to do.
+/// Returns which of them has no counters, and what to do.
 std::string without_counters(const std::array<PlayedPage, 2>& pages);
 
-/// The page. Throws core::InputError if a picture cannot be read within `sandbox`, or their clocks differ. `complaints`: as
-/// html::comparison_page().
+/// Returns the page. Throws core::InputError if a picture cannot be read within `sandbox`, or if their clocks differ.
+/// `complaints`: as html::comparison_page().
 std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox,
                     std::ostream& complaints);
 

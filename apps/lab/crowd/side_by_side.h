@@ -1,4 +1,4 @@
-// Independent pieces of work on the real computer's cores, several at a time.
+// Runs independent pieces of work on the real computer's cores, several at a time.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace dmpc::apps {
 
-/// Calls work(i) for each i below `count`, as many at a time as there are cores, begun in the order of i. What work(i) returns is
-/// called afterwards: one at a time, in the order of i. Rethrows the first exception of either when those that had begun are
-/// over; no other begins. Not for work that starts threads of its own.
+/// Calls work(i) for each i below `count`, as many at a time as there are cores, started in the order of i. The functions that
+/// work(i) returns are called afterwards: one at a time, in the order of i. After an exception no other work starts; the first
+/// exception of either is rethrown when the started ones have ended. Not for work that starts its own threads.
 void side_by_side(std::size_t count, const std::function<std::function<void()>(std::size_t)>& work);
 
 enum class Turns { one_by_one, side_by_side };
 
-/// Calls take(i, measure(i)) for each i below `count`: takes one at a time and in order, on any thread. What measure(i) throws is
-/// thrown in its turn: take() has then been called for all before it, and for none after it.
+/// Calls take(i, measure(i)) for each i below `count`: one take() at a time and in order, on any thread. An exception of
+/// measure(i) is thrown in its turn: take() has then been called for all before it, and for none after it.
 template <class Measure, class Take>
 void measure_each(std::size_t count, Turns turns, const Measure& measure, const Take& take) {
   if (turns == Turns::one_by_one) {

@@ -1,4 +1,4 @@
-// The command `bench error`: what every knob of a render costs, and what it does to the picture's error.
+// The command `bench error`: the cost of every knob of a render, and its effect on the picture's error.
 #pragma once
 
 #include <iosfwd>
@@ -18,15 +18,15 @@ struct ErrorOptions {
   std::vector<std::string> scenes;
   MeasureOptions measure;
   TableOutput table;              ///< without a page
-  bool has_tessellation = false;  ///< asked for by name: a scene that has none is refused
+  bool has_tessellation = false; ///< tessellation was requested by name: a scene without tessellations is refused
   bool quiet = false;             ///< no progress
 };
 
 /// Declares them.
 void add_options(OptionSet set, ErrorOptions& options);
 
-/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for a scene that
-/// will not do or outputs that cannot be made.
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for an unsuitable
+/// scene or outputs that cannot be made.
 int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What the figures of `bench error` say, in sentences.
+// The results of `bench error` in sentences.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace dmpc::apps {
 
-/// What uniform samples take for a root mean square error of one 8-bit step, 1/255, as a multiple of what adaptive sampling
-/// takes.
+/// The cost of uniform samples for a root mean square error of one 8-bit step, 1/255, as a multiple of the cost of adaptive
+/// sampling.
 struct AdaptiveGain {
-  std::optional<double> seconds, rays;  ///< nothing: not measured, or outside what was
+  std::optional<double> seconds, rays; ///< nothing: not measured, or outside the measured range
 };
 AdaptiveGain adaptive_gain(const SceneResult& result);
 
-/// The point of the knob with the fewest rays whose deterministic error (root mean square) is below a quarter of an 8-bit step,
-/// 1/1020; nothing if there is none.
+/// Returns the knob's point with the fewest rays whose deterministic error (root mean square) is below a quarter of an 8-bit
+/// step, 1/1020; nothing if there is none.
 std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob);
 
-/// About one scene: what adaptive sampling is worth in time, its reference, the cheapest cutoff and depth; by paths what chance
-/// in place of aiming, and no roulette, take. No line ends.
+/// Returns sentences about one scene, without line ends: the gain of adaptive sampling in time, the reference, the cheapest
+/// cutoff and depth; for paths, the cost of BSDF sampling alone, and of no roulette.
 std::vector<std::string> findings_of(const SceneResult& result);
 
-/// What one asks first, of all scenes together: what adaptive sampling is worth at an RMSE of 1/255, and how many settings are
-/// told from the reference. Empty if nothing is measured.
+/// Returns the summary of all scenes: the gain of adaptive sampling at an RMSE of 1/255, and how many settings can be
+/// distinguished from the reference. Empty if nothing is measured.
 std::string summary_of(std::span<const SceneResult> results);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What `bench error` found for one scene.
+// Results of `bench error` for one scene.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct Measurement {
   std::uint64_t rays = 0;       ///< rays of all kinds
   std::uint64_t samples = 0;    ///< sum over all pixels
   std::uint64_t film_hash = 0;
-  PictureError error;                         ///< against the reference: sampling and all else
-  std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples; not by paths
+  PictureError error; ///< against the reference: all errors, including sampling
+  std::optional<PictureError> deterministic; ///< against the base point's picture, if that has the same samples; not for paths
 
   bool is_done() const { return !seconds.empty(); }
 };
@@ -31,11 +31,11 @@ struct SceneResult {
   std::string scene;
   int width = 0, height = 0;
   Setting base;
-  std::uint32_t emitters = 0;  ///< that the base point aims at
-  Reference reference;         ///< its picture is empty when the scene is done with
+  std::uint32_t emitters = 0; ///< number that the base point samples as lights
+  Reference reference; ///< its picture is emptied when the scene is finished
   std::uint32_t reference_samples_a_side = 0;
   std::vector<Point> points;
-  std::vector<std::size_t> measurement_of;  ///< by point: its setting's place among the measurements
+  std::vector<std::size_t> measurement_of; ///< by point: the index of its setting's measurement
   std::vector<Measurement> measurements;
   std::optional<PictureError> arithmetic;  ///< error of the base point's picture against the same samples in double
 
@@ -43,35 +43,36 @@ struct SceneResult {
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
 };
 
-/// An error is claimed if the reference's own one, which may be a part of it, is at most a tenth of it.
+/// Returns whether an error is claimed: the reference's own error, which may be a part of it, is at most a tenth of it.
 bool is_claimed(const SceneResult& result, const Measurement& measurement);
 
-/// The root mean square error without the reference's own: both are independent, so their squares add up. Nothing if less than
-/// twice the reference's own is left to be told from it.
+/// Returns the root mean square error without the reference's own: both are independent, so their squares add up. Returns nothing
+/// if the rest is less than twice the reference's own error.
 std::optional<double> error_without_reference(const SceneResult& result, const Measurement& measurement);
 
-/// What the error may be without the reference's own, of which only an estimate is known: `low` if it is twice that, `high` if
-/// there is none, and between them the error if it is right; at least a tenth of `high`, since logarithms are drawn.
+/// The interval of the error without the reference's own, which is only estimated: `low` if the reference's is twice the
+/// estimate, `high` if it is zero, and `middle` if the estimate is right; each is at least a tenth of `high`, since logarithms
+/// are drawn.
 struct ErrorInterval {
   double low = 0, middle = 0, high = 0;
 };
 ErrorInterval error_interval(const SceneResult& result, const Measurement& measurement);
 
-/// The deterministic error of a point's knob, where it has one and is measured.
+/// Returns the deterministic error of a point if its knob has one and it is measured.
 std::optional<PictureError> deterministic_error(const SceneResult& result, std::size_t point);
 
-/// A measured render: what it took (rays, or seconds) and how far it is off. Both above 0 where logarithms are taken.
+/// A measured render: its cost (rays, or seconds) and its error. Both are above 0 where logarithms are taken.
 struct CostPoint {
   double cost = 0, error = 0;
 };
 
-/// Which points no other one is better than: none costs less or as much and has a smaller error, or the same error for less.
-/// All of several points that are equal in both are on the front. Points with `is_eligible` false are not, and beat none.
+/// Returns which points no other one beats: no other point has a smaller error at the same or less cost, or the same error at
+/// less cost. All of several equal points are on the front. Points with `is_eligible` false are not on it, and beat none.
 std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vector<bool>& is_eligible);
 
-/// The cost at which a curve through `points`, in any order, comes to `error`: on a straight line in the logarithms of both
-/// between the two neighbours by error. Nothing outside the errors that there are. Points without cost or error are left out; of
-/// several with one error the cheapest counts.
+/// Returns the cost at which a curve through `points`, in any order, reaches `error`: linearly interpolated in the logarithms of
+/// both between the two neighbours by error. Returns nothing outside the range of errors. Points without cost or error are left
+/// out; of several with one error the cheapest counts.
 std::optional<double> cost_at(std::span<const CostPoint> points, double error);
 
 }  // namespace dmpc::apps

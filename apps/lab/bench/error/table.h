@@ -1,4 +1,4 @@
-// The figures of `bench error` as a table, and as plots of it.
+// The results of `bench error` as a table, and plots of it.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@
 
 namespace dmpc::apps {
 
-/// The rows of all points that are measured, in their order. The Pareto fronts are those of the scene's points whose error is
+/// Returns the rows of all measured points, in their order. The Pareto fronts are those of the scene's points whose error is
 /// claimed. Errors are in 8-bit steps, 1/255, of linear light.
 Table table_of(std::span<const SceneResult> results, const std::string& title);
 
-/// The claimed rows of one scene, which its plots are drawn from.
+/// Returns the claimed rows of one scene, from which its plots are drawn.
 Table plotted_table(const SceneResult& result);
 
-/// RMSE against seconds and against rays, named after `name`: a curve a knob, and the Pareto front.
+/// Returns RMSE against seconds and against rays, named after `name`: a curve for each knob, and the Pareto front.
 std::vector<Plot> plots_of(const SceneResult& result, const std::string& name);
 
 }  // namespace dmpc::apps

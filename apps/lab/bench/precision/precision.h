@@ -13,24 +13,24 @@
 
 namespace dmpc::apps {
 
-/// What came of one scene, one sample a pixel.
+/// Result of one scene, with one sample a pixel.
 struct Precision {
   std::uint64_t pixels = 0;
   std::uint64_t primitives = 0;
-  std::uint64_t rays = 0;              ///< the accurate renderer's, of all kinds
+  std::uint64_t rays = 0; ///< the reference renderer's, of all kinds
   std::uint64_t differing_pixels = 0;  ///< in 8 bits with the sRGB curve, in any channel
   double root_mean_square = 0;         ///< linear radiance, over all channels of all pixels
   double largest = 0;
   std::array<std::uint64_t, pixel_cause_count> causes{};  ///< counts of differing pixels by cause
-  double largest_step = 0;                                ///< largest in any audit of these pixels
+  double largest_step = 0; ///< largest in any audit of these pixels
   std::vector<std::string> errors;                        ///< "pixel (3, 4): ..." for each unexplained one, row by row
-  bool is_by_paths = false;                               ///< pixels that differ have no causes, but one error if their mean does
+  bool is_by_paths = false; ///< pixels that differ have no causes; there is one error if their mean differs
 };
 
-/// Renders `scene` in float, as every strategy does to the last bit, and in double with the same samples; judges every pixel that
-/// differs in 8 bits; by paths, which rounding leads elsewhere, all of them by their mean. Uses all cores; the same for every
-/// number of them. `picture` asks for one sample a pixel. Progress counts rows of the accurate picture. Throws Interrupted when a
-/// stop is requested.
+/// Renders `scene` in float, with the same bits as every strategy, and in double with the same samples. Judges every pixel that
+/// differs in 8 bits; for paths, which rounding leads elsewhere, judges all pixels by their mean. Uses all cores; the result is
+/// the same for every number of them. `picture` requests one sample a pixel. Progress counts rows of the reference picture.
+/// Throws Interrupted when a stop is requested.
 Precision measure_precision(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance = {});
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The command `bench speed`: our grid, pictures, emulated computers and databases beside Embree and each other.
+// The command `bench speed`: compares our grid, pictures, emulated computers and databases with Embree and with each other.
 #pragma once
 
 #include <iosfwd>
@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 struct SpeedOptions {
   SpeedSettings settings;
-  bool is_ablation = false;  ///< then that is the only part
+  bool is_ablation = false; ///< then ablation is the only part
   std::set<SpeedPart> parts = all_speed_parts();
   TableOutput table;   ///< without a page and plots
   bool quiet = false;  ///< no progress
@@ -22,8 +22,8 @@ struct SpeedOptions {
 /// Declares them.
 void add_options(OptionSet set, SpeedOptions& options);
 
-/// Measures part by part and writes as run_tabled() does; the exit status does not hang on the figures. Throws core::UsageError
-/// for outputs that clash, core::InputError for a scene that will not do or outputs that cannot be made.
+/// Measures part by part and writes as run_tabled() does; the exit status does not depend on the figures. Throws core::UsageError
+/// for outputs that clash, core::InputError for an unsuitable scene or outputs that cannot be made.
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

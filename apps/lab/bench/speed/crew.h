@@ -1,4 +1,4 @@
-// Threads that work side by side while they are timed.
+// Runs threads concurrently while they are timed.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace dmpc::apps {
 
-/// Calls work(k) for each k below `count`, each on a thread of its own, concurrently. Returns when all have ended; rethrows the
-/// exception of the lowest k that threw. Throws core::CapacityError if the computer does not let dmpc start so many threads.
+/// Calls work(k) for each k below `count`, each on its own thread. Returns when all have ended; rethrows the exception of the
+/// lowest k that threw. Throws core::CapacityError if the computer does not let dmpc start the threads.
 inline void on_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::vector<std::future<void>> crew;  // if one throws, the others are waited for
   try {

@@ -1,4 +1,4 @@
-// A thread of a plain renderer, which asks Embree for one ray at a time: surfaces, and what lights show on them.
+// A thread of a plain renderer, which queries Embree with one ray at a time for surfaces and their direct light.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline core::Vec3f plain_mirrored(const core::Vec3f& direction, const core::Vec3
   return direction - normal * (2 * dot(direction, normal));
 }
 
-/// Beside the surface, on the side that a ray goes to.
+/// Returns a point beside the surface, on the side to which the ray goes.
 inline core::Vec3f plain_start(const PlainSurface& surface, const core::Vec3f& towards) {
   const float side = dot(towards, surface.geometric_normal) < 0 ? -plain_offset : plain_offset;
   return surface.point + surface.geometric_normal * side;
@@ -28,17 +28,18 @@ class EmbreeQueries {
 
  protected:
   const PlainStage& stage() const { return stage_; }
-  /// The nearest; nothing if the ray meets none.
+  /// Returns the nearest surface; nothing if the ray hits none.
   std::optional<PlainSurface> surface_along(const core::Vec3f& origin, const core::Vec3f& direction);
-  /// What lights show of the surface that a ray met along `direction`, after a shadow ray to each that may show something.
+  /// Returns the direct light that the surface, hit along `direction`, reflects, after a shadow ray to each light that may
+  /// contribute.
   core::Color lights_on(const PlainSurface& surface, const PlainMaterial& material, const core::Vec3f& direction);
   /// As above; `shown(towards, scale, cosine)` returns the surface's response to light from `towards`, whose length is 1 /
   /// `scale` and whose cosine is above 0.
   template <class Shown>
   core::Color lights_on(const PlainSurface& surface, const Shown& shown);
-  /// Nothing lies that way.
+  /// Returns whether nothing lies in that direction.
   bool is_free(const core::Vec3f& start, const core::Vec3f& direction);
-  /// Whether something lies before `place` on an emitter.
+  /// Returns whether something lies in front of `place` on an emitter.
   bool is_hidden(const core::Vec3f& start, const core::Vec3f& place);
 
  private:

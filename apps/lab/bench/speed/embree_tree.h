@@ -1,4 +1,4 @@
-// Embree as a baseline: asked as any renderer asks it, without what the oracle needs to name primitives beyond doubt.
+// Embree as a baseline, used as in any renderer, without what the oracle needs to identify primitives beyond doubt.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace dmpc::apps {
 
-/// What every traced ray is asked for.
+/// The query of every traced ray.
 enum class Query : std::uint8_t { closest, any };
 
-/// Its tree over the primitives of a database, of high quality, as any renderer has it built: no filters, no order among equal t,
-/// no triangle left out. Triangles come first, then spheres and cones as user geometry, if there are any. Immutable once built;
+/// Embree's tree over the primitives of a database, of high quality, as any renderer builds it: no filters, no order among equal
+/// t, no ignored triangle. Triangles come first, then spheres and cones as user geometry, if there are any. Immutable once built;
 /// every query is thread-safe.
 class EmbreeTree {
  public:
   /// `primitives` outlive it. Builds on all cores. Throws InternalError if Embree reports an error.
   EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode);
 
-  /// Asks about the rays, one by one, up to their t_max; returns how many hit.
+  /// Traces the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
 
   const embree::Library& library() const { return library_; }
   RTCScene scene() const { return tree_.scene(); }
   const embree::Shapes& shapes() const { return shapes_; }
-  /// What Embree took to build it, from vertices that lay ready.
+  /// Returns the times that Embree needed to build it from prepared vertices.
   const Times& build_times() const { return build_times_; }
 
  private:

@@ -1,4 +1,4 @@
-// A scene's rays and everybody who traces them, for the kernel of `bench speed`.
+// A scene's rays and the contenders that trace them, for the kernel part of `bench speed`.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,28 @@
 
 namespace dmpc::apps {
 
-/// Who traces: our grid over records in an array, or through a pager, by single rays or by bundles of them; Embree by single
-/// rays.
+/// The tracer: our grid over records in an array, or through a pager, with single rays or bundles; Embree with single rays.
 enum class Contender : std::uint8_t { grid, paged_grid, bundles, paged_bundles, robust, fast };
 inline constexpr std::size_t contender_count = 6;
-/// As tables call it.
+/// Returns the name in tables.
 const char* name_of(Contender contender);
 
-/// What came of some rays.
+/// Result of tracing some rays.
 struct RaysTraced {
   std::uint64_t hits = 0;
-  double seconds = 0;  ///< processor time of the thread that had most to do
+  double seconds = 0; ///< processor time of the busiest thread
 };
 
 class KernelArena {
  public:
-  /// Renders the scene, and builds what the contenders need. Throws core::InputError for a scene that will not do.
+  /// Renders the scene, and builds what the contenders need. Throws core::InputError for an unsuitable scene.
   KernelArena(const std::string& scene, const SpeedSettings& settings);
 
   const std::string& name() const { return name_; }
   bool has(RayClass ray_class) const { return ray_count(ray_class) > 0; }
   std::size_t ray_count(RayClass ray_class) const { return recording_.of(ray_class).rays.size(); }
 
-  /// All rays of the class, on at most as many threads as the settings have.
+  /// Traces all rays of the class, on at most as many threads as the settings have.
   RaysTraced trace(Contender contender, RayClass ray_class, Query query, std::uint32_t threads);
 
  private:
@@ -47,7 +46,7 @@ class KernelArena {
   Subject subject_;
   Recording recording_;
   EmbreeTree robust_, fast_;
-  std::vector<std::unique_ptr<WarmPager>> pagers_;  ///< a node each, by thread
+  std::vector<std::unique_ptr<WarmPager>> pagers_; ///< one node each, by thread
 };
 
 }  // namespace dmpc::apps

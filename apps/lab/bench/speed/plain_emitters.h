@@ -15,12 +15,13 @@ struct PlainAim : EmitterAim<float> {
   core::Color radiance;
 };
 
-/// From `from`, by our records, alias table and formulas (core/picture/lights/emitter_light.h). Nothing from within a sphere, or
-/// where a triangle is seen edge-on. Requires emitters.
+/// Samples a point from `from` with our records, alias table and formulas (core/picture/lights/emitter_light.h). Returns nothing
+/// from within a sphere, or where a triangle is seen edge-on. Requires emitters.
 std::optional<PlainAim> plain_aim(const PlainStage& stage, const core::Vec3f& from, const core::SamplePair& emitter,
                                   const core::SamplePair& place);
 
-/// How densely such aim from `from` at where a ray along `direction` has met a surface of this radiance that is drawn.
+/// Returns the density of light sampling from `from` at the point where a ray along `direction` has hit a surface of this
+/// radiance, if it is sampled.
 float plain_bsdf_density(const PlainStage& stage, const PlainSurface& surface, const core::Vec3f& from,
                          const core::Vec3f& direction, const core::Color& radiance);
 

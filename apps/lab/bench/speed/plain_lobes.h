@@ -1,4 +1,4 @@
-// What a surface of the plain path tracer does with light, in single precision.
+// Scattering at a surface of the plain path tracer, in single precision.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// One way in which a surface sends light on.
+/// One direction in which a surface scatters light.
 struct PlainWay {
   core::Vec3f towards;  ///< unit vector
   core::Color weight;
@@ -19,29 +19,30 @@ struct PlainWay {
   float density = std::numeric_limits<float>::infinity();  ///< density of the direction, per steradian; infinite for specular
 };
 
-/// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/surfaces/path_step.h), or
-/// one of tiny mirrors over a matt part, as judges have it; ways are chosen by the shares of ours.
+/// NFF's surface, with a diffuse part, a mirror and transmission, by our formulas (core/picture/surfaces/path_step.h), or a
+/// microfacet surface over a diffuse part, as the judges have it; lobes are chosen with our probabilities.
 class PlainLobes {
  public:
-  /// For a hit by a ray along `direction`. `material` and `surface` outlive it.
+  /// Made for a hit by a ray along `direction`. `material` and `surface` outlive it.
   PlainLobes(const PlainMaterial& material, const PlainSurface& surface, const core::Vec3f& direction);
 
   using Response = FacetedResponse<float>;
-  /// To light from the unit direction `in`: nothing below the surface, wherever a blended normal points.
+  /// Returns the response to light from the unit direction `in`: nothing below the surface, wherever an interpolated normal
+  /// points.
   Response response(const core::Vec3f& in) const;
-  /// Whether that is above 0 from anywhere.
+  /// Returns whether the response is above 0 for any direction.
   bool scatters() const { return facets_ ? facets_->scatters() : scattered_ > 0; }
-  /// Chosen in proportion to the brightest channels of all; nothing if it leads nowhere.
+  /// Chooses in proportion to the brightest channels of all lobes; returns nothing if no path continues.
   std::optional<PlainWay> way(const core::SamplePair& choice, const core::SamplePair& direction) const;
 
  private:
   float all() const { return scattered_ + mirrored_ + through_; }
 
-  std::optional<FacetLobes<float>> facets_;  ///< then that is all there is
+  std::optional<FacetLobes<float>> facets_; ///< if set, it replaces everything else
   const PlainSurface& surface_;
   core::Vec3f direction_;
   float index_, behind_ = 0;
-  core::Color matt_, mirror_;  ///< scattered; and reflected by a mirror
+  core::Color matt_, mirror_; ///< diffuse reflectance, and that of a mirror
   float scattered_ = 0, mirrored_ = 0, through_ = 0;
 };
 

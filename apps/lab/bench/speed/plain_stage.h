@@ -1,4 +1,4 @@
-// The scene as plain renderers read it: Embree's tree, and the camera, materials, lights and emitters in single precision.
+// The scene for plain renderers: Embree's tree, and the camera, materials, lights and emitters in single precision.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dmpc::apps {
 
-/// As ours (core/picture/shade.cpp): how far beside a surface rays start, and where on their way to a light they end.
+/// As in core/picture/shade.cpp: the offset of a ray's start from a surface, and the end of a ray to a light.
 inline constexpr float plain_offset = 0x1p-21F, plain_light_end = 1 - 1e-6F;
 /// End of a shadow ray to an emitter, as a share of its length, so that the emitter does not hide itself.
 inline constexpr float plain_emitter_end = 1 - 1e-4F;
@@ -29,13 +29,13 @@ struct PlainCamera {
   core::Vec3f towards(int x, int y) const { return towards(static_cast<float>(x), static_cast<float>(y)); }
 };
 
-/// What a surface of microfacets has in place of highlight and mirror.
+/// Replaces highlight and mirror for a microfacet surface.
 struct PlainFacets {
   float metallic = 0, alpha = 1, reflectance = 0;
-  float there = 1;  ///< the share of the surface that is
+  float there = 1; ///< the share of the surface that is present
 };
 
-/// A surface with its material extension. Where alpha matters, the picture is textured, and is not compared.
+/// A surface with its material extension. A picture in which alpha matters is textured, and is not compared.
 struct PlainMaterial : core::MaterialRecord {
   core::Color highlight;  ///< colour that `mirror` reflects
   float mirror = 1;
@@ -50,10 +50,10 @@ struct PlainMaterial : core::MaterialRecord {
   float inside_index() const { return refraction_index > 0 ? refraction_index : 1; }
 };
 
-/// What shading knows of a hit.
+/// The data of a hit for shading.
 struct PlainSurface {
   core::Vec3f point;
-  core::Vec3f geometric_normal, normal;  ///< unit vectors; the latter is the shading normal, on the ray's side
+  core::Vec3f geometric_normal, normal; ///< unit vectors; `normal` is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
   float radius = 0;  ///< curved surfaces only
@@ -70,18 +70,18 @@ class PlainStage {
   const core::RenderSettings& settings() const { return settings_; }
   const std::vector<PlainMaterial>& materials() const { return materials_; }
   const std::vector<core::LightRecord>& lights() const { return lights_; }
-  /// What paths aim at, and the alias table by which it is drawn.
+  /// The emitters that paths sample, and the alias table from which they are drawn.
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
   const std::vector<core::EmitterChoice>& choices() const { return choices_; }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
-  /// Normals of a triangle, as Embree numbers them: nullptr if it is flat.
+  /// Returns the normals of a triangle in Embree's numbering; nullptr if it is flat.
   const core::PatchNormals* normals_of(unsigned triangle) const {
     const core::ShadingReference shading = shading_[triangle];
     return shading.is_smooth() ? reinterpret_cast<const core::PatchNormals*>(records_.find(shading.normals())) : nullptr;
   }
-  /// Material of a flat triangle; others have theirs with their normals.
+  /// Returns the material of a flat triangle; others have it with their normals.
   std::uint32_t flat_material_of(unsigned triangle) const { return shading_[triangle].material(); }
-  /// Where a ray meets a sphere or cone, as Embree numbers them.
+  /// Returns the surface where a ray hits a sphere or cone in Embree's numbering.
   PlainSurface curved_at(unsigned curved, const core::Vec3f& origin, const core::Vec3f& direction, float t) const;
 
  private:

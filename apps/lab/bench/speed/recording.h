@@ -1,4 +1,4 @@
-// The rays of a real render, by class, to be traced again by all whose speed is compared.
+// The rays of a real render, by class, which all contenders trace again.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +15,23 @@
 
 namespace dmpc::apps {
 
-/// Secondary: reflected and refracted. Bounce: what a path tracer would shoot from the hits of primary rays, in directions that
-/// the cosine to the surface's normal weighs.
+/// secondary: reflected and refracted. bounce: what a path tracer would shoot from the hits of primary rays, in cosine-weighted
+/// directions about the surface's normal.
 enum class RayClass : std::uint8_t { primary, shadow, secondary, bounce };
 inline constexpr std::size_t ray_class_count = 4;
-/// As tables call it.
+/// Returns the name in tables.
 const char* name_of(RayClass ray_class);
 
-/// Some of the bundles, which their owner keeps.
+/// Some of the bundles; their owner keeps the rays.
 struct BundleSpan {
   std::span<const core::Ray> all;          ///< the owner's rays
-  std::span<const std::uint32_t> borders;  ///< limits of the bundles in `all`: one more than there are bundles
+  std::span<const std::uint32_t> borders; ///< borders of the bundles in `all`: one more than there are bundles
 
   std::size_t count() const { return borders.size() - 1; }
   std::span<const core::Ray> bundle(std::size_t index) const { return between(borders[index], borders[index + 1]); }
-  /// The rays of all its bundles, in order.
+  /// Returns the rays of all its bundles, in order.
   std::span<const core::Ray> rays() const { return between(borders.front(), borders.back()); }
-  /// `most` bundles from the one of this index on, or as many as there are. Requires first <= count().
+  /// Returns `most` bundles from index `first` on, or as many as there are. Requires first <= count().
   BundleSpan part(std::size_t first, std::size_t most) const {
     return {all, borders.subspan(first, std::min(most, count() - first) + 1)};
   }
@@ -56,12 +56,12 @@ struct BundledRays {
 /// would favour one light of two.)
 class BundleSample {
  public:
-  /// Keeps at most `most` rays, and all of fewer. Requires `most` to be a bundle's rays at least.
+  /// Keeps at most `most` rays, or all if there are fewer. Requires that no bundle has more than `most` rays.
   explicit BundleSample(std::size_t most) : most_(most) {}
 
-  /// The next bundle that was shot.
+  /// Offers the next bundle that was shot.
   void offer(std::span<const core::Ray> bundle);
-  /// With about half of `most` rays or more, once as many have been shot.
+  /// Returns about half of `most` rays or more, once as many have been shot.
   BundledRays bundles() const;
 
  private:
@@ -88,10 +88,10 @@ struct Recording {
 };
 
 /// Renders the first pass on one thread, in bundles as nodes of svm do, and keeps at most `most` rays of each class, in whole
-/// bundles. The bounces from the hits of one bundle of primary rays are a bundle. Deterministic.
+/// bundles. The bounces from the hits of one bundle of primary rays form a bundle. Deterministic.
 Recording record_rays(const core::Database& database, const core::RenderSettings& settings, std::size_t most);
 
-/// A ray from a primary ray's hit, started as core/picture/shade.h starts its children. Its direction is drawn by `number`.
+/// Returns a ray from a primary ray's hit, started as core/picture/shade.h starts child rays. `number` determines its direction.
 core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core::LocalRecords& records,
                      const core::DatabaseHeader& header, std::uint64_t number);
 

@@ -1,4 +1,4 @@
-// One node's part of svm's shared memory, alone, with every page of the database at home or in its cache.
+// One node's part of svm's shared memory, by itself, with every page of the database at home or in its cache.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace dmpc::apps {
 
-/// Takes each page from the database as if its home had replied; afterwards nothing is absent. The node is one of `node_count`,
-/// so all but that share of the pages are in the cache. Not thread-safe.
+/// Takes each page from the database as if its home had replied; afterwards no page is absent. The node is one of `node_count`,
+/// so all pages except that share are in the cache. Not thread-safe.
 class WarmPager {
  public:
   WarmPager(const core::Database& database, const core::RenderSettings& settings, std::uint32_t node_count = 8);
   WarmPager(const WarmPager&) = delete;
   WarmPager& operator=(const WarmPager&) = delete;
 
-  /// What the nodes of a run look pages up with, counters and all.
+  /// Returns the pager with which the nodes of a run look pages up, including counters.
   svm::Pager& pager() { return pager_; }
 
  private:
-  /// Requests go nowhere: the replies are at hand.
+  /// Discards requests: the replies are at hand.
   class Nowhere final : public nodes::Network {
    public:
     void deliver(nodes::NodeId, const nodes::PacketHeader&, std::span<const std::byte>) override {}

@@ -1,4 +1,4 @@
-// Rays along axes and diagonals, from places where a traversal is most easily confused, in a scene of boxes.
+// Rays along axes and diagonals in a scene of boxes, from points that are most likely to confuse a traversal.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace dmpc::apps {
 
-/// What stands for 0 in a direction: both zeros, a denormal number, a number whose reciprocal overflows with the grid's extent.
+/// Substitutes for 0 in a direction: both zeros, a denormal number, a number whose reciprocal overflows with the grid's extent.
 inline constexpr std::array<float, 8> zeros{0.0F, -0.0F, 1e-40F, -1e-40F, 1e-30F, -1e-30F, 9e-19F, -9e-19F};
 
-/// Along -1, 0 and 1, with `zero` for 0: of unit length to rounding, the zeros untouched.
+/// Returns a direction along -1, 0 and 1, with `zero` for 0: of unit length up to rounding, with unchanged zeros.
 inline core::Vec3f axis_direction(const std::array<float, 3>& components) {
   const double size = std::sqrt(double{components[0]} * double{components[0]} + double{components[1]} * double{components[1]} +
                                 double{components[2]} * double{components[2]});
@@ -29,7 +29,7 @@ inline core::Vec3f axis_direction(const std::array<float, 3>& components) {
   return direction;
 }
 
-/// The 26 directions with components along -1, 0 and 1.
+/// Returns the 26 directions with components along -1, 0 and 1.
 inline std::vector<core::Vec3f> axis_directions(float zero) {
   std::vector<core::Vec3f> all;
   const std::array<float, 3> values{-1.0F, zero, 1.0F};
@@ -41,7 +41,7 @@ inline std::vector<core::Vec3f> axis_directions(float zero) {
   return all;
 }
 
-/// Boxes with faces along the axes, two meshes without, and sheets that cut through everything.
+/// Returns boxes with faces along the axes, two meshes without such faces, and sheets that intersect everything.
 inline core::Scene crowded_scene() {
   core::Scene scene;
   add(scene, moved(sphere_mesh(8, 12, 0.2), 0.5, {0.3, 0.3, 0}));
@@ -55,11 +55,11 @@ inline core::Scene crowded_scene() {
   return scene;
 }
 
-/// As many cells as cut crowded_scene() into 2x2x2 macro cells.
+/// Gives the number of cells that cuts crowded_scene() into 2x2x2 macro cells.
 inline const core::BuildOptions crowded_options{.cells_per_primitive = 4};
 
-/// A coordinate on a plane of the lattice, often one between cells or macro cells, on the bound or on a face of crowded_scene(),
-/// or anywhere.
+/// Returns a coordinate on a plane of the lattice, often one between cells or macro cells, on the bound or on a face of
+/// crowded_scene(), or anywhere.
 inline double awkward(const core::Database& database, std::size_t axis, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   const int cells = frame.resolution[axis] * core::finest_per_cell;

@@ -1,4 +1,4 @@
-// One piece of a stability test: rays of one kind against one subject.
+// One case of a stability test: rays of one kind against one subject.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace dmpc::apps {
 
-/// Tries the rays from `first` on, as many as `count`, drawing from `random`. Thread-safe; a pure function of its arguments.
+/// Shoots `count` rays from number `first` on, drawing from `random`. Thread-safe; a pure function of its arguments.
 using ShootRays = std::function<KernelCounts(Random& random, std::uint64_t first, std::uint64_t count)>;
 
-/// Ray after ray: shoot_one(random, number, counts).
+/// Shoots ray after ray: shoot_one(random, number, counts).
 template <class ShootOne>
 ShootRays each_ray(ShootOne shoot_one) {
   return [shoot_one = std::move(shoot_one)](Random& random, std::uint64_t first, std::uint64_t count) {
@@ -28,9 +28,9 @@ ShootRays each_ray(ShootOne shoot_one) {
 }
 
 struct StabilityCase {
-  std::string row;                     ///< the table's row that it counts for: "R1 closed meshes". Its first word is the test
-  std::string name;                    ///< unlike any other case's in the row
-  std::uint64_t rays = 0;              ///< to be tried
+  std::string row; ///< the table's row in which it counts: "R1 closed meshes". The first word is the test
+  std::string name; ///< unique within the row
+  std::uint64_t rays = 0; ///< to be shot
   std::function<ShootRays()> prepare;  ///< builds the subject
 
   std::string test() const { return row.substr(0, row.find(' ')); }
@@ -38,11 +38,11 @@ struct StabilityCase {
 
 using StabilityCases = std::vector<StabilityCase>;
 
-/// How many rays each test tries: the same for all, or (0) as many as the long run has for each.
+/// The number of rays of each test: the same for all, or (0) each test's number of the long run.
 struct StabilityAmount {
   std::uint64_t rays = 0;
 
-  /// The share of one case of `case_count` in a row, rounded up.
+  /// Returns the share of one of `case_count` cases in a row, rounded up.
   std::uint64_t share(std::uint64_t long_rays, std::uint64_t case_count) const {
     const std::uint64_t all = rays != 0 ? rays : long_rays;
     return (all + case_count - 1) / case_count;

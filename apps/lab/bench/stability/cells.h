@@ -1,4 +1,4 @@
-// A grid fine enough that a small scene has several macro cells.
+// A grid so fine that a small scene has several macro cells.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// There is one macro cell for some 4,096 primitives, so a smaller scene would be a single one, and no traversal would go from
+/// There is one macro cell for some 4,096 primitives, so a smaller scene would have a single one, and no traversal would go from
 /// one to another. With as many cells as primitives it has several, from about 500 primitives on; larger scenes have several
 /// anyway and keep their grid.
 inline core::BuildOptions several_macro_cells(const core::Scene& scene) {

@@ -9,7 +9,8 @@
 
 namespace dmpc::apps {
 
-/// All children of a hit in the order of shading: shadow rays, the reflected and the refracted one. None of a miss.
+/// Returns all child rays of a hit in the order of shading: shadow rays, the reflected and the refracted one. Returns none for a
+/// miss.
 inline std::vector<core::Ray> children_of(const core::Database& database, const core::Ray& ray, const core::Hit& hit) {
   const core::LocalRecords records(database.bytes());
   std::vector<core::Ray> children;

@@ -1,4 +1,4 @@
-// The command `bench stability`: stress tests of numerical stability, beside Embree on the same rays.
+// The command `bench stability`: stress tests of numerical stability, with Embree on the same rays.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace dmpc::apps {
 struct StabilityOptions {
   static constexpr std::uint64_t standard_rays = 100'000, quick_rays = 10'000;
 
-  std::uint64_t rays = standard_rays;   ///< for each row of the table; 0: as many as the long run has for each
-  bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` says it
+  std::uint64_t rays = standard_rays; ///< for each row of the table; 0: each test's number of the long run
+  bool quick = false, is_long = false; ///< the command line's words for quick_rays and 0; `rays` has the value
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;
   TableOutput table;   ///< without a page and plots
@@ -26,8 +26,8 @@ struct StabilityOptions {
 /// Declares them.
 void add_options(OptionSet set, StabilityOptions& options);
 
-/// Measures and writes as run_tabled() does. The exit status is 1, too, if one of our kernels failed, whatever Embree did. Throws
-/// core::UsageError for a test that is none, core::InputError for a table that cannot be made.
+/// Measures and writes as run_tabled() does. The exit status is also 1 if one of our kernels failed, whatever Embree did. Throws
+/// core::UsageError for an unknown test, core::InputError for a table that cannot be made.
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

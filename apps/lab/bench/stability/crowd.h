@@ -1,4 +1,4 @@
-// Triangles, spheres and cones strewn over a floor, and rays among them, grazing ones above all.
+// Triangles, spheres and cones scattered over a floor, and rays among them, most of them grazing.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// Triangles, spheres and cones strewn over the floor of a mostly empty room.
+/// Returns triangles, spheres and cones scattered over the floor of a mostly empty room.
 inline core::Scene mixed_scene() {
   Random random(21);
   core::Scene scene;
@@ -27,13 +27,14 @@ inline core::Scene mixed_scene() {
   return scene;
 }
 
-/// From anywhere in the room of mixed_scene() into the crowd.
+/// Returns a ray from anywhere in the room of mixed_scene() into the crowd.
 inline core::Ray random_ray(const core::Database& database, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   return ray_through(to_local(frame, random.in_box(-4, 4)), to_local(frame, {random.between(-1, 1), random.between(-1, 1), 0.1}));
 }
 
-/// A ray that meets the plane of a random triangle of the database at 89.84 degrees and more from its normal, near the triangle.
+/// Returns a ray that meets the plane of a random triangle of the database at 89.84 degrees or more from its normal, near the
+/// triangle.
 inline core::Ray grazing_ray(const core::Database& database, Random& random) {
   const auto& triangle = database.primitives()[random.below(database.primitives().size())];
   const core::Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);

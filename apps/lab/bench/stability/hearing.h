@@ -1,4 +1,4 @@
-// One ray before the referee.
+// Judges the answers to one ray by the referee.
 #pragma once
 
 #include <algorithm>
@@ -16,17 +16,17 @@ namespace dmpc::apps {
 /// Distances within this share of each other need no explanation.
 inline constexpr double level_share = 1e-6;
 
-/// Asks `referee`, which is over the primitives of `database`, about the answers to `ray`. Both outlive the hearing. Thread-safe.
+/// Asks `referee`, which has the primitives of `database`, about the answers to `ray`. Both outlive the hearing. Thread-safe.
 class Hearing {
  public:
   Hearing(const core::Database& database, const Referee& referee, const core::Ray& ray)
       : database_(database), referee_(referee), ray_(ray) {}
 
-  /// Whether rounding can have made `renderer` give this answer. To a shadow ray only found() counts.
+  /// Returns whether rounding can have made `renderer` give this answer. For a shadow ray only found() counts.
   bool admissible(const core::Hit& hit, Renderer renderer) const {
     return referee_.admissible(ray_, {hit.found(), hit.primitive, hit.t}, renderer);
   }
-  /// Whether rounding can have given the distance of `hit`, which is admissible.
+  /// Returns whether rounding can have given the distance of `hit`, which is admissible.
   bool distance_explained(const core::Hit& hit) const {
     std::vector<ExactIntersection> met;
     add_exact_intersections(ray_, database_.primitives()[hit.primitive], hit.primitive, met);

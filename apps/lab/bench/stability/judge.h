@@ -1,4 +1,4 @@
-// Judges what the kernels say of one ray: against each other, against the referee, and against what the test knows.
+// Judges the kernels' answers to one ray: against each other, against the referee, and against what the test knows.
 #pragma once
 
 #include "apps/lab/bench/stability/counts.h"
@@ -11,13 +11,13 @@ struct StabilityExpectation {
   enum class Must : std::uint8_t { either, hit, miss };
 
   Must must = Must::either;         ///< by geometry: rays that start in a closed body hit
-  bool to_referee = false;          ///< brute force even if all kernels agree
-  const core::Hit* bits = nullptr;  ///< what the grid's kernels must answer to the last bit; else: what `grid` answers
+  bool to_referee = false; ///< use brute force even if all kernels agree
+  const core::Hit* bits = nullptr; ///< exact bits of the grid kernels' answer; if not set, those that `grid` answers
 };
 
-/// Counts `ray` and its answers. Who disagrees with another kernel (or is sampled) is judged by the referee, which shares no code
-/// with the kernels: brute force in double precision, in long double where a sign is in doubt and for curved primitives. Its
-/// bounds for Embree are those of the robust mode.
+/// Counts `ray` and its answers. A kernel that disagrees with another one (or is sampled) is judged by the referee, which shares
+/// no code with the kernels: brute force in double precision, in long double where a sign is in doubt and for curved primitives.
+/// Its bounds for Embree are those of the robust mode.
 void judge(const StabilitySubject& subject, const core::Ray& ray, const StabilityAnswers& answers,
            const StabilityExpectation& expectation, KernelCounts& counts);
 

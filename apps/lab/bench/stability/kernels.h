@@ -1,4 +1,4 @@
-// Every way to a ray's hit that the stability tests compare.
+// All ways of computing a ray's hit that the stability tests compare.
 #pragma once
 
 #include <array>
@@ -36,21 +36,21 @@ struct StabilitySubject {
   const core::GridFrame& frame() const { return database.header().frame; }
 };
 
-/// The first ten answer any ray; the others are asked by the tests that are about them.
+/// The first ten answer any ray; the others are used by the tests about them.
 enum class StabilityKernel : std::uint8_t {
   grid,           ///< the traversal with vectors of 8 triangles
   scalar,         ///< the traversal with the scalar twin
-  plain,          ///< the traversal that leaves empty space cell by cell
+  plain, ///< the traversal that leaves empty space cell by cell
   resumed,        ///< the traversal stopped by an absent record before each of its steps
-  bundle,         ///< the traversal beside three others
+  bundle, ///< the traversal in a bundle with three other rays
   any_hit,        ///< as a shadow ray: only whether there is a hit
   voxels,         ///< the traversal of a plain grid of voxels with lists, over the same scene
-  voxels_bundle,  ///< as above, in a bundle with three others
+  voxels_bundle, ///< as above, in a bundle with three other rays
   embree_fast,    ///< Embree without its robust flag
-  embree_robust,  ///< Embree with it
-  regions,        ///< the traversal from owner to owner of a space cut into regions
+  embree_robust, ///< Embree with its robust flag
+  regions, ///< the traversal from owner to owner of a space cut into regions
   planes,         ///< the traversal's planes alone, finest cell by finest cell
-  listing,        ///< no traversal: the primitives that the boxes around a point list
+  listing, ///< no traversal: the primitives that the boxes around a point list
   certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };
 inline constexpr std::size_t stability_kernel_count = 14;
@@ -63,18 +63,18 @@ constexpr bool is_embree(StabilityKernel kernel) {
 constexpr bool is_of_voxels(StabilityKernel kernel) {
   return kernel == StabilityKernel::voxels || kernel == StabilityKernel::voxels_bundle;
 }
-/// A few words for tables.
+/// Returns a few words for tables.
 std::string_view name_of(StabilityKernel kernel);
 
-/// By kernel. Of `any_hit` only found() means anything.
+/// By kernel. For `any_hit` only found() has a meaning.
 using StabilityAnswers = std::array<core::Hit, compared_kernel_count>;
 
-/// One ray through each of the first ten kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
-/// whatever the ray's kind. Thread-safe.
+/// Traces one ray with each of the first ten kernels; Embree's answer is a miss for rays that it does not take. All except
+/// `any_hit` return closest hits, whatever the ray's kind. Thread-safe.
 StabilityAnswers ask_kernels(const StabilitySubject& subject, const core::Ray& ray);
 
-/// Whether Embree takes `ray`: debug checks in Debian's build end the process where a number is above 1.844e18 or the ray's end
-/// is not above 0.
+/// Returns whether Embree takes `ray`: debug checks in Debian's build end the process if a number is above 1.844e18 or the ray's
+/// end is not above 0.
 bool embree_takes(const core::Ray& ray);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Which primitives a ray through a point may be tested against: the records read back, independently of the traversal.
+// Lists the primitives against which a ray through a point may be tested, by reading the records independently of the traversal.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ class Listing {
  public:
   explicit Listing(const core::Database& database) : database_(&database) {}
 
-  /// Ids in the leaves whose boxes, and those of all BVH nodes above them, hold the local point `at`; empty outside the grid.
+  /// Returns the ids in the leaves whose boxes, and those of all BVH nodes above them, contain the local point `at`; empty
+  /// outside the grid.
   std::vector<std::uint32_t> around(const core::Vec3d& at) const {
     std::array<std::int32_t, 3> cell{};
     const core::GridFrame& frame = database_->header().frame;

@@ -18,7 +18,7 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Edge 2, about the origin, two triangles a face, normals outwards.
+/// Edge length 2, about the origin, two triangles a face, normals outwards.
 inline Mesh cube() {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 8; ++i) {
@@ -33,7 +33,7 @@ inline Mesh cube() {
   return mesh;
 }
 
-/// About the origin, on every other corner of the cube; normals outwards.
+/// About the origin, with every other corner of the cube; normals outwards.
 inline Mesh tetrahedron() {
   return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
@@ -93,7 +93,7 @@ inline Mesh moved(Mesh mesh, double factor, const core::Vec3d& offset) {
   return mesh;
 }
 
-/// The mesh with vertices as single precision holds them; triangles stay joined, since equal vertices round alike.
+/// Returns the mesh with vertices rounded to single precision; triangles stay joined, since equal vertices round alike.
 inline Mesh rounded(Mesh mesh) {
   for (core::Vec3d& v : mesh.vertices) {
     v = core::Vec3d(core::Vec3f(v));

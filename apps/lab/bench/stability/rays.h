@@ -1,4 +1,4 @@
-// Rays in grid-local coordinates, what they are aimed at, and what they hit.
+// Rays in grid-local coordinates, their targets, and their hits.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace dmpc::apps {
 
-/// A scene seen from far enough away that the pad covers rays from `distance` extents.
+/// Returns a scene whose eye is so far away that the pad covers rays from `distance` extents.
 inline core::Scene seen_from(core::Scene scene, double distance) {
   core::Vec3d low{1e300, 1e300, 1e300}, high = -low;
   for (const core::Vec3d& v : scene.vertices) {
@@ -73,7 +73,7 @@ class CellByCell {
   Pair entries_;
 };
 
-/// What tracing answers for one ray; infinity and no primitive for a miss.
+/// Returns the hit of one ray; infinity and no primitive for a miss.
 template <core::Records R>
 core::Hit shoot(R records, const core::Database& database, const core::Ray& ray) {
   core::Cursor cursor;
@@ -89,7 +89,7 @@ inline bool same_hit(const core::Hit& a, const core::Hit& b) {
   return std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) && a.primitive == b.primitive;
 }
 
-/// Says absent the first time that it is asked for a record, and keeps no more than that one record. Not thread-safe.
+/// Reports each record as absent at its first request, and keeps only that one record. Not thread-safe.
 class OneRecord {
  public:
   explicit OneRecord(std::span<const std::byte> database) : all_(database) {}

@@ -1,4 +1,4 @@
-// The points of a primitive that rays are aimed at because they are easily missed.
+// Points of a primitive that rays easily miss, as targets.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ inline constexpr std::size_t targets_per_triangle = 19;
 inline constexpr std::size_t vertices_per_triangle = 3;
 inline constexpr std::size_t middle_of_triangle = targets_per_triangle - 1;
 
-/// The point of the edge from vertex `edge` on at `share` of its length, grid-local.
+/// Returns the point of the edge from vertex `edge` on at `share` of its length, grid-local.
 inline core::Vec3d on_edge(const core::PrimitiveValues& triangle, std::size_t edge, double share) {
   const core::Vec3d from = triangle.vector(3 * edge), to = triangle.vector(3 * ((edge + 1) % 3));
   return from + (to - from) * share;
 }
 
-/// Target `index`, below targets_per_triangle: vertices first, then the edges, then the middle.
+/// Returns target `index`, below targets_per_triangle: vertices first, then the edges, then the middle.
 inline core::Vec3d target_of(const core::PrimitiveValues& triangle, std::size_t index) {
   constexpr std::array<double, 5> shares{0.125, 0.3, 0.5, 0.7, 0.9375};
   if (index < vertices_per_triangle) {
@@ -36,7 +36,7 @@ inline core::Vec3d target_of(const core::PrimitiveValues& triangle, std::size_t 
   return on_edge(triangle, on_edges / shares.size(), shares[on_edges % shares.size()]);
 }
 
-/// A point of the primitive's surface, grid-local, off by less than 1e-15: often on an edge or at an end.
+/// Returns a point of the primitive's surface, grid-local, off by less than 1e-15: often on an edge or at an end.
 inline core::Vec3d surface_point(const core::PrimitiveValues& primitive, Random& random) {
   switch (primitive.kind) {
     case core::PrimitiveKind::triangle: {

@@ -1,4 +1,4 @@
-// The traversal of the grid with tests of triangles of one's own: the scalar twin's, or ones that collect every hit.
+// The grid's traversal with a given triangle test: the scalar twin's, or one that collects every hit.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// A leaf of primitives as a record holds it.
+/// A leaf of primitives as stored in a record.
 struct LeafView {
   core::PrimitiveKind kind{};
   std::size_t count = 0;
@@ -26,8 +26,8 @@ inline LeafView view_leaf(const std::byte* record) {
           header.shared_lanes, record};
 }
 
-/// Calls test(leaf, best) for each leaf of triangles that `ray` meets, by `meet`, before the traversal knows its nearest hit.
-/// Spheres and cones have but one kernel, which tests them. Returns the best of both.
+/// Calls test(leaf, best) for each leaf of triangles that `ray` meets, found by `meet`, before the traversal knows its nearest
+/// hit. Spheres and cones have only one kernel, which tests them. Returns the best of both.
 template <class Test>
 core::Hit walk_leaves(const core::Database& database, const core::Ray& ray, core::BvhNodeKernel meet, const Test& test) {
   const core::ShearedRay sheared(ray);
