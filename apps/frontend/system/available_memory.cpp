@@ -20,13 +20,13 @@ constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return a > unlimited - b ? unlimited : a + b; }
 
-/// A number alone in its file; nothing without one, as where it says "max".
+/// Reads a number that is alone in its file; returns nothing if there is none, as in "max".
 std::optional<std::uint64_t> number_in(const std::string& file) {
   std::uint64_t number = 0;
   return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;
 }
 
-/// The least of all that say something.
+/// The minimum of all known limits.
 class Least {
  public:
   explicit Least(AvailableMemory room) : room_(std::move(room)) {}
@@ -61,14 +61,14 @@ void add_process_limits(Least& least) {
   }
 }
 
-/// How one version of control groups calls its files; without a name nothing is said of swap.
+/// The file names of one version of control groups; without a name swap is not limited.
 struct GroupFiles {
   const char* limit;
   const char* swap_limit;
 };
 constexpr GroupFiles version_1{"/memory.limit_in_bytes", nullptr}, version_2{"/memory.max", "/memory.swap.max"};
 
-/// A group ("/a/b", "/") and its parents, up to the root of where they are mounted; in a container that may be all there is.
+/// Adds a group ("/a/b", "/") and its parents, up to the root of their mount, which in a container may be the only one.
 void add_groups(Least& least, const std::string& mount, std::string group, const GroupFiles& files, std::uint64_t swap) {
   for (bool is_root = false; !is_root;) {
     group.resize(group.find_last_not_of('/') + 1);  // nothing if there is nothing else
@@ -84,8 +84,8 @@ void add_groups(Least& least, const std::string& mount, std::string group, const
   }
 }
 
-/// Paths are texts here: where memory runs out, GCC 12's std::filesystem::path frees what it has freed.
-/// Each line of the file: a number, names of what is controlled (none: all, by version 2), and the group, with colons between.
+/// Paths are texts here: when memory runs out, GCC 12's std::filesystem::path frees memory twice. Each line of the file has a
+/// number, names of what is controlled (none: all, by version 2), and the group, separated by colons.
 void add_control_groups(Least& least, const std::string& root, std::uint64_t swap) {
   std::ifstream groups(root + "/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
@@ -127,7 +127,7 @@ void bound_memory(const AvailableMemory& room) {
   name_memory_limit(room.is_limit ? room.source : "", bytes_text(room.bytes));
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 && room.bytes < limit.rlim_cur) {
     limit.rlim_cur = room.bytes;
-    ::setrlimit(RLIMIT_DATA, &limit);  // fails only where it would forbid what is there already
+    ::setrlimit(RLIMIT_DATA, &limit); // fails only if it would forbid existing memory
   }
 }
 

@@ -5,7 +5,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// 64 for what is no digit.
+/// Returns 64 for a letter that is no digit.
 std::uint32_t digit_of(char letter) {
   if (letter >= 'A' && letter <= 'Z') {
     return static_cast<std::uint32_t>(letter - 'A');
@@ -23,7 +23,7 @@ bool is_blank(char letter) { return letter == ' ' || letter == '\n' || letter ==
 
 constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Four digits for one to three bytes.
+/// Returns four digits for one to three bytes.
 std::string four_digits(std::string_view bytes) {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -19,7 +19,8 @@
 namespace dmpc::apps {
 namespace {
 
-/// A pipe that no program inherits, by which a child says why it could not become the program: nothing if it did.
+/// A pipe that no program inherits, through which a child reports why it could not become the program. Nothing is written if it
+/// did.
 struct Complaint {
   Descriptor its, ours;
 
@@ -30,7 +31,7 @@ struct Complaint {
       its = Descriptor(ends[1]);
     }
   }
-  /// An error's number, or 0.
+  /// Returns an error's number, or 0.
   int hear() {
     its = Descriptor();
     int error = 0;
@@ -40,7 +41,7 @@ struct Complaint {
   }
 };
 
-/// What a child has before it is the program: made before the fork, since it may take no memory between.
+/// What a child needs before it becomes the program: made before the fork, since the child may not allocate memory.
 struct Start {
   std::vector<std::string> words;
   std::vector<char*> pointers;
@@ -64,7 +65,7 @@ struct Start {
   }
 };
 
-/// `file`, or nothing, becomes the child's `number`.
+/// Makes `file`, or an opened file if there is none, the child's descriptor `number`.
 bool opens_as(int number, int file, int mode) {
   if (file >= 0) {
     return file == number ? ::fcntl(file, F_SETFD, 0) == 0 : ::dup2(file, number) >= 0;
@@ -81,11 +82,12 @@ bool unblocks_signals() {
   return ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0;
 }
 
-/// In the child. The thread that started it waits for it, and ends no sooner: what the child gets is the parent's death.
+/// Runs in the child. The thread that started it waits for it and does not end before: the child receives a signal at that
+/// thread's death.
 [[noreturn]] void become(const Start& start, int complaint) {
   const bool is_tied = ::prctl(PR_SET_PDEATHSIG, start.death_signal) == 0;
   if (::getppid() != start.parent) {
-    ::_exit(0);  // it has died before
+    ::_exit(0); // the parent has died before
   }
   if (is_tied && ::chdir(start.folder) == 0 && opens_as(STDIN_FILENO, start.input, O_RDONLY) &&
       opens_as(STDOUT_FILENO, start.output, O_WRONLY) && ::dup2(start.errors, STDERR_FILENO) >= 0 &&
@@ -128,7 +130,7 @@ void ChildProcess::wait_for_end() const {
   }
 }
 
-/// It is still to be waited for: until then nobody else has its number, nor its group's.
+/// The child is still waited for: until then no other process gets its number, or its group's.
 bool ChildProcess::has_ended(int options) const {
   siginfo_t info{};
   int waited = 0;

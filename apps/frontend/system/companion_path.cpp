@@ -29,14 +29,14 @@ int take_run_path(dl_phdr_info* info, std::size_t /*bytes*/, void* text) {
       offset = entry->d_tag == DT_RUNPATH || entry->d_tag == DT_RPATH ? entry->d_un.d_val : offset;
     }
     if (names != 0 && offset != 0) {
-      names += names < info->dlpi_addr ? info->dlpi_addr : 0;  // not every loader has put the program's place before it
+      names += names < info->dlpi_addr ? info->dlpi_addr : 0; // not every loader has added the program's address
       *static_cast<std::string*>(text) = reinterpret_cast<const char*>(names + offset);
     }
   }
   return 1;
 }
 
-/// The run path that the running program was linked with, as far as it is absolute.
+/// Returns the absolute folders of the run path with which the running program was linked.
 std::vector<fs::path> run_path() {
   std::string text;
   ::dl_iterate_phdr(take_run_path, &text);
@@ -53,7 +53,7 @@ std::vector<fs::path> run_path() {
 std::vector<fs::path> places_of(const std::string& installed, CompanionOf whose) {
   std::error_code unknown;
   const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  if (folder.empty()) {  // without /proc nothing is known of where we are
+  if (folder.empty()) { // without /proc the program's folder is unknown
     return {};
   }
   std::vector<fs::path> places = whose == CompanionOf::dmpc ? std::vector{folder, folder / installed} : run_path();

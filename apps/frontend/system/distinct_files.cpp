@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where `path` leads, even if there is nothing yet.
+/// Returns where `path` leads, even if no file exists there yet.
 fs::path resolve(const fs::path& path) {
   std::error_code error;
   const fs::path resolved = fs::weakly_canonical(fs::absolute(file_behind(path), error), error);

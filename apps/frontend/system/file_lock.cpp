@@ -23,7 +23,7 @@ Descriptor open_lock(const std::filesystem::path& path) {
   return file;
 }
 
-/// Whether `path` still names this file, which another may have removed since it was opened.
+/// Returns whether `path` still names this file, which another process may have removed since it was opened.
 bool is_named(int file, const std::filesystem::path& path) {
   struct stat ours {};
   struct stat there {};
@@ -48,7 +48,7 @@ std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& path) {
 FileLock::FileLock(const std::filesystem::path& path, Descriptor file)
     : path_(path), file_(std::move(file)), removed_at_once_(std::make_unique<RemovedAtOnce>(path)) {}
 
-/// Removed before it is let go: who has opened it meanwhile sees that it is not named any more.
+/// The file is removed before the lock is released: a process that has opened it meanwhile sees that it is no longer named.
 FileLock::~FileLock() {
   if (file_.is_open()) {
     ::unlink(path_.c_str());

@@ -31,7 +31,7 @@ sigset_t stop_signals() {
   return set;
 }
 
-/// Whoever started us wants it ignored, as nohup does.
+/// Whoever started the process wants the signal ignored, as nohup does.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
@@ -47,24 +47,24 @@ struct UnderWay {
   bool is_folder;
 };
 
-/// A render has a picture, counters, a trace, a page, a strip, a checkpoint, its lock, and 32 heat maps under way, no command
-/// more.
+/// A render has the most files in progress: a picture, counters, a trace, a page, a strip, a checkpoint, its lock, and 32 heat
+/// maps.
 constexpr std::size_t slot_count = 40;
 
-/// Whoever takes one out of its slot owns it.
+/// The thread that takes a path out of its slot owns it.
 std::array<std::atomic<UnderWay*>, slot_count> to_remove{};
 
-/// Where no memory may be left.
+/// Works without free memory.
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
-/// One that another thread still writes into is not empty at once.
+/// A folder into which another thread still writes is not empty at once.
 void remove_folder(const std::string& path) {
   std::error_code error;
   for (int tries = 0; tries < 100 && std::filesystem::remove_all(path, error) != 0; ++tries) {
   }
 }
 
-/// Where a file was, a folder that somebody has put there since is left alone.
+/// A folder that somebody has put in place of a file is left alone.
 void remove_all_under_way() {
   for (std::atomic<UnderWay*>& slot : to_remove) {
     if (const std::unique_ptr<UnderWay> found{slot.exchange(nullptr)}) {
@@ -78,7 +78,7 @@ void remove_all_under_way() {
 void remove_files_under_way() {
   for (std::atomic<UnderWay*>& slot : to_remove) {
     if (const UnderWay* const found = slot.exchange(nullptr)) {
-      ::unlink(found->path.c_str());  // nothing is freed: the heap may be what has failed
+      ::unlink(found->path.c_str()); // nothing is freed: the heap may be corrupt
     }
   }
 }

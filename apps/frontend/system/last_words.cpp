@@ -22,16 +22,16 @@ namespace {
 
 std::atomic<bool> has_run_out = false, is_loading = false;
 
-/// "; the limit of its control group (/sys/fs/cgroup/memory.max) is 512 MiB": written before it is needed, and by no stream.
+/// "; the limit of its control group (/sys/fs/cgroup/memory.max) is 512 MiB": prepared in advance, and not written by a stream.
 std::array<char, 512> memory_limit{};
 
-/// As without a handler, but noted.
+/// Acts as without a handler, but notes the failure.
 void note_end_of_memory() {
   has_run_out = true;
   throw std::bad_alloc();
 }
 
-/// By no stream, whose state is not known here.
+/// Does not use a stream, whose state is unknown here.
 void say(std::initializer_list<const char*> words) {
   for (const char* const word : words) {
     static_cast<void>(!::write(STDERR_FILENO, word, std::strlen(word)));
@@ -64,19 +64,19 @@ int complain_of(const std::exception_ptr& thrown) {
   return internal_status;
 }
 
-/// Else a fault, or our own abort().
+/// Otherwise the signal is a fault, or our own abort().
 bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && info.si_pid != ::getpid(); }
 
-/// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
-/// a want of memory goes on to end the process as it would have; what crashes long after one, and not for it, cannot be told from
-/// it.
+/// The C library aborts if it needs memory and may not fail, and libraries use memory that they failed to allocate. A signal that
+/// has nothing to do with lack of memory ends the process as it would have otherwise; a crash long after a lack of memory, for
+/// another reason, cannot be distinguished.
 [[maybe_unused]] void end_crash(int signal, siginfo_t* info, void* /*context*/) {
   const bool is_for_want_of_memory = (errno == ENOMEM || memory_has_run_out()) && !is_sent_by_another(*info);
   remove_files_under_way();
   if (is_for_want_of_memory) {
     ::_exit(complain_of_memory());
   }
-  ::raise(signal);  // one that was sent does not come again by itself
+  ::raise(signal); // a signal that was sent does not recur by itself
 }
 
 }  // namespace
@@ -104,13 +104,13 @@ void end_without_abort() {
   [[maybe_unused]] struct sigaction action {};
   action.sa_sigaction = end_crash;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
-#if !defined(__SANITIZE_ADDRESS__)  // which reports more about a crash
+#if !defined(__SANITIZE_ADDRESS__) // the sanitizer reports more about a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);
   }
 #endif
   void* frame = nullptr;
-  ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
+  ::backtrace(&frame, 1); // loads now the library that ends threads; the C library would abort if memory were lacking later
   std::set_new_handler(note_end_of_memory);
   std::set_terminate([] {
     remove_files_under_way();

@@ -12,8 +12,8 @@
 namespace {
 bool is_any_opened = false;
 }
-/// LeakSanitizer crashes now and then where it looks through the thread-local data of libraries that were opened like this, with
-/// their threads still there: who has opened one is not searched for leaks.
+/// LeakSanitizer sometimes crashes when it searches the thread-local data of libraries that were opened like this while their
+/// threads still run: processes that have opened one are not searched for leaks.
 extern "C" int __lsan_is_turned_off();
 extern "C" int __lsan_is_turned_off() { return is_any_opened ? 1 : 0; }
 #endif

@@ -23,12 +23,12 @@ namespace {
 
 constexpr std::size_t kept_bytes = 65536;
 
-/// More than one is never needed unless somebody makes files under the names that we are about to take.
+/// More than one try is needed only if somebody makes files with the names that are about to be used.
 constexpr int tries_max = 100;
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// A word of 65 bits, so that two processes never hit on the same.
+/// Returns a word of 65 random bits, so that two processes never choose the same.
 std::string random_word() {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
   std::string word(13, '\0');
@@ -47,7 +47,7 @@ int open_patiently(Files& files, const fs::path& path, int flags) {
   return file;
 }
 
-/// 0, or errno's value.
+/// Returns 0, or an errno.
 int sync_patiently(Files& files, int file) {
   while (files.sync(file) != 0) {
     if (errno != EINTR) {
@@ -57,7 +57,7 @@ int sync_patiently(Files& files, int file) {
   return 0;
 }
 
-/// What Linux's devices take nothing for: /dev/full says so even then.
+/// Writes nothing to a device of Linux: /dev/full reports an error even then.
 void ask_device(const fs::path& path, const std::string& what) {
   if (!fs::is_character_file(path)) {
     return;
@@ -73,7 +73,7 @@ void ask_device(const fs::path& path, const std::string& what) {
   }
 }
 
-/// Where a program that opens a link for writing would make the file, since there is none. Of `links_max` no path has more.
+/// Returns where a program that opens a dangling link for writing would make the file. No path has more than `links_max` links.
 fs::path end_of_links(fs::path path) {
   constexpr int links_max = 40;
   std::error_code error;
@@ -222,7 +222,7 @@ OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& fi
   open();
   try {
     stream_.emplace(files_, file_);
-  } catch (...) {  // no destructor will
+  } catch (...) { // no destructor runs
     drop();
     throw;
   }
@@ -233,7 +233,8 @@ void OutputFile::open() {
     file_ = open_patiently(files_, target_, O_WRONLY | O_NOCTTY);
   } else {
     for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < tries_max)); ++tries) {
-      // The name that the target has may be somebody else's, who may not be removed: one file more, then, but not none.
+      // The target's fixed temporary name may be in use by somebody else's file, which may not be removable: then a random name
+      // is used.
       const bool is_random = settings_.name == TemporaryName::random || tries > 0;
       make(is_random ? folder_of(target_) / (".dmpc-" + random_word()) : next_name(target_));
     }
@@ -243,14 +244,14 @@ void OutputFile::open() {
   }
 }
 
-/// A file without a name (O_TMPFILE) would leave nothing after a SIGKILL, but no call gives one a name that is taken: it would
-/// need a temporary name, too, if for a shorter time, and another way to write where the file system has no such files.
+/// A file without a name (O_TMPFILE) would leave nothing after a SIGKILL, but no call gives it a name that is in use: it would
+/// still need a temporary name, if for a shorter time, and another way to write on file systems without such files.
 void OutputFile::make(const fs::path& temporary) {
   temporary_ = temporary;
   removed_at_once_.reset();
   removed_at_once_.emplace(temporary_);
   if (settings_.name == TemporaryName::of_target) {
-    files_.remove(temporary_);  // left by a process that was killed
+    files_.remove(temporary_); // left by a killed process
   }
   file_ = open_patiently(files_, temporary_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
   if (file_ >= 0) {
@@ -267,7 +268,7 @@ void OutputFile::drop() {
   }
 }
 
-/// 0, or errno's value.
+/// Returns 0, or an errno.
 int OutputFile::close() {
   const bool is_closed = file_ < 0 || files_.close(std::exchange(file_, -1)) == 0 || errno == EINTR;
   return is_closed ? 0 : errno;
@@ -301,7 +302,7 @@ void OutputFile::commit() {
   }
 }
 
-/// Where folders cannot be read or synced nothing better can be done, and nothing has failed.
+/// If folders cannot be read or synced, nothing better can be done, and nothing has failed.
 void OutputFile::sync_folder() const {
   const int folder = open_patiently(files_, folder_of(target_), O_RDONLY | O_DIRECTORY);
   if (folder < 0 && errno == EACCES) {

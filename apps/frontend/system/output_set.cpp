@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// An output, its folder, and a picture in memory; of a program that draws, a scratch file and the ends of a pipe; two to spare.
+/// An output, its folder, and a picture in memory; for a drawing program, a scratch file and the ends of a pipe; two to spare.
 constexpr std::size_t open_files_needed = 8;
 
 }  // namespace

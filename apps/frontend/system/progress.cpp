@@ -26,7 +26,7 @@ std::string bar(std::uint64_t done, std::uint64_t total) {
   return text;
 }
 
-/// "1:02:03" or "2:03".
+/// Returns "1:02:03" or "2:03".
 std::string clock_text(double seconds) {
   const auto whole = static_cast<std::uint64_t>(std::llround(std::min(seconds, 1e9)));
   std::ostringstream text;

@@ -16,7 +16,7 @@ extern char** environ;
 namespace dmpc::apps {
 namespace {
 
-/// Children that still write there end now, too: so it tries again.
+/// It retries, as children that still write to the folder end at the same time.
 constexpr const char* script = R"(trap '' INT TERM HUP QUIT
 read -r nothing
 tries=0
@@ -35,7 +35,7 @@ int spawn(pid_t& id, const std::string& folder, int life) {
   posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // the terminal's Ctrl-C is not for it
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // keeps the terminal's Ctrl-C from it
   std::array<std::string, 5> words{"/bin/sh", "-c", script, "dmpc-heir", folder};
   std::array<char*, 6> pointers{words[0].data(), words[1].data(), words[2].data(), words[3].data(), words[4].data(), nullptr};
   const int error = ::posix_spawn(&id, pointers[0], &actions, &attributes, pointers.data(), environ);

@@ -21,14 +21,14 @@ using Traits = std::streambuf::traits_type;
 constexpr std::size_t buffer_bytes = 64 * 1024;
 constexpr std::chrono::milliseconds pause{10};
 
-/// What text becomes takes more than the text: a scene in memory some ten times as much.
+/// The data made from a text take more memory than the text: a scene some ten times as much.
 std::uint64_t pipe_bytes_max() { return reader_memory_bytes_max() / 16; }
 
 }  // namespace
 
 TextInput::TextInput(const std::filesystem::path& path, const PipeTimeout& timeout)
     : std::istream(this), name_(path.string()), timeout_(timeout), buffer_(buffer_bytes) {
-  // A device may do things when it is opened, and a pipe may wait: so what it is is seen before.
+  // Opening may trigger a device and may block on a pipe, so the type is checked before.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     fail_with("cannot be opened");
@@ -45,7 +45,7 @@ TextInput::TextInput(const std::filesystem::path& path, const PipeTimeout& timeo
     fail_with("cannot be opened");
   }
   file_bytes_ = is_pipe_ ? 0 : static_cast<std::uint64_t>(status.st_size);
-  exceptions(std::ios::badbit);  // so that what underflow() throws is not lost
+  exceptions(std::ios::badbit); // so that exceptions of underflow() are not lost
 }
 
 void TextInput::fail(const std::string& sentence) const { throw core::InputError(name_ + ": " + sentence); }

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As whom files look that belong to nobody whom this user namespace knows; nothing if it knows all.
+/// Returns the owner that files of users unknown to this user namespace appear to have; nothing if it knows all users.
 std::optional<uid_t> unknown_owner() {
   std::uint64_t inside = 0, outside = 0, count = 0;
   std::ifstream("/proc/self/uid_map") >> inside >> outside >> count;
@@ -34,8 +34,8 @@ std::optional<uid_t> unknown_owner() {
   return count >= all ? std::nullopt : std::optional(owner);
 }
 
-/// Whether a user of this computer, other than this process's, is in the group by his own entry, which the group does not list.
-/// Who is known to a network alone cannot be listed.
+/// Returns whether a user of this computer other than this process's is in the group by the user's own entry, which the group
+/// does not list. Users known only to a network cannot be listed.
 bool is_group_of_others(gid_t id) {
   std::array<char, 16384> text{};
   passwd user{};
@@ -47,14 +47,14 @@ bool is_group_of_others(gid_t id) {
     are_others = user.pw_gid == id && user.pw_uid != ::geteuid();
   }
   ::endpwent();
-  return are_others || (error != 0 && error != ENOENT);  // whom it cannot tell may be in it
+  return are_others || (error != 0 && error != ENOENT); // unknown users may be in it
 }
 
-/// Whether single users and groups have rights of their own (POSIX 1003.1e, withdrawn, as Linux has it): then the mode's group
-/// bits are the most that any of them may do.
+/// Returns whether single users and groups have separate rights (POSIX 1003.1e, withdrawn, as in Linux): then the mode's group
+/// bits limit what any of them may do.
 bool has_access_list(const fs::path& place) { return ::getxattr(place.c_str(), "system.posix_acl_access", nullptr, 0) > 0; }
 
-/// Whether it has the user's name and no other members, as many systems give each user a group.
+/// Returns whether it has the user's name and no other members: many systems give each user a group.
 bool is_own_group(gid_t id) {
   std::array<char, 16384> user_text{}, group_text{};
   passwd user{};
@@ -74,7 +74,7 @@ bool is_own_group(gid_t id) {
   return name == members.gr_name && !is_group_of_others(id);
 }
 
-/// Whether a sticky folder, where everybody may write but remove only their own files, is trusted.
+/// Whether a sticky folder, in which everybody may write but remove only their own files, is trusted.
 enum class Sticky { keeps_apart, is_open };
 
 /// Checks one file or folder.
@@ -121,7 +121,7 @@ class Trust {
     }
     return std::nullopt;
   }
-  /// Nothing if no folder above `path` lets others put something else in its place.
+  /// Returns nothing if no folder above `path` lets others replace it.
   std::optional<std::string> why_not_above(const fs::path& path) const {
     for (fs::path place = path.parent_path();; place = place.parent_path()) {
       if (const auto why = why_not(place)) {
@@ -148,7 +148,7 @@ class Trust {
   Sticky sticky_;
   fs::path program_;
   std::optional<uid_t> program_owner_, unknown_owner_ = unknown_owner();
-  std::vector<gid_t> program_groups_;  ///< that may replace the program
+  std::vector<gid_t> program_groups_; ///< groups that may replace the program
 };
 
 }  // namespace
@@ -164,7 +164,7 @@ Descriptor open_trusted(const std::string& path) {
   if (!fs::path(path).is_absolute()) {
     throw core::InputError(path + ": it does not begin with /" + expected);
   }
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));  // which a pipe does not hold up
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)); // does not block on a pipe
   struct stat found {};
   if (!file.is_open() || ::fstat(file.number(), &found) != 0) {
     throw core::InputError(path + " cannot be opened: " + std::strerror(errno));

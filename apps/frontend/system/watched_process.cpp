@@ -40,7 +40,7 @@ std::size_t anonymous_bytes_in(std::string_view status) {
 
 WatchedProcess watch_process(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                              const Interrupt& interrupt) {
-  // The program may be called by a name that means another one to its child, as /proc/self/exe is.
+  // The program's name may mean another one to its child, as /proc/self/exe does.
   std::error_code unknown;
   const std::filesystem::path found = std::filesystem::canonical(program, unknown), path = unknown ? program : found;
   ChildProcess process({.program = path.string(), .arguments = arguments, .gets_ctrl_c = false});
@@ -61,7 +61,7 @@ WatchedProcess watch_process(const std::filesystem::path& program, const std::ve
 std::size_t peak_anonymous_bytes(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                                  const Interrupt& interrupt) {
   WatchedProcess watched = watch_process(program, arguments, interrupt);
-  // On a busy machine a short life may pass between two looks.
+  // On a busy machine a short-lived process may end between two samples.
   for (int again = 0; again < looks_again && watched.status == 0 && !watched.peak_anonymous_bytes; ++again) {
     watched = watch_process(program, arguments, interrupt);
   }

@@ -10,31 +10,31 @@
 
 namespace dmpc::apps {
 
-/// M. Okabe and K. Ito, "Color Universal Design", 2008, with a brown for their yellow, which is faint on white.
+/// M. Okabe and K. Ito, "Color Universal Design", 2008, with a brown in place of their yellow, which is faint on white.
 const std::array<const char*, 8> plot_colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                 "#E69F00", "#56B4E9", "#000000", "#8C6D46"};
 
 namespace {
 
-/// gnuplot's numbers of filled and open shapes.
+/// gnuplot's indices of filled and open shapes.
 constexpr std::array<int, plot_color_count> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12, 10, 14};
-/// And of hatches that look unlike.
+/// gnuplot's indices of hatches that look different.
 constexpr std::array<int, 4> hatches = {4, 5, 2, 7};
 
-/// Under a hatch: light enough for each of their colours.
+/// Background of a hatch: light enough for each of the colours.
 constexpr const char* hatch_ground = "#eeeeee";
 
 constexpr const char* next_line = ", \\\n  ";
 
-/// Names of places along x that are so short stand upright.
+/// Names of positions along x up to this length are upright.
 constexpr std::size_t upright_letters_max = 3;
 /// Names of positions along x that can be distinguished in little space.
 constexpr std::size_t small_names_max = 24;
 
-/// Between the bars of one place and those of the next, in places.
+/// Gap between the bars of adjacent positions, in positions.
 constexpr double gap = 0.2;
 
-/// A name that is a place in the picture, as it stands in the CSV file: a text or a whole number.
+/// Returns a name of a position as in the CSV file: a text or a whole number.
 std::string text_of_cell(const Cell& cell) {
   const std::string* const text = std::get_if<std::string>(&cell);
   const std::uint64_t* const number = std::get_if<std::uint64_t>(&cell);
@@ -83,7 +83,7 @@ class Script {
            });
   }
 
-  /// A number that the axis has a place for.
+  /// Returns whether the axis can show a cell's number.
   bool is_visible(const Cell& cell) const {
     const std::optional<double> number = number_of(cell);
     return number && (plot_.y.scale == PlotScale::linear || *number > 0);
@@ -99,7 +99,7 @@ class Script {
     }
   }
 
-  /// Bars at places that have names.
+  /// Returns whether bars stand at named positions.
   bool has_places() const { return is_bars_ && !plot_.bar_width; }
 
   const std::string& unit_of(const std::string& column) const { return table_.columns()[number_of_column(table_, column)].unit; }
@@ -163,7 +163,7 @@ class Script {
            (is_small() ? "set xlabel offset 0,0.5\n" : "");
   }
 
-  /// So high that legend and names below leave the plot its room.
+  /// Returns the height that gives the plot enough space beside the legend and the names below.
   std::size_t small_height() const {
     constexpr std::size_t plot_height = 270, line_height = 18, letter_width = 7;
     std::size_t longest_name = 0, longest_title = 0;
@@ -178,7 +178,7 @@ class Script {
   }
 
   std::string key() const {
-    const bool needs_none = is_small() && drawn_.size() == 1;  // the title says it
+    const bool needs_none = is_small() && drawn_.size() == 1; // the title has it
     return needs_none ? "off" : is_small() ? "bmargin center horizontal Left reverse" : "outside right top Left reverse";
   }
 
@@ -187,8 +187,7 @@ class Script {
                     : "";
   }
 
-  /// 1, 2 or 5 times a power of ten, so that every name at a multiple of it has space; a picture that is shown by itself has all
-  /// names.
+  /// Returns 1, 2 or 5 times a power of ten, so that every name at a multiple of it has space; a large plot has all names.
   std::size_t name_step() const {
     for (std::size_t power = 1; is_small(); power *= 10) {
       for (const std::size_t digit : {1U, 2U, 5U}) {
@@ -200,7 +199,7 @@ class Script {
     return 1;
   }
 
-  /// Positions of bars, from 1 on.
+  /// Returns the positions of bars, from 1 on.
   std::string places() const {
     const std::string count = std::to_string(places_.size());
     const std::size_t step = name_step();
@@ -222,14 +221,15 @@ class Script {
     return plot_.bar_width ? *plot_.bar_width : (1 - gap) / static_cast<double>(plot_.is_stacked ? 1 : drawn_.size());
   }
 
-  /// By its head, unless gnuplot would not find that: it takes two quotes in a file for two.
+  /// Returns the column by its heading, unless gnuplot would not find that: it takes two quotes in a file literally.
   std::string column(const std::string& name) const {
     const std::size_t number = number_of_column(table_, name);
     const std::string head = header_of(table_.columns()[number]);
     return head.find('"') == std::string::npos ? gnuplot_text(head) : std::to_string(number + 1);
   }
 
-  /// gnuplot ends a text at its first comma or quote, whatever CSV makes of that: such columns stand in the script, row by row.
+  /// gnuplot ends a text at its first comma or quote, despite CSV's quoting: such columns are written into the script, row by
+  /// row.
   bool is_quoted(const std::string& name) const {
     const std::size_t number = number_of_column(table_, name);
     return std::any_of(table_.rows().begin(), table_.rows().end(), [&](const auto& row) {
@@ -286,7 +286,7 @@ class Script {
     return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + gnuplot_number(shift));
   }
 
-  /// Its own column, with those below it if they are stacked.
+  /// Returns the series' own column, added to those below it if they are stacked.
   std::string y_of(std::size_t series) const {
     std::string sum;
     for (std::size_t below = plot_.is_stacked ? 0 : series; below <= series; ++below) {
@@ -299,10 +299,10 @@ class Script {
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }
 
-  /// gnuplot's filled shapes follow upon the same ones hollow.
+  /// In gnuplot, each filled shape follows the same hollow one.
   static int hollow(int shape) { return shape % 2 == 1 ? shape - 1 : shape; }
 
-  /// The box with its lines to both ends, and upon it one so flat that it is a line.
+  /// Returns the box with its lines to both ends, and above it one so flat that it is a line.
   std::string band(std::size_t series, const std::string& color) const {
     const PlotSeries& drawn = *drawn_[series];
     const auto box = [&](const std::string& low, const std::string& least, const std::string& most, const std::string& high) {
@@ -335,7 +335,7 @@ class Script {
     }
   }
 
-  /// What is drawn of a series, one upon another: a hatch lets through what lies under it, and so needs a ground.
+  /// Returns the layers of a series: a hatch is transparent and needs a background.
   std::string elements(std::size_t series) const {
     const PlotSeries& drawn = *drawn_[series];
     if (drawn.mark == PlotMark::bands) {
@@ -352,7 +352,7 @@ class Script {
            gnuplot_text(drawn.title);
   }
 
-  /// Stacked bars are drawn from the top down, so that each covers what is not its own.
+  /// Stacked bars are drawn from the top down, so that each covers the part below.
   std::string curves() const {
     std::string text = "plot ";
     for (std::size_t drawn = 0; drawn < drawn_.size(); ++drawn) {
@@ -365,7 +365,7 @@ class Script {
   const Table& table_;
   std::string data_;
   bool is_bars_ = false;
-  std::vector<const PlotSeries*> drawn_;  ///< that have a row
+  std::vector<const PlotSeries*> drawn_; ///< series that have a row
   std::vector<std::string> places_;       ///< names of bars
 };
 

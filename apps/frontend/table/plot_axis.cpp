@@ -13,12 +13,12 @@ namespace dmpc::apps {
 
 namespace {
 
-/// Above the highest of what is drawn, as a share of it.
+/// Space above the highest value, as a share of it.
 constexpr double headroom = 0.04;
-/// Above and below it on a logarithmic axis.
+/// Space above and below on a logarithmic axis.
 constexpr double margin_factor = 1.25;
 
-/// Room around what is drawn, along y, where no limits are given.
+/// Adds space around the values along y if no limits are given.
 void widen(PlotAxis& axis, const PlotExtent& extent) {
   const bool is_logarithmic = axis.scale == PlotScale::powers_of_10;
   if (!axis.most) {

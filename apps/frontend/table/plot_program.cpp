@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// So much of what a program says is kept; the rest is forgotten.
+/// Limit of the program's messages that are kept.
 constexpr std::size_t words_bytes_max = 2000;
 
-/// The words without empty lines, on one line.
+/// Returns the words without empty lines, on one line.
 std::string on_one_line(const std::string& words) {
   std::string line;
   for (const char character : words) {
@@ -44,7 +44,7 @@ PlotOutcome run_script(const fs::path& folder, const std::string& name, const st
                        (words.empty() ? "" : ": " + words)};
 }
 
-/// The outcome where the program is missing.
+/// Returns the outcome if the program is missing.
 PlotOutcome outcome_of(const fs::path& folder, const std::string& name, const std::string& program) {
   try {
     return run_script(folder, name, program);

@@ -18,10 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Line = std::vector<std::string>;
 
-/// Letters of a row that is shown by itself; a terminal's line is at least so long.
+/// Letters of a row that is shown by itself; a terminal's line is at least this long.
 constexpr std::size_t row_text_max = 79;
 
-/// A text that cannot end its cell.
+/// Escapes a text so that it cannot end its cell.
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char character : text) {
@@ -42,10 +42,10 @@ struct MarkdownCell {
 /// How one column is laid out.
 struct Layout {
   std::size_t width = 0;
-  bool is_text = false;  ///< begins on the left
+  bool is_text = false; ///< is left-aligned
 };
 
-/// The header, then a line a row.
+/// Returns the header, then a line for each row.
 std::vector<Line> markdown_cells(const Table& table) {
   std::vector<Line> lines(1);
   for (const Column& column : table.columns()) {
@@ -70,13 +70,13 @@ std::vector<Layout> layouts_of(const Table& table, const std::vector<Line>& line
   return layouts;
 }
 
-/// Columns that stand side by side, by their indices.
+/// Indices of columns that stand side by side.
 using Fold = std::vector<std::size_t>;
 
-/// The width of a cell with its bars and blanks.
+/// Returns the width of a cell with its bars and blanks.
 std::size_t width_of(const Layout& layout) { return layout.width + 3; }
 
-/// So many columns from the left.
+/// Returns this many columns from the left.
 Fold first(std::size_t count) {
   Fold fold(count);
   std::iota(fold.begin(), fold.end(), std::size_t{0});
@@ -90,7 +90,7 @@ std::size_t width_of(const Fold& fold, const std::vector<Layout>& layouts) {
 
 bool is_wide(const std::vector<Layout>& layouts) { return width_of(first(layouts.size()), layouts) > markdown_width_max; }
 
-/// The fewest columns from the left by which all rows differ; all columns if none do.
+/// Returns the fewest columns from the left by which all rows differ; all columns if none do.
 std::size_t key_count(const std::vector<Line>& lines) {
   for (std::size_t count = 1; count < lines[0].size(); ++count) {
     std::set<Line> keys;
@@ -104,7 +104,7 @@ std::size_t key_count(const std::vector<Line>& lines) {
   return lines[0].size();
 }
 
-/// A first column with the numbers of the rows, to tell them apart.
+/// Adds a first column with the numbers of the rows, to distinguish them.
 void number_rows(std::vector<Line>& lines) {
   lines[0].insert(lines[0].begin(), "row");
   for (std::size_t row = 1; row < lines.size(); ++row) {
@@ -112,12 +112,12 @@ void number_rows(std::vector<Line>& lines) {
   }
 }
 
-/// Whether the columns that tell the rows apart would fill most of each line.
+/// Returns whether the columns that distinguish the rows would fill most of each line.
 bool has_wide_key(const std::vector<Line>& lines, const std::vector<Layout>& layouts) {
   return width_of(first(key_count(lines)), layouts) > markdown_width_max / 2;
 }
 
-/// The columns cut into pieces that fit a line, each with the columns that tell its rows apart before them.
+/// Splits the columns into parts that fit a line, each beginning with the columns that distinguish its rows.
 std::vector<Fold> folds_of(const std::vector<Line>& lines, const std::vector<Layout>& layouts) {
   if (!is_wide(layouts)) {
     return {first(layouts.size())};
@@ -152,7 +152,7 @@ std::string markdown_rule(const std::vector<Layout>& layouts, const Fold& fold) 
 
 std::string caption(const std::string& text) { return folded("**" + text + "**", markdown_width_max, "  ") + "\n"; }
 
-/// Its rows in lines, in pieces that fit.
+/// Returns the rows in parts that fit a line.
 std::string markdown_rows(const Table& table) {
   std::vector<Line> lines = markdown_cells(table);
   std::vector<Layout> layouts = layouts_of(table, lines);
@@ -172,7 +172,7 @@ std::string markdown_rows(const Table& table) {
   return text;
 }
 
-/// The rows below each heading, as a table without that column, in the order in which headings first come.
+/// Returns the rows below each heading, as a table without that column, in the order of the headings' first occurrences.
 std::vector<Table> parts_of(const Table& table) {
   const std::vector<Column> columns(table.columns().begin() + 1, table.columns().end());
   std::vector<Table> parts;
@@ -203,8 +203,8 @@ std::string markdown(const Table& table) {
   return text;
 }
 
-/// A name from a file may begin as what spreadsheets take for a formula, and run: an apostrophe makes it text to them. A sign
-/// alone, or before a digit, is none.
+/// Spreadsheets would run a name from a file as a formula if it begins like one: an apostrophe makes it a text. A sign alone, or
+/// before a digit, is none.
 std::string as_text(const std::string& text) {
   const bool is_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
   const bool is_harmless = is_sign && (text.size() == 1 || text.find_first_not_of("0123456789.,eE+-%") == std::string::npos);
@@ -237,7 +237,7 @@ std::string csv(const Table& table) {
   return text;
 }
 
-/// Behind them all if none has the name.
+/// Returns the number of columns if none has the name.
 std::size_t place_of(const Table& table, std::string_view name) {
   return static_cast<std::size_t>(std::ranges::find(table.columns(), name, &Column::name) - table.columns().begin());
 }

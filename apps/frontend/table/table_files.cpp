@@ -65,7 +65,7 @@ PlottedNames names_of(const std::string& data_file, const std::vector<Plot>& plo
   return names;
 }
 
-/// The folder is made first: whether an output lies in it is known only then.
+/// The folder is made first: only then is it known whether an output lies in it.
 TableFiles::TableFiles(const TableOutput& asked, const std::vector<PlottedNames>& plotted, const OtherFiles& others)
     : asked_(asked), files_(files_of(asked, plotted)) {
   if (asked.plots) {

@@ -63,7 +63,7 @@ std::string answer_text(const Answer& answer, bool shadow) {
   return std::string("#").append(std::to_string(answer.primitive));
 }
 
-/// One primitive that somebody named, as the referee sees it.
+/// Prints a primitive named by an answer, as the referee sees it.
 void print_named(std::ostream& output, const Referee& referee, const core::Ray& ray, const char* who, const Answer& answer) {
   if (!answer.hit || answer.primitive == core::no_primitive) {
     return;
@@ -98,7 +98,7 @@ void print_difference(std::ostream& output, const Referee& referee, const Settle
   }
 }
 
-/// The first `most`, unexplained ones before all others.
+/// Prints the first `most`, unexplained ones first.
 void print_list(std::ostream& output, const Referee& referee, std::vector<SettledRay> rays, std::uint32_t most,
                 std::uint32_t width) {
   std::stable_partition(rays.begin(), rays.end(), [](const SettledRay& ray) { return !explained(ray.ruling.verdict); });
@@ -125,7 +125,7 @@ std::uint64_t print_table(std::ostream& output, const Inspection& inspection) {
   return all.unexplained;
 }
 
-/// Rays that both may agree on and that the referee denies nevertheless.
+/// Returns rays on which both may agree although the referee rejects the answer.
 std::vector<SettledRay> refused(const std::vector<SettledRay>& rays) {
   std::vector<SettledRay> result;
   std::copy_if(rays.begin(), rays.end(), std::back_inserter(result),
@@ -183,7 +183,7 @@ std::uint64_t print_certified(std::ostream& output, const Inspection& inspection
   return counts.failures();
 }
 
-/// Says how far the picture is the one that Embree would make.
+/// Prints how far the picture is the one that Embree would make.
 void print_pixels(std::ostream& output, std::uint64_t differing, std::uint64_t pixels) {
   output << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
          << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";
@@ -199,7 +199,7 @@ Inspection inspect_shown(const CheckOptions& options, const core::Database& data
   return inspect(database, embree, settings, inspection_options);
 }
 
-/// `failed`: certificates. The worst is what fails, or the difference that it takes most to explain.
+/// `failed`: certificates. The worst case is a failure, or the difference with the most involved explanation.
 Trial trial_of(const Inspection& inspection, std::uint64_t unexplained, std::uint64_t failed, const PlaceFindings& places,
                std::uint32_t width) {
   std::vector<SettledRay> rays = refused(inspection.brute_forced);
@@ -226,7 +226,7 @@ Trial trial_of(const Inspection& inspection, std::uint64_t unexplained, std::uin
   return trial;
 }
 
-/// Returns how much fails.
+/// Returns the number of failures.
 std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const Subject& subject,
                            const Inspection& inspection, const PlaceFindings& places) {
   const core::Database& database = subject.database;
@@ -259,7 +259,7 @@ void add_options(OptionSet options, CheckOptions& check) {
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);
     settle_instances(options, {}, check.database, check.picture.scene_setup.mesh);
-    check.picture.scene_setup.mesh.copies = core::Copies::put;  // for Embree and the referee, whatever rays go into
+    check.picture.scene_setup.mesh.copies = core::Copies::put; // for Embree and the referee, into whatever instance rays go
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces a given number of samples per pixel");

@@ -18,7 +18,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// A random draw of at most `size` rays: those with the least hashes, so that neither order nor number of threads matters.
+/// A random draw of at most `size` rays: those with the least hashes, so it does not depend on order or number of threads.
 class Draw {
  public:
   explicit Draw(std::uint64_t size) : size_(size) {}
@@ -34,7 +34,7 @@ class Draw {
     drawn_.insert(drawn_.end(), other.drawn_.begin(), other.drawn_.end());
     shrink(size_);
   }
-  /// By pixel and shot.
+  /// Returns them by pixel and shot.
   std::vector<TracedRay> finish() {
     shrink(size_);
     std::vector<TracedRay> rays;
@@ -69,7 +69,7 @@ class Draw {
   std::vector<Keyed> drawn_;
 };
 
-/// A core::Tracer that asks both and goes on with the grid's answer.
+/// A core::Tracer that traces with both and continues with the grid's answer.
 class BothTracer {
  public:
   using Grid = core::GridTracer<core::LocalRecords>;
@@ -116,7 +116,7 @@ class BothTracer {
   std::uint32_t number_ = 0;
 };
 
-/// What a run over some pixels yields; joined from left to right, so that differences stay in the order of the pixels.
+/// The result for some pixels; results are joined from left to right, so that differences stay in the order of the pixels.
 struct Harvest {
   explicit Harvest(const InspectionOptions& options) : draw(options.brute_force), hits(options.certify) {}
 
@@ -147,7 +147,7 @@ void trace_pixels(const core::Database& database, const EmbreeScene& scene, cons
   });
 }
 
-/// The pixels that the rays belong to, once each. `rays` come by pixel.
+/// Returns the pixels of the rays, once each. `rays` are sorted by pixel.
 std::vector<std::uint32_t> pixels_of(const std::vector<TracedRay>& rays) {
   std::vector<std::uint32_t> pixels;
   for (const TracedRay& traced : rays) {
@@ -158,7 +158,7 @@ std::vector<std::uint32_t> pixels_of(const std::vector<TracedRay>& rays) {
   return pixels;
 }
 
-/// How many of `pixels` get other sums from Embree than from the grid.
+/// Returns how many of `pixels` get other sums from Embree than from the grid.
 std::uint64_t count_differing(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                               const std::vector<std::uint32_t>& pixels) {
   const std::vector<core::Database::Place> places = database.find_places();

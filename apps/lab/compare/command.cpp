@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// More are for a program to read.
+/// Limit of lines for readers.
 constexpr std::size_t lines_max = 100;
 
 void print_names(std::ostream& output, const CompareOptions& files) {
@@ -34,7 +34,7 @@ void print_names(std::ostream& output, const CompareOptions& files) {
 }
 
 void print(std::ostream& output, const Json& json) {
-  output << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';  // names of files may be no UTF-8
+  output << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n'; // names of files may be invalid UTF-8
 }
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -60,7 +60,7 @@ Json difference_json(const Difference& difference) {
   return json;
 }
 
-/// A line each figure.
+/// Prints a line for each figure.
 void print_text(std::ostream& output, const CompareOptions& files, const PictureError& error) {
   const double share =
       100 * static_cast<double>(error.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(error.pixels, 1));
@@ -76,7 +76,7 @@ void print_text(std::ostream& output, const CompareOptions& files, const Picture
          << "differing pixels        " << error.differing_pixels << " of " << error.pixels << " (" << share << " %)\n";
 }
 
-/// One object, in which what is infinite is null; `passed` are limits of --fail-above.
+/// Prints one object, in which infinity is null; `passed` are exceeded limits of --fail-above.
 void print_json(std::ostream& output, const CompareOptions& files, const PictureError& error,
                 const std::vector<std::string>& passed) {
   print(output, {
@@ -97,7 +97,7 @@ void print_json(std::ostream& output, const CompareOptions& files, const Picture
                 });
 }
 
-/// A line each difference, and how many there are.
+/// Prints a line for each difference, and their number.
 void print_text(std::ostream& output, const CompareOptions& files, const FigureComparison& comparison) {
   print_names(output, files);
   const std::size_t count = std::min(comparison.differences.size(), lines_max);
@@ -117,7 +117,7 @@ void print_text(std::ostream& output, const CompareOptions& files, const FigureC
          << (comparison.differences.size() == 1 ? " differs\n" : " differ\n");
 }
 
-/// One object with all differences; a figure that a file does not have is not there.
+/// Prints one object with all differences; a figure that a file lacks is absent.
 void print_json(std::ostream& output, const CompareOptions& files, const FigureComparison& comparison) {
   Json differences = Json::array();
   for (const Difference& difference : comparison.differences) {
@@ -165,7 +165,7 @@ void write_picture(const std::filesystem::path& path, const Image& image, Interr
   file.commit();
 }
 
-/// What `sentences` say, if anything, is on stderr.
+/// Prints `sentences`, if there are any, on stderr.
 int status_after(const CompareOptions& options, const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) {
     std::cerr << "dmpc: " << options.a.string() << " and " << options.reference.string() << " differ: " << sentence << '\n';
@@ -194,7 +194,7 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
   return status_after(options, passed);
 }
 
-/// What `compared` says is printed.
+/// Prints `comparison`.
 int report_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
   if (options.format == CompareFormat::json) {
     print_json(output, options, comparison);
@@ -230,7 +230,7 @@ int compare_pages(const CompareOptions& options, Interrupt& interrupt, std::ostr
   return 0;
 }
 
-/// Options of the one kind of file do not go with the other.
+/// Options for one kind of file exclude the other kind.
 void check_together(const OptionSet& set, const CompareOptions& compare) {
   const Kind kind = kind_of(compare.a);
   if (kind != kind_of(compare.reference)) {

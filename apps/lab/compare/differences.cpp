@@ -21,10 +21,10 @@ Values values_of(std::span<const Figure> figures) {
   return values;
 }
 
-/// "heat_maps.0" of "heat_maps.0.clock".
+/// Returns "heat_maps.0" for "heat_maps.0.clock".
 std::string parent_of(const std::string& name) { return name.substr(0, name.rfind('.')); }
 
-/// Keys of what differs from run to run, or says how a run was asked for.
+/// Returns keys of figures that differ from run to run, or that depend on how a run was requested.
 std::vector<std::string> unsteady_keys(std::span<const Figure> figures) {
   std::vector<std::string> keys = {"program",          "seconds",      "nodes.*.seconds",     "host.seconds",
                                    "heat_maps.*.file", "ranks.*.name", "ranks.*.clock_error", "sandbox"};
@@ -56,7 +56,7 @@ class Judge {
     }
   }
 
-  /// Looks at a figure of either; at one that both have once.
+  /// Compares a figure of either file; a figure of both is visited once.
   void look_at(const std::string& name, FigureComparison& result) const {
     if (!is_chosen(name)) {
       return;
@@ -75,7 +75,7 @@ class Judge {
     const auto at = values.find(name);
     return at == values.end() ? std::nullopt : std::optional(at->second);
   }
-  /// The last one given that has the figure; null if none has.
+  /// Returns the last given tolerance that includes the figure; null if none does.
   const Tolerance* tolerance_of(const std::string& name) const {
     const auto at = std::find_if(choice_.tolerances.rbegin(), choice_.tolerances.rend(),
                                  [&](const Tolerance& tolerance) { return is_within(name, tolerance.key); });

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t rows_max = 1000;  ///< rows of the page's table of counters
 
-/// Width and height that a PNG says it has (ISO/IEC 15948): four bytes each behind signature, length and name of its first chunk.
+/// Checks width and height in the PNG's header (ISO/IEC 15948): four bytes each after signature, length and name of its first
+/// chunk.
 bool is_small_png(const std::string& bytes) {
   constexpr std::size_t sizes_at = 16;
   const auto side = [&bytes](std::size_t at) {
@@ -35,7 +36,7 @@ bool is_small_png(const std::string& bytes) {
          side(sizes_at + 4) <= html::picture_side_max;
 }
 
-/// As a reader of pictures has it, which is shut in: a browser shall see what we have written.
+/// Decodes the picture in the confined reader, so that a browser sees only what we have written.
 Image picture_of(const PlayedPage& page, Sandbox sandbox) {
   if (!is_small_png(page.run.picture)) {
     throw core::InputError(page.file + ": its picture is no PNG of at most " + std::to_string(html::picture_side_max) +

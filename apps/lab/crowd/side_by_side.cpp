@@ -29,8 +29,8 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
     return next++;
   };
   const std::size_t most = pieces_per_core * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  // Pieces begin and end in order, so no two that are under way at once share a place. What lies here when a piece throws goes
-  // with the vector; oneTBB would lose it.
+  // Pieces begin and end in order, so no two concurrent ones share a slot. The vector frees what is left when a piece throws;
+  // oneTBB would leak it.
   std::vector<Finish> finishes(most);
   tbb::parallel_pipeline(most, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, assign) &
                                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
@@ -43,7 +43,7 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
                                      core::use_usual_arithmetic();
                                      std::exchange(finishes[piece % most], nullptr)();
                                    }));
-  core::use_usual_arithmetic();  // at its first use oneTBB loads libraries
+  core::use_usual_arithmetic(); // oneTBB loads libraries on first use
 }
 
 }  // namespace dmpc::apps

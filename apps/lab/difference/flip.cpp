@@ -33,7 +33,7 @@ constexpr Color times(const std::array<Color, 3>& matrix, const Color& v) {
 
 constexpr Color white = times(to_xyz, {1, 1, 1});
 
-/// The opponent colours in which the eye's sharpness is known.
+/// Returns the opponent colours, for which the eye's contrast sensitivity is known.
 Color ycxcz_of(const Color& rgb) {
   const Color xyz = times(to_xyz, rgb);
   const double x = xyz[0] / white[0], y = xyz[1] / white[1], z = xyz[2] / white[2];
@@ -50,7 +50,7 @@ double lab_curve(double t) {
   return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
 }
 
-/// L*a*b* with the chroma of dark colours reduced, as Hunt found that it appears.
+/// Returns L*a*b* with reduced chroma of dark colours, after the Hunt effect.
 Color appearance_of(const Color& rgb) {
   const Color xyz = times(to_xyz, rgb);
   const double x = lab_curve(xyz[0] / white[0]), y = lab_curve(xyz[1] / white[1]), z = lab_curve(xyz[2] / white[2]);
@@ -63,7 +63,7 @@ double color_distance(const Color& a, const Color& b) {
   return std::pow(std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]), 0.7);
 }
 
-/// Small differences take most of the range from 0 to 1.
+/// Maps small differences to most of the range from 0 to 1.
 double spread(double distance) {
   static const double most = color_distance(appearance_of({0, 1, 0}), appearance_of({0, 0, 1}));
   constexpr double knee = 0.4, at_knee = 0.95;
@@ -74,7 +74,7 @@ double spread(double distance) {
 /// An odd number of weights, the middle one for the pixel itself.
 using Kernel = std::vector<double>;
 
-/// weight(x) at every pixel's distance x up to `radius`.
+/// Returns weight(x) for every pixel's distance x up to `radius`.
 template <class Weight>
 Kernel kernel_of(int radius, const Weight& weight) {
   Kernel kernel;
@@ -84,7 +84,7 @@ Kernel kernel_of(int radius, const Weight& weight) {
   return kernel;
 }
 
-/// Positive weights sum to 1, and negative ones to -1.
+/// Scales positive weights to sum to 1, and negative ones to -1.
 Kernel balanced(Kernel kernel) {
   double positive = 0, negative = 0;
   for (const double weight : kernel) {
@@ -96,7 +96,7 @@ Kernel balanced(Kernel kernel) {
   return kernel;
 }
 
-/// Filters planes of one size; beyond the border is what is at the border.
+/// Filters planes of one size; pixels beyond the border equal those at the border.
 class Filter {
  public:
   Filter(int width, int height) : width_(width), height_(height) {}
@@ -128,7 +128,7 @@ class Filter {
   int width_, height_;
 };
 
-/// The eye's sharpness for one opponent colour: two Gaussians, a sqrt(pi / b) exp(-pi^2 x^2 / b) with x in degrees.
+/// The eye's contrast sensitivity for one opponent colour: two Gaussians, a sqrt(pi / b) exp(-pi^2 x^2 / b) with x in degrees.
 struct Sharpness {
   double a_1, b_1, a_2, b_2;
 };
@@ -143,7 +143,7 @@ Kernel gaussian(double b, int radius, double pixels_per_degree) {
 
 double sum_of(const Kernel& kernel) { return std::accumulate(kernel.begin(), kernel.end(), 0.0); }
 
-/// The plane as the eye sees it: both Gaussians' weights over the plane of pixels sum to 1 together.
+/// Returns the plane as the eye sees it: the weights of both Gaussians together sum to 1 over the plane of pixels.
 Plane blurred(const Plane& plane, const Sharpness& eye, const Filter& filter, double pixels_per_degree) {
   const double widest = 0.04 / (2 * std::numbers::pi * std::numbers::pi);
   const int radius = static_cast<int>(std::ceil(3 * std::sqrt(widest) * pixels_per_degree));
@@ -164,7 +164,7 @@ Plane blurred(const Plane& plane, const Sharpness& eye, const Filter& filter, do
   return result;
 }
 
-/// The three opponent planes of a picture.
+/// Returns the three opponent planes of a picture.
 std::array<Plane, 3> planes_of(const Image& image) {
   std::array<Plane, 3> planes;
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
@@ -181,7 +181,7 @@ std::array<Plane, 3> planes_of(const Image& image) {
   return planes;
 }
 
-/// What a picture's colours look like from afar.
+/// Returns a picture's colours as seen from afar.
 std::vector<Color> seen_colors(const std::array<Plane, 3>& planes, const Filter& filter, double pixels_per_degree) {
   std::array<Plane, 3> seen;
   for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -198,7 +198,7 @@ std::vector<Color> seen_colors(const std::array<Plane, 3>& planes, const Filter&
   return colors;
 }
 
-/// How much of an edge, or of a point, every pixel of a picture is.
+/// Returns how strongly every pixel is part of an edge, or of a point.
 Plane features(const Plane& lightness, const Filter& filter, const Kernel& detecting, const Kernel& smoothing) {
   const Plane across = filter.filtered(lightness, detecting, smoothing), down = filter.filtered(lightness, smoothing, detecting);
   Plane strength(lightness.size());
@@ -208,7 +208,7 @@ Plane features(const Plane& lightness, const Filter& filter, const Kernel& detec
   return strength;
 }
 
-/// The larger of the differences in edges and in points (the paper, section 4.2).
+/// Returns the larger of the differences in edges and in points (the paper, section 4.2).
 Plane feature_differences(Plane picture, Plane reference, const Filter& filter, double pixels_per_degree) {
   for (Plane* plane : {&picture, &reference}) {
     for (double& value : *plane) {

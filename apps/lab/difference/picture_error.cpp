@@ -11,7 +11,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// |a - b|: 0 for equal values, infinities among them, infinite if either is not finite otherwise.
+/// Returns |a - b|: 0 for equal values, including infinities, and infinity if either is otherwise not finite.
 double distance(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) {
     return 0;
@@ -20,7 +20,7 @@ double distance(float a, float b) {
   return std::isfinite(gap) ? gap : std::numeric_limits<double>::infinity();
 }
 
-/// gap^2 / (b + 0.01)^2, without 0/0 or infinity/infinity; of |b|, so that it has no pole.
+/// Returns gap^2 / (b + 0.01)^2, without 0/0 or infinity/infinity; it uses |b|, so that it has no pole.
 double relative_square(double gap, float reference) {
   if (gap == 0 || std::isinf(gap)) {
     return gap;
@@ -37,7 +37,7 @@ void check_sizes(const Image& picture, const Image& reference) {
   }
 }
 
-/// Sums for now, means after finish().
+/// Adds sums; finish() turns them into means.
 void add_channel(PictureError& sum, double gap, float reference) {
   sum.root_mean_square += gap * gap;
   sum.largest = std::max(sum.largest, gap);
@@ -53,7 +53,7 @@ void finish(PictureError& sum) {
   sum.peak_signal_to_noise_decibels = -20 * std::log10(sum.root_mean_square);
 }
 
-/// The least value that 99 of 100 do not exceed; 0 of none.
+/// Returns the least value that 99 of 100 do not exceed; 0 for none.
 template <class Value>
 double percentile_99(std::vector<Value> values) {
   if (values.empty()) {

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// More than any file of ours has, and little enough for a function that calls itself.
+/// Deeper than any file of ours, and small enough for a recursive function.
 constexpr int depth_max = 32;
 
 Json parse_json(std::string_view text, const std::string& file) {
@@ -66,7 +66,7 @@ struct ValueText {
   std::string operator()(const std::string& value) const { return value; }
 };
 
-/// What stands before the next dot, which goes with it.
+/// Takes the word before the next dot, and removes the dot.
 std::string_view take_word(std::string_view& words) {
   const std::size_t dot = words.find('.');
   const std::string_view word = words.substr(0, dot);
@@ -86,7 +86,7 @@ std::vector<Figure> parse_figures(std::string_view text, const std::string& file
   std::vector<Figure> figures;
   add_figures(json, "", figures);
   if (json.contains("film_hash") && !json.contains("film_scale")) {
-    figures.push_back({"film_scale", 1.0});  // older versions of dmpc had films of no other scale
+    figures.push_back({"film_scale", 1.0}); // films of older versions of dmpc had no other scale
   }
   return figures;
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Names below one place of the schema.
+/// Collects names below one location of the schema.
 class SchemaWalk {
  public:
   explicit SchemaWalk(const Json& schema) : schema_(schema) {}
@@ -40,7 +40,7 @@ class SchemaWalk {
   std::vector<KnownFigure> figures() { return std::move(figures_); }
 
  private:
-  /// What a reference leads to, or the first of several, of which the others are null.
+  /// Returns the target of a reference, or the first of several alternatives, of which the others are null.
   const Json& resolved(const Json& place) const {
     if (place.contains("anyOf")) {
       return resolved(place["anyOf"][0]);
@@ -51,7 +51,7 @@ class SchemaWalk {
     return place;
   }
 
-  /// "type" is one, or several of which one is null.
+  /// "type" is one type, or several of which one is null.
   static bool has_number(const Json& place) {
     const Json type = place.value("type", Json());
     const Json first = type.is_array() ? type[0] : type;
@@ -62,7 +62,7 @@ class SchemaWalk {
   std::vector<KnownFigure> figures_;
 };
 
-/// Whether it is of one node, or what was asked for: such a name is meant only where nothing else is.
+/// Returns whether a figure is of one node or of the request: such a name is meant only if no other matches.
 bool is_aside(const std::string& name) {
   return name.find('*') != std::string::npos || name.starts_with("host.") || name.starts_with("options.");
 }
@@ -81,14 +81,14 @@ std::vector<std::string> figures_meant(const std::string& typed, bool aside) {
   return meant;
 }
 
-/// Null if there is none.
+/// Returns null if there is none.
 const KnownFigure* find_figure(const std::string& name) {
   const std::vector<KnownFigure>& all = known_figures();
   const auto found = std::find_if(all.begin(), all.end(), [&](const KnownFigure& figure) { return figure.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
-/// The figure whose name or last word is near, as a question.
+/// Returns a question with the figure whose name or last word is near.
 std::string question_about(const std::string& typed) {
   std::vector<std::string> words;
   for (const auto& [name, unused] : known_figures()) {

@@ -25,16 +25,16 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t default_reference_side = 32;
-/// A quick bench is to end within half a minute on two cores.
+/// A quick bench takes less than half a minute on two cores.
 constexpr std::uint32_t quick_reference_side = 16;
 constexpr Resolution quick_resolution{192, 192};
-/// By paths, whose references have many more samples than those of others have.
+/// For paths, whose references have many more samples.
 constexpr Resolution path_resolution{128, 128}, quick_path_resolution{96, 96};
 
-/// As many as errors of pictures by paths are measured against, and in a quick bench as there is time for.
+/// Samples for path references, and fewer for a quick bench.
 constexpr std::uint32_t path_reference_side = 128, quick_path_reference_side = 32;
 
-/// An even number: the reference has two halves.
+/// The number is even, since the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
   const std::uint32_t side = number_in<std::uint32_t>(text).value_or(0);
   if (side < 2 || side > 128 || side % 2 != 0) {
@@ -120,7 +120,7 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
   return table;
 }
 
-/// Before a table that people read.
+/// Introduces a table for readers.
 std::string first_words(const ErrorOptions& options, std::span<const SceneResult> results) {
   const std::string summary = options.table.format == TableFormat::markdown ? summary_of(results) : "";
   constexpr std::size_t width = 120;  // as the table's notes
@@ -135,7 +135,7 @@ std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
   return plotted;
 }
 
-/// Shows points that were rendered once; what their times are in the end the table says.
+/// Shows points that were rendered once; the table has their final times.
 void show_rows(const SceneResult& result, ShownRows& shown) {
   constexpr std::size_t key_count = 3;  // scene, knob and setting
   if (shown.is_shown()) {
@@ -158,7 +158,7 @@ bool has_measurements(const SceneResult& result) {
   return std::any_of(result.measurements.begin(), result.measurements.end(), [](const auto& one) { return one.is_done(); });
 }
 
-/// What the user says otherwise stands.
+/// Explicit options take precedence.
 void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   const bool are_by_paths = measure.picture.transport.is_by_paths();
   if (!set.is_given("--resolution")) {
@@ -170,7 +170,7 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   }
 }
 
-/// What is turned by default, and what references have, depends on the transport.
+/// The default knobs and the reference's samples depend on the transport.
 void choose_transport(const OptionSet& set, MeasureOptions& measure) {
   const bool are_by_paths = measure.picture.transport.is_by_paths();
   if (!set.is_given("--knobs")) {
@@ -190,7 +190,7 @@ void choose_transport(const OptionSet& set, MeasureOptions& measure) {
   }
 }
 
-/// What is turned, and what stays.
+/// Declares the options for what is varied and what is not.
 void add_turned_options(OptionSet set, ErrorOptions& options) {
   MeasureOptions& measure = options.measure;
   set.add_text(

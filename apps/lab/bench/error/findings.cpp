@@ -13,7 +13,7 @@ namespace {
 
 constexpr double step = 1.0 / 255, quarter_step = step / 4;
 
-/// The curve of one knob, by both costs.
+/// The curve of one knob, with both costs.
 struct Curve {
   std::vector<CostPoint> rays, seconds;
 };
@@ -71,7 +71,7 @@ const Measurement* measured(const SceneResult& result, Knob knob, const std::str
   return nullptr;
 }
 
-/// "0.9/255" with a mark where it is not claimed.
+/// Returns "0.9/255", with a mark if it is not claimed.
 std::string error_text(const SceneResult& result, const Measurement& measurement) {
   return fixed(255 * measurement.error.root_mean_square, 2) + "/255" +
          (is_claimed(result, measurement) ? "" : " (less than 10 times the reference's own error)");
@@ -89,7 +89,7 @@ std::string quality_text(const SceneResult& result) {
          fixed(median(draft->seconds) / median(standard->seconds), 3) + " times the seconds).";
 }
 
-/// How many times the seconds of uniform samples with the same error a point takes: `at_least` where one sample has less error.
+/// A point's time as a multiple of that of uniform samples with the same error: `at_least` if one sample has less error.
 struct ChanceRatio {
   double seconds = 0;
   bool at_least = false;

@@ -36,7 +36,7 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
   return picture;
 }
 
-/// The scene in all its tessellations, and with all numbers of what is aimed at, each built when it is first asked for.
+/// The scene in all tessellations and with all numbers of sampled emitters, each built on first use.
 class Scenes {
  public:
   Scenes(const std::string& name, const MeasureOptions& options)
@@ -53,14 +53,14 @@ class Scenes {
     const Key key{setting.tessellation, setting.is_by_paths() ? setting.emitters : picture_.transport.emitters};
     return scenes_.contains(key) ? scenes_.at(key) : add(key);
   }
-  /// The base point's.
+  /// Returns the base point's.
   const Built& exact() const { return scenes_.at(exact_); }
 
  private:
-  /// Tessellation, and emitters.
+  /// Tessellation, and number of emitters.
   using Key = std::pair<int, std::uint32_t>;
 
-  /// Notes are not repeated for a scene that is there already with another number of emitters to sample.
+  /// Notes are not repeated for a scene that was built with another number of sampled emitters.
   const Built& add(const Key& key) {
     PictureOptions picture = picture_;
     picture.transport.emitters = key.second;
@@ -88,7 +88,7 @@ class Scenes {
   std::map<Key, Built> scenes_;
 };
 
-/// One render that has ended.
+/// One finished render.
 struct Rendered {
   Image picture;
   double seconds = 0;
@@ -132,7 +132,7 @@ class Bench {
   }
 
  private:
-  /// An error smaller than the reference's own could not be seen.
+  /// An error smaller than the reference's own could not be detected.
   void plan() {
     SweepOptions options{.knobs = options_.knobs,
                          .is_quick = options_.is_quick,
@@ -145,7 +145,7 @@ class Bench {
     add_measurements();
   }
 
-  /// The base point comes first, if any point is there: others are held against its picture.
+  /// The base point comes first, if there is any point: others are compared with its picture.
   void add_measurements() {
     for (const Point& point : result_.points) {
       if (point.setting == result_.base && result_.measurements.empty()) {
@@ -179,7 +179,7 @@ class Bench {
             .stop = interrupt_.token()};
   }
 
-  /// The base point in double precision, sample by sample, if that is asked for.
+  /// Renders the base point in double precision, sample by sample, if requested.
   void find_reference_picture() {
     if (!options_.knobs.contains(Knob::arithmetic)) {
       return;

@@ -21,7 +21,7 @@ core::Vec3d light_of(const core::PixelSums& sums, std::uint32_t samples, core::F
   return light;
 }
 
-/// What the halves of one row differ by, and its rays.
+/// The differences of one row's halves, and its rays.
 struct RowFigures : HalvesSum {
   std::uint64_t rays = 0;
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<const char*, 12> knob_names = {
     "samples", "adaptive", "cutoff",   "depth",    "tessellation",        "arithmetic",
     "quality", "bounces",  "roulette", "emitters", "adaptive and cutoff", "adaptive and depth"};
-/// So many of these the command line knows.
+/// Number of knobs on the command line.
 constexpr std::size_t single_count = 10;
 constexpr const char *whitted_knobs = "samples,adaptive,cutoff,depth,tessellation,arithmetic,quality",
                      *path_knobs = "samples,adaptive,bounces,roulette,emitters";
@@ -44,7 +44,7 @@ void add_pairs(std::set<Knob>& knobs) {
   }
 }
 
-/// A number as people write it.
+/// A number as written for readers.
 struct Named {
   const char* text;
   double value;
@@ -61,14 +61,14 @@ constexpr std::array<Named, 8> errors = {{{"16/255", 16.0 / 255},
 constexpr std::array<Named, 6> cutoffs = {
     {{"1/64", 1.0 / 64}, {"1/255", 1.0 / 255}, {"1/512", 1.0 / 512}, {"1/1024", 1.0 / 1024}, {"1/4096", 1.0 / 4096}, {"0", 0}}};
 constexpr std::array bounce_counts = {0, 1, 2, 3, 4, 6, 8, 12, 16, 32, 64, 128};
-/// Hits from which on paths may end by chance. The last is beyond all.
+/// First hits at which paths may end at random. The last is beyond all.
 constexpr std::array<Named, 5> roulettes = {
     {{"from hit 1", 1}, {"from hit 2", 2}, {"from hit 3", 3}, {"from hit 5", 5}, {"never", 255}}};
 constexpr std::array depths = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64, 128};
 
 constexpr std::uint64_t tessellated_primitives_max = 1'000'000;
 
-/// The points of one sweep on their way. A quick sweep leaves out every other position, but never the last one.
+/// Collects the points of one sweep. A quick sweep leaves out every other position, but never the last one.
 class Sweep {
  public:
   Sweep(const Setting& base, const SweepOptions& options) : base_(base), options_(options) {}
@@ -112,7 +112,7 @@ class Sweep {
   void add(Knob knob, const std::string& text, const Setting& setting) { points.push_back({knob, text, setting}); }
   void add(Knob knob, std::integral auto position, const Setting& setting) { add(knob, std::to_string(position), setting); }
 
-  /// The base point with one of its knobs turned.
+  /// Returns the base point with one of its knobs changed.
   template <class Position>
   Setting turned(Position Setting::*knob, Position position) const {
     Setting setting = base_;
@@ -144,7 +144,7 @@ class Sweep {
     return setting;
   }
 
-  /// Positions below `last`, and that.
+  /// Adds the positions below `last`, and `last`.
   template <class Positions, class Add>
   void add_up_to(int last, const Positions& all, const Add& add_one) const {
     std::vector<int> positions(all.begin(), std::lower_bound(all.begin(), all.end(), last));
@@ -152,7 +152,7 @@ class Sweep {
     add_each(positions, add_one);
   }
 
-  /// A quick sweep has those about an 8-bit step.
+  /// A quick sweep has the errors about an 8-bit step.
   void add_errors() {
     for (std::size_t i = options_.is_quick ? 1 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
       add_refined(Knob::adaptive, errors[i].text, refined(errors[i]));
@@ -175,7 +175,7 @@ class Sweep {
     }
   }
 
-  /// None, some of the most powerful, and all that the base point aims at.
+  /// Adds no emitters, some of the most powerful, and all that the base point samples.
   void add_emitters() {
     if (options_.emitters == 0) {
       return;
@@ -196,7 +196,7 @@ class Sweep {
     }
   }
 
-  /// Errors near an 8-bit step with each position of the other knob that is not the base point's.
+  /// Adds errors near an 8-bit step with each position of the other knob except the base point's.
   template <class Positions, class Position>
   void add_pairs(const Positions& positions, Knob knob, const std::string& between, Position Setting::*turned_too) {
     for (const Named& position : positions) {

@@ -42,12 +42,12 @@ struct ErrorRow {
   double a_pixel(std::uint64_t count) const { return static_cast<double>(count) / static_cast<double>(result.pixels()); }
 };
 
-/// Nothing for what is infinite: a table has no place for it.
+/// Returns an empty cell for infinity, which a table cannot hold.
 Cell number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
 
 Cell yes_if(bool is_so) { return std::string(is_so ? "yes" : ""); }
 
-/// A column for each measure of what `error` has of a row, if it has that.
+/// Adds a column for each measure of a row's `error`, if the row has one.
 template <class Error>
 void add_errors(const std::string& kind, const Error& error, FilledColumns<ErrorRow>& columns) {
   const auto add = [&](Column column, double PictureError::*measure, double scale) {
@@ -97,14 +97,14 @@ const FilledColumns<ErrorRow>& error_columns() {
   return columns;
 }
 
-/// No error of a picture by paths is that of one knob alone.
+/// No error of a picture by paths is due to one knob alone.
 FilledColumns<ErrorRow> columns_of(bool are_by_paths) {
   FilledColumns<ErrorRow> columns = error_columns();
   std::erase_if(columns, [&](const auto& one) { return are_by_paths && one.column.name.starts_with("deterministic"); });
   return columns;
 }
 
-/// What is drawn beside: of rows that are claimed their error as it is, of the others what is left of it, and between what.
+/// Additional columns for plots: the error of claimed rows as it is, and for others the remaining error with its interval.
 FilledColumns<ErrorRow> make_drawn_columns() {
   using Row = ErrorRow;
   FilledColumns<Row> columns = error_columns();
@@ -148,14 +148,14 @@ std::size_t color_of(Knob knob) {
                                              : static_cast<std::size_t>(knob);
 }
 
-/// Two knobs at once are a cloud, and so is what has one point; the others are curves.
+/// Two knobs at once form a cloud, as does a single point; the others form curves.
 PlotSeries series_of(Knob knob) {
   const bool is_of_paths = knob == Knob::bounces || knob == Knob::roulette || knob == Knob::emitters;
   const bool is_cloud = knob >= Knob::arithmetic && !is_of_paths;
   return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
 }
 
-/// A knob's points that are too near to the reference's own error.
+/// A knob's points whose error is too near to the reference's own.
 PlotSeries uncertain_series_of(Knob knob) {
   return {.title = std::string(name_of(knob)) + ", uncertain",
           .column = "RMSE without the reference's",

@@ -45,7 +45,7 @@ constexpr std::array<FamilyExpectation, 11> family_expectations = {{{"balls-4", 
                                                                     {"tetra-6", 100, by_nothing},
                                                                     {"tree-11", 99.99, by_steps}}};
 
-/// "99.5": a number from 0 to 100.
+/// Parses "99.5": a number from 0 to 100.
 double parse_expectation(const std::string& text) {
   return parse_within(text, "--expect", 0, 100, "a percentage from 0 to 100, such as 99.5");
 }
@@ -53,10 +53,10 @@ double parse_expectation(const std::string& text) {
 Expectation usual_expectation() { return {99, "what is expected of any scene"}; }
 
 constexpr int failed_status = 3;
-/// Unexplained pixels of one scene that are described.
+/// Number of unexplained pixels of one scene that are described.
 constexpr std::size_t errors_shown = 10;
 
-/// Every family in the size that is its own.
+/// Returns every family in its own size.
 std::vector<std::string> all_families() {
   std::vector<std::string> scenes;
   for (const FamilyExpectation& family : family_expectations) {
@@ -77,7 +77,7 @@ double percent_equal(const Precision& precision) {
   return 100 * (1 - static_cast<double>(precision.differing_pixels) / static_cast<double>(precision.pixels));
 }
 
-/// What came of a scene, and what was expected of it.
+/// A scene's result, and the expected one.
 struct PrecisionRow {
   const std::string& scene;
   const Precision& precision;
@@ -85,7 +85,7 @@ struct PrecisionRow {
 
   bool is_explained() const { return precision.errors.empty(); }
   bool is_warned() const { return precision.causes[static_cast<std::size_t>(PixelCause::warned)] > 0; }
-  /// How many may differ is rounded up: of a small picture one, where less than a whole one may.
+  /// The number that may differ is rounded up: in a small picture one may, even if the share is less than a whole one.
   bool is_expected() const {
     const double may_differ = (1 - expectation.percent / 100) * static_cast<double>(precision.pixels);
     return static_cast<double>(precision.differing_pixels) <= std::ceil(may_differ - 1e-9);
@@ -174,7 +174,7 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
       {.progress = [&](std::uint64_t done, std::uint64_t rows) { progress.update(done, rows); }, .stop = interrupt.token()});
 }
 
-/// What all scenes came to.
+/// Results of all scenes.
 struct Outcome {
   std::uint64_t scenes = 0, pixels = 0, unexplained = 0, missed = 0;
   std::pair<bool, double> least{true, 100};  ///< whether it is explained, and the percentage of equal pixels
@@ -201,7 +201,7 @@ struct Outcome {
   }
 };
 
-/// Pictures that are larger, smaller or deeper than measured, or seen or lit otherwise, are as any other.
+/// Pictures of another size or depth than measured, or with another view or lights, have the usual expectation.
 Expectation expected_of(const std::string& scene, const PrecisionOptions& options) {
   const bool is_as_measured = options.resolution.width == measured_side && options.resolution.height == measured_side &&
                               options.depth == measured_depth && options.scene_setup.is_as_scene() &&

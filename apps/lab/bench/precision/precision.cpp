@@ -72,7 +72,7 @@ std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std:
   return differing;
 }
 
-/// If pixels differ by chance, the means differ by no more than a few standard errors.
+/// If pixels differ at random, the means differ by no more than a few standard errors.
 void judge_mean(const std::vector<Vec3d>& product, const std::vector<Vec3d>& reference, Precision& precision) {
   constexpr double errors_allowed = 4, rounding = 1e-6;
   double sum = 0, squares = 0;

@@ -21,7 +21,7 @@ namespace {
 using core::Skip;
 using core::Skips;
 
-/// Regions of fewer nodes all hold something.
+/// With fewer nodes no region is empty.
 constexpr std::uint32_t page_nodes = 2, ray_nodes = 64;
 
 struct Cutoff {
@@ -30,7 +30,7 @@ struct Cutoff {
 };
 constexpr std::array traced_cutoffs{Cutoff{"cutoff 1/1024", 1.0 / 1024}, Cutoff{"cutoff 1/255", 1.0 / 255}};
 
-/// How a picture comes about.
+/// The settings of a render.
 struct Variant {
   Strategy strategy = Strategy::svm;
   Skips skips;

@@ -26,12 +26,12 @@ bool has_figures(const Results& results) {
   return std::any_of(results.begin(), results.end(), [](const Comparison& one) { return one.figures.rounds() > 0; });
 }
 
-/// How a part is measured, and how its figures come about.
+/// How a part is measured, and how its figures are obtained.
 struct PartRow {
   MeasurePart* measure;
   const char* explanation;
 };
-/// By number.
+/// By index.
 constexpr std::array part_rows = {
     PartRow{
         .measure = measure_plain,
@@ -100,7 +100,7 @@ void add_notes(const SpeedOptions& options, double load, bool is_whole, Table& t
   }
 }
 
-/// The means are to be read first; then all, if that goes to a file.
+/// The means come first; all comparisons follow if the output is a file.
 std::string text_of_all(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
   Table details = table_of(results, title());
   if (options.table.format != TableFormat::markdown) {
@@ -116,7 +116,7 @@ std::string text_of_all(const SpeedOptions& options, const Results& results, dou
   return text_of(means, TableFormat::markdown);
 }
 
-/// Parts and threads are those of comparisons.
+/// Parts and threads belong to comparisons.
 void choose_ablation(const OptionSet& set, SpeedOptions& options) {
   if (!options.is_ablation) {
     return;

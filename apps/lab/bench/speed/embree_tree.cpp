@@ -8,14 +8,14 @@ namespace dmpc::apps {
 
 namespace {
 
-/// How far along a ray hits begin to count. Rays start so near to the curved surface that they leave that floats, which Embree
-/// has of them, cannot tell on which side.
+/// Returns the least distance of hits along a ray. Rays start so near to the curved surface that they leave that Embree's floats
+/// cannot distinguish the sides.
 float start_of(const core::Ray& ray) {
   constexpr float share = 0x1p-16F;
   return share * core::largest_component(ray.origin) / core::largest_component(ray.direction);
 }
 
-/// Within the ray, whose components Embree keeps one by one.
+/// Returns a distance within the ray, whose components Embree stores separately.
 std::optional<float> distance(const embree::CurvedQuery& query) {
   RTCRayN* const ray = query.ray;
   const unsigned count = query.ray_count, i = query.index;

@@ -10,10 +10,10 @@
 namespace dmpc::apps {
 namespace {
 
-/// Threads take turns at pieces of this many bundles, so that no thread gets the hard part of a picture.
+/// Threads take pieces of this many bundles in turn, so that no thread gets all of the picture's hard part.
 constexpr std::size_t piece_bundles = 32;
 
-/// Asks about each ray, and counts the hits.
+/// Traces each ray, and counts the hits.
 template <core::Records R>
 std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const core::DatabaseHeader& header) {
   core::GridTracer tracer(records, header, {});

@@ -21,18 +21,18 @@ constexpr std::array embree_contenders = {Contender::robust, Contender::fast};
 
 const char* name_of(Query query) { return query == Query::closest ? "closest hit" : "any hit"; }
 
-/// Rays that all contenders trace one after the other.
+/// Rays that all contenders trace in turn.
 struct Match {
   KernelArena& arena;
   RayClass ray_class;
   Query query;
   std::uint32_t threads;
-  std::array<std::uint64_t, contender_count> hits{};  ///< that each found in the last round
+  std::array<std::uint64_t, contender_count> hits{}; ///< of each in the last round
 
   double ray_count() const { return static_cast<double>(arena.ray_count(ray_class)); }
   std::uint64_t hits_of(Contender contender) const { return hits[static_cast<std::size_t>(contender)]; }
 
-  /// Millions of rays a second.
+  /// Returns millions of rays a second.
   double speed_of(Contender contender) {
     const RaysTraced traced = arena.trace(contender, ray_class, query, threads);
     hits[static_cast<std::size_t>(contender)] = traced.hits;
@@ -40,8 +40,8 @@ struct Match {
   }
 };
 
-/// Embree names other rays that graze, or that meet the triangle they start on; more would mean that they were not asked the
-/// same.
+/// Embree differs for rays that graze, or that meet the triangle on which they start; a larger difference would mean different
+/// queries.
 void check_hits(const Match& match) {
   const std::uint64_t hits = match.hits_of(Contender::grid);
   for (const Contender subject : our_contenders) {
@@ -53,7 +53,7 @@ void check_hits(const Match& match) {
   }
 }
 
-/// All contenders of one match, which outlives them.
+/// Adds all contenders of one match, which outlives them.
 void add_contenders(Match& match, const Interrupt& interrupt, Matches& matches) {
   std::array<std::size_t, contender_count> numbers{};
   for (std::size_t i = 0; i < contender_count; ++i) {

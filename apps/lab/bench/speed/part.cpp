@@ -13,12 +13,12 @@
 namespace dmpc::apps {
 namespace {
 
-/// A quarter of a million triangles, which part plain sets up some thirty times.
+/// A quarter of a million triangles; part plain sets it up some thirty times.
 constexpr const char* large_scene = "tetra-9";
 /// Many parts have these.
 const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene};
 
-/// What a part does unless something else is asked for.
+/// A part's default settings.
 struct PartDefaults {
   const char* name;
   std::vector<std::string> scenes = usual_scenes;
@@ -26,7 +26,7 @@ struct PartDefaults {
   std::size_t rounds = 3;
 };
 
-/// By number.
+/// By index.
 const std::array<PartDefaults, speed_part_count>& all_defaults() {
   static const std::array<PartDefaults, speed_part_count> all = {
       {{.name = "plain", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene, "balls-2-t4"}, .side = 1024},

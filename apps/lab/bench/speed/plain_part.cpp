@@ -30,12 +30,12 @@ namespace {
 using Kind = RunnerKind;
 using S = Strategy;
 
-/// One of those that render.
+/// One of the contenders that render.
 struct PlainContender {
   std::uint32_t count;                              ///< number of threads or nodes
-  std::optional<Strategy> strategy = std::nullopt;  ///< nothing: it is the plain renderer
+  std::optional<Strategy> strategy = std::nullopt; ///< nothing: the plain renderer
   RunnerKind runner = RunnerKind::threads;
-  bool is_command = false;  ///< timed as a whole command, too
+  bool is_command = false; ///< also timed as a whole command
   TracerChoice tracer = TracerChoice::grid;
 };
 constexpr std::array<PlainContender, 17> plain_contenders = {{{1},
@@ -65,7 +65,7 @@ std::string name_of(const PlainContender& contender) {
                             : "plain on " + counted(contender.count, "thread");
 }
 
-/// What one of ours asks for.
+/// Returns the options of one of our contenders.
 StrategyOptions strategy_of(const PlainContender& contender) {
   StrategyOptions options{
       .strategy = *contender.strategy, .computer = {.node_count = contender.count}, .tracer = contender.tracer};
@@ -90,7 +90,7 @@ double children_seconds() {
 /// The renders of one scene.
 class PlainBench {
  public:
-  /// `forest` is the scene as that strategy has it; nullptr: nobody asks for it. What is given outlives it.
+  /// `forest` is the scene as that strategy has it; nullptr if no contender needs it. The arguments outlive it.
   PlainBench(SpeedPart part, const std::string& scene, const Subject& subject, const Subject* forest,
              const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results)
       : part_(part),
@@ -140,7 +140,7 @@ class PlainBench {
     return comparison;
   }
 
-  /// After a round.
+  /// Called after a round.
   void compare_pictures() {
     core::expect(picture_.has_value() && film_.has_value(), "what is compared has been rendered");
     results_.push_back(
@@ -177,8 +177,8 @@ class PlainBench {
     return one.times;
   }
 
-  /// What the command takes beyond the fastest of some that render 8x8 pixels, which start, load and build as it does: a busy
-  /// moment in such a run would count for the picture.
+  /// Returns the time that the command takes beyond the fastest of some that render 8x8 pixels, which start, load and build as it
+  /// does. The fastest is used since a load during such a run would count for the picture.
   std::vector<double> figures_of_command(const PlainContender& contender) const {
     constexpr Resolution least_size{8, 8};
     constexpr int least_runs = 3;
@@ -225,7 +225,7 @@ class PlainBench {
   std::uint64_t rays_ = 0;
 };
 
-/// Says so.
+/// Also reports it.
 bool is_left_out(const Subject& subject, const std::string& scene, SpeedPart part) {
   const bool is_textured = subject.database.records().textured > 0;
   if (is_textured) {

@@ -33,7 +33,7 @@ using core::Vec3f;
 /// Limit for the difference of means, relative.
 constexpr double bias_max = 0.01;
 
-/// The square of a mean's error, in all channels together, by what its two planes differ by, as if samples were independent.
+/// Returns the squared error of a mean, over all channels, from the difference of its two planes, as if samples were independent.
 double square_noise_of(const core::Film& film, std::uint32_t pixel) {
   const std::uint32_t samples = film.samples(pixel);
   const double on_first = core::samples_on(0, samples), on_second = core::samples_on(1, samples);
@@ -41,7 +41,7 @@ double square_noise_of(const core::Film& film, std::uint32_t pixel) {
   return dot(apart, apart) / (film.scale().factor() * film.scale().factor()) / (1 / on_first + 1 / on_second) / samples;
 }
 
-/// One thread at work.
+/// One rendering thread.
 class Painter : public EmbreeQueries {
  public:
   using EmbreeQueries::EmbreeQueries;
@@ -61,7 +61,7 @@ class Painter : public EmbreeQueries {
   }
 
  private:
-  /// What comes by reflection and refraction.
+  /// Returns the light from reflection and refraction.
   Color passed_on(const PlainSurface& surface, const PlainMaterial& material, const Vec3f& direction, int depth) {
     const float inside = material.inside_index();
     const float index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, surface.normal);
@@ -83,19 +83,19 @@ class Painter : public EmbreeQueries {
   }
 };
 
-/// A path on its way.
+/// The state of a path.
 struct Walk {
   std::uint32_t pixel, sample;
   Vec3f origin, direction;
   Color weight{1, 1, 1};
   int depth = 1;
-  bool is_scattered = false;                               ///< by some surface before: it finds no backdrop
+  bool is_scattered = false; ///< a surface scattered it before: it finds no background
   float density = std::numeric_limits<float>::infinity();  ///< probability density of the direction
 
   core::SamplePair pair(core::Purpose purpose) const { return core::pair_of(pixel, sample, depth, purpose); }
 };
 
-/// Whether the path survives roulette, and then counts for those that do not.
+/// Returns whether the path survives roulette; its weight then replaces those that do not.
 bool survives(const Walk& walk, float chance, int roulette_from, PlainWay& way) {
   const float share = brightest(walk.weight * way.weight);
   if (walk.depth < roulette_from || share >= 1) {
@@ -105,10 +105,10 @@ bool survives(const Walk& walk, float chance, int roulette_from, PlainWay& way) 
   return chance < share;
 }
 
-/// What counts of light by a way of this density, if another might have brought it with density `other`.
+/// Returns the weight of light found with density `own`, if another way might have found it with density `other`.
 float way_share(float own, float other) { return static_cast<float>(core::way_share(double{own}, double{other})); }
 
-/// One thread at work, by paths.
+/// One rendering thread, by paths.
 class Walker : public EmbreeQueries {
  public:
   explicit Walker(const PlainStage& stage)
@@ -158,7 +158,7 @@ class Walker : public EmbreeQueries {
                : 1;
   }
 
-  /// Shadow rays, and the way on; nothing more is to be found if this says no.
+  /// Adds shadow rays, and continues the path; returns false if the path has ended.
   bool step(Walk& walk, const PlainSurface& surface, const PlainMaterial& material, Color& light) {
     const PlainLobes lobes(material, surface, walk.direction);
     light = light + walk.weight * points_on(surface, material, lobes, walk.direction);
@@ -192,7 +192,7 @@ class Walker : public EmbreeQueries {
     ++walk.depth;
   }
 
-  /// What point lights show: in tiny mirrors, too.
+  /// Returns the light of point lights, also reflected by microfacets.
   Color points_on(const PlainSurface& surface, const PlainMaterial& material, const PlainLobes& lobes, const Vec3f& direction) {
     return material.has_microfacets()
                ? lights_on(surface, [&](const Vec3f& towards, float scale,
@@ -200,7 +200,7 @@ class Walker : public EmbreeQueries {
                : lights_on(surface, material, direction);
   }
 
-  /// What the one emitter shows that is drawn, if nothing lies before it.
+  /// Returns the light of the sampled emitter, if nothing blocks it.
   Color aimed_light(const Walk& walk, const PlainSurface& surface, const PlainLobes& lobes) {
     const std::optional<PlainAim> aim =
         plain_aim(stage(), surface.point, walk.pair(core::Purpose::emitter), walk.pair(core::Purpose::place));
@@ -223,8 +223,8 @@ class Walker : public EmbreeQueries {
   int ray_depth_max_;
 };
 
-/// Renders with `thread_count` threads. Each takes the next tile when it has finished one, and asks a Worker of its own, made
-/// from the stage, for each pixel: color(worker, column, row). Workers count rays().
+/// Renders with `thread_count` threads. Each takes the next tile when it has finished one, and calls its own Worker, made from
+/// the stage, for each pixel: color(worker, column, row). Workers count rays().
 template <class Worker, class Shade>
 PlainPicture painted(const PlainStage& stage, std::uint32_t thread_count, const Shade& color) {
   const int width = stage.settings().camera.width(), height = stage.settings().camera.height();

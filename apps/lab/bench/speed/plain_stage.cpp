@@ -42,7 +42,7 @@ std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const
 
 }  // namespace
 
-/// What on_film() makes of the axes is the camera, for it is linear.
+/// on_film() is linear, so its values for the axes are the camera.
 PlainCamera::PlainCamera(const core::Camera& camera) : eye(camera.eye()) {
   const double middle_x = 0.5 * (camera.width() - 1), middle_y = 0.5 * (camera.height() - 1);
   Vec3d forward, rightward, downward;
@@ -68,7 +68,7 @@ void PlainMaterial::add(const core::MaterialExtensionRecord& finish) {
   refraction_index = finish.refraction_index;
 }
 
-/// No highlight and no mirror is left of the material.
+/// The microfacets replace the material's highlight and mirror.
 void PlainMaterial::add(const core::MicrofacetRecord& finish) {
   facets = {finish.metallic, finish.alpha, finish.reflectance, specular};
   highlight = {};

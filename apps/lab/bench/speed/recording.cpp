@@ -16,7 +16,7 @@ namespace {
 
 using core::Vec3d;
 
-/// Uniform in [0, 1).
+/// Returns a number uniform in [0, 1).
 double random(std::uint64_t number, std::uint64_t dimension) {
   return static_cast<double>(core::mix(core::mix(number + 1) + dimension) >> 11U) * 0x1p-53;
 }
@@ -35,7 +35,7 @@ RayClass class_of(core::RayKind kind) {
   return RayClass::secondary;
 }
 
-/// A core::BundleTracer that notes what it is asked.
+/// A core::BundleTracer that records its queries.
 class RecordingTracer {
  public:
   RecordingTracer(const core::Database& database, std::size_t most)
@@ -81,7 +81,7 @@ class RecordingTracer {
   std::uint64_t bounces_ = 0;
 };
 
-/// The next pixels whose rays form bundles: a tile's.
+/// Returns the next pixels whose rays form bundles: those of a tile.
 std::vector<std::uint32_t> next_tile(svm::PixelScan& scan, std::uint32_t image_width) {
   std::vector<std::uint32_t> pixels;
   do {
@@ -151,7 +151,7 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
   const core::Shader shader(header, options, skips, unused);
   core::Ray bounce;
   shader.step(state, records.find(core::record_needed(state, header)), bounce);
-  // A mirror that turns the ray into the direction drawn makes the child that starts there.
+  // A mirror that turns the ray into the drawn direction makes the child ray.
   const Vec3d normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.normal =
       core::normalize(core::cosine_direction({random(number, 0), random(number, 1)}, normal) - Vec3d(primary.direction));

@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The middle one of the rounds that both have ended; nothing without one.
+/// Returns the median of the rounds that both have finished; nothing if there is none.
 Cell median_of(const Figures& figures, std::vector<double> Figures::*whose) {
   const std::vector<double>& all = figures.*whose;
   return figures.rounds() == 0 ? Cell()
@@ -50,7 +50,7 @@ Cell mean_of(const std::vector<double>& ratios) {
   return is_there ? Cell(*geometric_mean(ratios)) : Cell();
 }
 
-/// "primary 0.423, shadow 0.312"; empty where all are of one kind.
+/// Returns "primary 0.423, shadow 0.312"; empty if all are of one kind.
 std::string means_by_kind(const Comparisons& group) {
   const auto kinds = grouped(group, [](const Comparison& a, const Comparison& b) { return a.detail == b.detail; });
   std::string text;

@@ -1,4 +1,4 @@
-// R4: the 26 axis and diagonal directions, with all that can stand for zero, from planes, faces, corners and far outside.
+// R4: the 26 axis and diagonal directions, with all substitutes for zero, from planes, faces, corners and far outside.
 #include <array>
 #include <memory>
 #include <string>

@@ -31,7 +31,7 @@ Vec3d within_tube(Random& random) {
   return Vec3d{std::cos(angle), std::sin(angle), 0} + random.direction() * (0.15 * random.unit());
 }
 
-/// Over a star with five points: every second corner of both its lids is a notch.
+/// A prism over a five-pointed star: every second corner of both its lids is a notch.
 Scene star_prism() {
   constexpr std::size_t corners = 10;
   std::array<Vec3d, corners> lower, upper;
@@ -52,7 +52,7 @@ Scene star_prism() {
   return scene;
 }
 
-/// A cylinder and a cone, their open ends within spheres.
+/// A cylinder and a cone whose open ends lie within spheres.
 Scene limbs() {
   Scene scene;
   scene.view = view_of_body;

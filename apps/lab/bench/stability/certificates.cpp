@@ -1,4 +1,4 @@
-// R16: certificates of hits against rational arithmetic: on triangles of all shapes alone, slivers above all, met anywhere, on
+// R16: certificates of hits against rational arithmetic: on single triangles of all shapes, mainly slivers, hit anywhere, on
 // edges and at vertices, from near and far; on spheres and cones; in a crowd, at grazing angles.
 #include <algorithm>
 #include <bit>
@@ -31,14 +31,14 @@ void count_hit(const Ray& ray, const PrimitiveValues& values, float t, Stability
   const bool is_kernels = hit.fault == CertificateFault::hit || hit.fault == CertificateFault::edge;
   count.wrong_hits += is_kernels ? 1 : 0;
   count.unexplained += hit.fault != CertificateFault::none && !is_kernels ? 1 : 0;
-  // Where the exact ray passes by, its t is that of the plane, anywhere.
+  // If the exact ray misses, its t is anywhere on the plane.
   const double error_ulp = hit.is_inside ? hit.error_ulp : 0;
   count.error_milliulp = std::max(count.error_milliulp, static_cast<std::uint64_t>(std::ceil(error_ulp * 1000)));
 }
 
 double power_of_ten(Random& random, double least, double greatest) { return std::pow(10.0, random.between(least, greatest)); }
 
-/// From 1e-5 of the scene's extent to all of it long; every second one a sliver, down to 1e-8 of that wide.
+/// Lengths are from 1e-5 of the scene's extent to all of it; every second triangle is a sliver, down to 1e-8 of that wide.
 PrimitiveValues any_triangle(Random& random) {
   const Vec3d a = random.in_box(0, 1), along = random.in_box(-1, 1) * power_of_ten(random, -5, 0);
   const double width = random.bits() % 2 == 0 ? power_of_ten(random, -8, 0) : 1.0;
@@ -52,7 +52,7 @@ PrimitiveValues any_triangle(Random& random) {
   return values;
 }
 
-/// The rests of four values, none of them negative: the bits of a usual float.
+/// Returns the rests of four values, none of them negative: the bits of a usual float.
 float any_rests(Random& random) { return std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()) & 0x3f3f3f3fU); }
 
 PrimitiveValues any_sphere(Random& random) {
@@ -70,7 +70,7 @@ PrimitiveValues any_cone(Random& random) {
            any_rests(random), any_rests(random)}};
 }
 
-/// With rests, from 1e-6 to 10 of the scene's extent away.
+/// Returns a ray with rests, from 1e-6 to 10 of the scene's extent away.
 Ray ray_onto(const Vec3d& at, Random& random) {
   Ray ray;
   ray.start_at(at + random.direction() * power_of_ten(random, -6, 1));
@@ -78,7 +78,7 @@ Ray ray_onto(const Vec3d& at, Random& random) {
   return ray;
 }
 
-/// Every third ray is aimed at a vertex, every third one at an edge.
+/// One target in three is a vertex, one in three on an edge.
 Vec3d any_target(const PrimitiveValues& triangle, Random& random) {
   switch (random.below(3)) {
     case 0:
@@ -114,7 +114,7 @@ Meeting cone_met(Random& random) {
   return {values, ray, core::intersect_cone(ray, values.value.data(), 1, 0)};
 }
 
-/// As many hits as asked for: what misses is drawn again.
+/// Returns as many hits as requested: a miss is drawn again.
 ShootRays hits_of(const std::function<Meeting(Random&)>& meet) {
   return each_ray([meet](Random& random, std::uint64_t, KernelCounts& counts) {
     Meeting met;

@@ -1,5 +1,5 @@
-// R10: what a hit spawns meets neither its own surface nor anything that lies wholly behind it, and no light gets through two
-// sheets close together.
+// R10: child rays of a hit meet neither its own surface nor anything that lies wholly behind it, and no light passes two sheets
+// close together.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,21 +28,21 @@ using core::Scene;
 using core::Vec3d;
 using Must = StabilityExpectation::Must;
 
-/// What reaches less than this in front of a surface cannot be in the way of its children: triangles are no flatter than float
-/// makes them, and start their children as far off; what is curved is known, and solved, in double.
+/// A body that reaches less than this in front of a surface cannot block its child rays: triangles have float accuracy and start
+/// their child rays as far off; curved bodies are known and solved in double.
 double reach_in_front(PrimitiveKind surface, PrimitiveKind met) {
   constexpr double flat = 0x1p-22, curved = 0x1p-32;
   return surface == PrimitiveKind::triangle && met == PrimitiveKind::triangle ? flat : curved;
 }
 
-/// The plane that touches a hit's surface, with the side that a child starts on in front.
+/// The tangent plane of a hit's surface, with the side on which a child ray starts in front.
 struct Tangent {
   Vec3d point, normal;
 
   double height(const Vec3d& at) const { return dot(at - point, normal); }
 };
 
-/// The normal of a sphere or cone there, by the implicit function's gradient, not normalised.
+/// Returns the normal of a sphere or cone there: the implicit function's gradient, not normalised.
 Vec3d curved_normal(const core::CurvedValues& body, PrimitiveKind kind, const Vec3d& at) {
   const Vec3d from = at - body.vector(0);
   if (kind == PrimitiveKind::sphere) {
@@ -54,7 +54,7 @@ Vec3d curved_normal(const core::CurvedValues& body, PrimitiveKind kind, const Ve
   return from - axis * height - axis * (radius * widening / dot(axis, axis));
 }
 
-/// A curved body's point is the referee's, not the kernels', which round its distance.
+/// A curved body's point is the referee's, since the kernels round its distance.
 Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hit, const Ray& child) {
   Tangent tangent;
   if (body.kind == PrimitiveKind::triangle) {
@@ -72,7 +72,7 @@ Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hi
   return tangent;
 }
 
-/// How far the body reaches in front, at most: exact for triangles and spheres, an upper bound for cones.
+/// Returns how far the body reaches in front, at most: exact for triangles and spheres, an upper bound for cones.
 double reach_of(const PrimitiveValues& body, const Tangent& tangent) {
   if (body.kind == PrimitiveKind::triangle) {
     return std::max({tangent.height(body.vector(0)), tangent.height(body.vector(3)), tangent.height(body.vector(6))});
@@ -87,8 +87,8 @@ double reach_of(const PrimitiveValues& body, const Tangent& tangent) {
   return std::max(first + slant * radius, tangent.height(curved.apex()) + slant * std::fabs(curved.value(7)));
 }
 
-/// A child that leaves its surface by less all but stays in it: a normal between those of vertices may send it so. Near an edge
-/// it starts no farther off than the way there allows, so rounding decides whether it meets the neighbour that begins there.
+/// A child ray that leaves its surface at a smaller cosine almost stays in it, as an interpolated normal may cause. Near an edge
+/// its offset is limited by the space there, so rounding decides whether it hits the neighbour that begins there.
 constexpr double grazing_cosine = 0x1p-14;
 
 /// Counts the kernels' answers to a child ray: a hit on something behind its surface is acne.
@@ -136,7 +136,7 @@ class ChildJudge {
   KernelCounts& counts_;
 };
 
-/// Near the surfaces of random primitives, at all angles down to some 10^-4 radians.
+/// Returns rays near the surfaces of random primitives, at all angles down to some 10^-4 radians.
 Ray ray_onto(const core::Database& database, Random& random) {
   const PrimitiveValues& body = database.primitives()[random.below(database.primitives().size())];
   const Vec3d at = surface_point(body, random);
@@ -155,7 +155,7 @@ ShootRays children_in(const Scene& scene) {
   });
 }
 
-/// A mirror under eight lights that surround it.
+/// Returns a mirror under eight lights that surround it.
 Scene lit(Scene scene) {
   for (std::uint32_t i = 0; i < 8; ++i) {
     scene.lights.push_back({{(i & 1U) != 0 ? 9.0 : -8.0, (i & 2U) != 0 ? 7.0 : -9.0, (i & 4U) != 0 ? 8.0 : -7.0}});
@@ -202,7 +202,7 @@ Scene two_sheets() {
   return scene;
 }
 
-/// Between the sheets every child is caught; above them none is.
+/// Between the sheets every child ray hits; above them none does.
 ShootRays children_of_sheets(double scale) {
   const auto subject = std::make_shared<const StabilitySubject>(transformed(two_sheets(), scale, {}));
   return each_ray([subject, scale](Random& random, std::uint64_t i, KernelCounts& counts) {

@@ -22,7 +22,7 @@ constexpr int grid_failed_status = 1;
 
 constexpr double per_billion = 1e9;
 
-/// What a kernel came to in a test.
+/// A kernel's counts in a test.
 struct KernelRow {
   const std::string& test;
   StabilityKernel kernel;
@@ -51,7 +51,7 @@ const FilledColumns<KernelRow>& stability_columns() {
   return columns;
 }
 
-/// What a row's cases have tried, and of how many answers something was known.
+/// Adds what a row's cases have tried, and the number of answers about which something was known.
 void add_tried(Table& table, const StabilityState& state, const std::string& row) {
   StabilityCounts sum;
   std::string names;
@@ -109,8 +109,8 @@ void add_notes(Table& table, const StabilityState& state, bool is_whole) {
   table.add_note(line_of(trial_of(state)));
 }
 
-/// A row for each test and each kernel that it tried, in the order of the tests; notes say what the columns mean, where the tests
-/// are that do not run inside the program, and what each case has tried.
+/// Returns a row for each test and each kernel that it tried, in the order of the tests; notes explain the columns, name the
+/// tests that run outside the program, and list what each case has tried.
 Table table_of(const StabilityState& state, std::uint64_t seed, bool is_whole) {
   Table table("Numerical stability: our grid (" + std::string(core::simd_name()) + ") beside Embree " + embree_version() +
                   ", seed " + std::to_string(seed),

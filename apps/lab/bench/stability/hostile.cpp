@@ -1,4 +1,5 @@
-// R11: rays and vertices with NaN, infinite, huge and denormal numbers: a miss or a valid hit, for no more work than other rays.
+// R11: rays and vertices with NaN, infinite, huge and denormal numbers give a miss or a valid hit, without more work than other
+// rays.
 #include <array>
 #include <limits>
 #include <memory>
@@ -20,7 +21,7 @@ using core::Vec3f;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
-/// Times the work of usual rays.
+/// Limit as a multiple of the work of usual rays.
 constexpr double hostile_work_max = 2.5;
 
 float odd_number(Random& random) {
@@ -34,7 +35,7 @@ Vec3f odd_vector(Random& random) {
   return {x, y, odd_number(random)};
 }
 
-/// Among triangles, spheres and cones of ordinary numbers, some of odd ones.
+/// Returns triangles, spheres and cones with ordinary numbers, and some with odd ones.
 core::Scene scene_with_odd_numbers() {
   Random random(9);
   core::Scene scene = scene_of(sphere_mesh(6, 8, 0.1));
@@ -65,7 +66,8 @@ void count_answers(const Ray& ray, const StabilityAnswers& answers, KernelCounts
       continue;
     }
     const bool any_hit = kernel == StabilityKernel::any_hit;
-    // Pads of boxes cover no ray from 1e10 extents away, so the grid's miss what lists of voxels, which have no boxes, may meet.
+    // Pads of boxes cover no ray from 1e10 extents away, so the grid's rays may miss what lists of voxels, which have no boxes,
+    // hit.
     const bool must_agree = !is_embree(kernel) && !is_of_voxels(kernel);
     ++counts[k].tried;
     if (!is_valid(ray, answers[k])) {
@@ -73,7 +75,7 @@ void count_answers(const Ray& ray, const StabilityAnswers& answers, KernelCounts
     } else if (must_agree && !(any_hit ? answers[k].found() == grid.found() : same_hit(answers[k], grid))) {
       ++counts[k].unexplained;
     } else if (!must_agree && answers[k].primitive != grid.primitive) {
-      ++counts[k].explained;  // where numbers overflow there is no right answer
+      ++counts[k].explained; // if numbers overflow, there is no right answer
     }
   }
 }
@@ -85,7 +87,7 @@ Ray odd_ray(Random& random) {
   return ray;
 }
 
-/// Between two points of the grid and on.
+/// Returns a ray through two points of the grid.
 Ray usual_ray(const core::Database& database, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   const auto point = [&] {
@@ -99,7 +101,7 @@ Ray usual_ray(const core::Database& database, Random& random) {
   return ray_through(origin, point());
 }
 
-/// Steps of the traversal and tests of primitives.
+/// Returns the steps of the traversal and tests of primitives.
 double work_of(const core::Database& database, const Ray& ray) {
   core::LocalRecords records(database.bytes());
   core::Cursor cursor;

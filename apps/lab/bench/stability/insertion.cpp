@@ -1,4 +1,4 @@
-// R6: every point of every primitive lies in boxes that lead to the primitive, with the pad and (to rounding of the points)
+// R6: every point of every primitive lies in boxes that lead to the primitive, with the pad and (up to rounding of the points)
 // without.
 #include <array>
 #include <memory>
@@ -16,9 +16,9 @@ using core::Scene;
 using core::Vec3d;
 
 constexpr int primitive_count = 300;
-/// So many that 300 primitives have several macro cells.
+/// Gives 300 primitives several macro cells.
 constexpr double cells_per_primitive = 4;
-/// How far a sample point is off, and a little: without a pad a point may belong to the neighbour.
+/// Slightly more than the error of a sample point: without a pad a point may belong to the neighbour.
 constexpr double sample_error = 1e-12;
 
 template <class AddOne>
@@ -39,7 +39,7 @@ Scene small_triangles() {
   });
 }
 
-/// With vertices that share coordinates, as do the grid's planes.
+/// Returns triangles whose vertices share coordinates, as do the grid's planes.
 Scene lattice_triangles() {
   return scene_by([](core::SceneBuilder& builder, Random& random) {
     const auto at = [&] { return random.below(9) / 4.0 - 1.0; };

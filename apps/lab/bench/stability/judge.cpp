@@ -18,8 +18,8 @@ Renderer renderer_of(Kernel kernel) { return is_embree(kernel) ? Renderer::embre
 
 bool level(const Hit& a, const Hit& b) { return std::fabs(double{a.t} - double{b.t}) <= level_share * std::fabs(double{b.t}); }
 
-/// Whether all kernels say the same, or name primitives that the ray meets at about one distance: then the grid's answer, which
-/// is sampled, speaks for all. A miss of a ray that must hit needs no judge.
+/// Returns whether all kernels agree, or name primitives that the ray meets at about one distance: then the grid's answer, which
+/// is sampled, stands for all. A miss of a ray that must hit needs no judge.
 bool agree(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers, Must must) {
   const Hit& grid = answers[index_of(Kernel::grid)];
   for (std::size_t k = 0; k < answers.size(); ++k) {

@@ -1,5 +1,5 @@
-// R1: every vertex, edge and middle of closed bodies. R2: rays from inside, at random, at vertices, at edges. R3: bodies scaled
-// and moved.
+// R1: every vertex, edge and middle of closed bodies. R2: rays from inside, at random, at vertices, at edges. R3: scaled and
+// moved bodies.
 #include <cmath>
 #include <memory>
 
@@ -17,11 +17,11 @@ using core::Ray;
 using core::Vec3d;
 using Must = StabilityExpectation::Must;
 
-/// One ray in this many goes to the referee whatever the kernels report, since it takes as long as hundreds of rays.
+/// One ray in this many is judged by the referee in any case, since that takes as long as hundreds of rays.
 constexpr std::uint64_t referee_interval = 32;
 constexpr std::uint64_t fine_referee_interval = 4096;
 
-/// A body that has been built, in its place.
+/// A body that has been transformed and built.
 struct Placed {
   Placed(const ClosedBody& from, double by = 1, const Vec3d& to = {}, bool in_single = false)
       : body(from), factor(by), offset(to), subject(transformed(from.scene, by, to, in_single)) {}
@@ -35,7 +35,7 @@ struct Placed {
   StabilitySubject subject;
 };
 
-/// Every target in turn, then all over again from the next origin.
+/// Returns every target in turn, then all again from the next origin.
 Vec3d target_in_turn(const Placed& placed, std::uint64_t index, Random& random) {
   const auto primitives = placed.subject.database.primitives();
   const core::PrimitiveValues& primitive = primitives[index / targets_per_triangle % primitives.size()];
@@ -43,7 +43,7 @@ Vec3d target_in_turn(const Placed& placed, std::uint64_t index, Random& random) 
                                                          : surface_point(primitive, random);
 }
 
-/// The origin of a round of targets: the same in all its rays.
+/// Returns the random numbers for the origin of a round of targets, the same for all its rays.
 Random round_of(const Placed& placed, std::uint64_t index) {
   return Random(1 + index / (targets_per_triangle * placed.subject.database.primitives().size()));
 }
@@ -95,7 +95,7 @@ void add_interior_rays(const StabilityAmount& amount, StabilityCases& cases) {
   });
 }
 
-/// The grid's hit on the body as it was must come out again with the same bits.
+/// The grid's hit must have the same bits as on the unscaled body.
 ShootRays scaled_rays(const ClosedBody& body, int exponent) {
   const auto plain = std::make_shared<const Placed>(body);
   const auto scaled = std::make_shared<const Placed>(body, std::ldexp(1.0, exponent));

@@ -1,4 +1,4 @@
-// R14: the number of triangles that a ray meets on its whole way, odd from inside a closed mesh, even from outside.
+// R14: the number of triangles that a whole ray hits is odd from inside a closed mesh, even from outside.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -23,7 +23,7 @@ struct Kernels {
   core::TriangleKernel hit;
 };
 
-/// The triangles that the kernels say the ray hits, each once.
+/// Returns the triangles that the kernels hit along the ray, each once.
 std::size_t hits_on_way(const core::Database& database, const Ray& ray, const Kernels& kernels) {
   std::vector<std::uint32_t> ids;
   const core::ShearedRay sheared(ray);
@@ -41,7 +41,7 @@ std::size_t hits_on_way(const core::Database& database, const Ray& ray, const Ke
   return static_cast<std::size_t>(std::unique(ids.begin(), ids.end()) - ids.begin());
 }
 
-/// Whether rounding decides nothing: a ray within rounding of an edge may meet both its triangles.
+/// Returns whether rounding decides nothing: a ray within rounding of an edge may hit both its triangles.
 bool is_generic(const Referee& referee, const Ray& ray) {
   const std::vector<ExactIntersection> met = referee.exact_intersections(ray);
   return std::all_of(met.begin(), met.end(), [](const ExactIntersection& seen) { return seen.certain(Renderer::grid); });

@@ -1,4 +1,4 @@
-// R5: the sequence of finest cells that the traversal's planes give, against the true line in long double: each point where it
+// R5: the sequence of finest cells from the traversal's planes, against the true line in long double: each point at which it
 // enters a cell lies in that cell within the pad, each step leads to a neighbour, and forward.
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ using core::Passage;
 using core::Ray;
 using Vec3l = core::Vec3<long double>;
 
-/// How far the line at `t` is from the finest cell, in the direction in which that is most; a float's and an integer's product is
-/// exact in long double, the line's points are off by 2^-63 of their size.
+/// Returns the largest distance over the axes of the line at `t` from the finest cell; the product of a float and an integer is
+/// exact in long double, and the line's points are off by 2^-63 of their size.
 long double distance_from(const Ray& ray, const core::GridFrame& frame, const Corner& cell, double t) {
   const Vec3l at = Vec3l(ray.origin) + Vec3l(ray.direction) * static_cast<long double>(t);
   const auto edge = static_cast<long double>(frame.finest_cell);
@@ -33,7 +33,7 @@ long double distance_from(const Ray& ray, const core::GridFrame& frame, const Co
   return most;
 }
 
-/// Whether `to` is the neighbour of `from` on the side that the ray goes to.
+/// Returns whether `to` is the neighbour of `from` on the side to which the ray goes.
 bool is_step_forward(const Ray& ray, const Corner& from, const Corner& to) {
   int changed = 0;
   bool forward = true;
@@ -45,7 +45,7 @@ bool is_step_forward(const Ray& ray, const Corner& from, const Corner& to) {
   return changed == 1 && forward;
 }
 
-/// The line as a whole: whether it passes through the grid's middle, so that no traversal may miss it.
+/// The whole line: if it passes through the grid's middle, no traversal may miss it.
 class Sequence {
  public:
   Sequence(const core::GridFrame& frame, double pad) : frame_(frame), pad_(pad) {}
@@ -55,7 +55,7 @@ class Sequence {
     std::optional<Passage> passage = first_passage(ray, frame_);
     ++count.tried;
     if (!passage) {
-      ++count.leaks;  // aimed at a place inside
+      ++count.leaks; // aimed at a point inside
       return;
     }
     const Corner size = core::grid_size(frame_);

@@ -1,4 +1,4 @@
-// Cancellation: far, tiny spheres and grazed cones, the error of t in units of a float's last place against long double.
+// Cancellation: for far, tiny spheres and grazed cones, the error of t in units of a float's last place against long double.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +20,11 @@ using core::Vec3f;
 using Long = long double;
 using Vec3l = core::Vec3<Long>;
 
-/// The roots of a quadratic about the ray's nearest point to the body's centre: nothing cancels there but what cancels in the
-/// problem. 64 bits of mantissa leave 11 more than the kernels have.
+/// The roots of a quadratic about the ray's nearest point to the body's centre, where only the problem's own cancellation
+/// remains. 64 bits of mantissa are 11 more than the kernels have.
 struct Roots {
   Long first = 0, second = 0;
-  Long doubt = 0;  ///< what 2^-60 of the coefficients moves a root by
+  Long doubt = 0; ///< how far 2^-60 of the coefficients moves a root
   bool exist = false;
 };
 
@@ -48,7 +48,7 @@ Roots sphere_roots(const Ray& ray, const PrimitiveValues& sphere) {
   return roots_of(a, 0, dot(nearest, nearest) - radius * radius, shift);
 }
 
-/// The roots of the whole double cone; the caller's rays meet it between its ends.
+/// Returns the roots of the whole double cone; the caller's rays meet it between its ends.
 Roots cone_roots(const Ray& ray, const PrimitiveValues& cone) {
   const Vec3l base = row(cone, 0), axis = row(cone, 4) - base, d(ray.full_direction()), from = Vec3l(ray.full_origin()) - base;
   const Long squared = dot(axis, axis), shift = -dot(from, d) / dot(d, d);
@@ -66,7 +66,7 @@ Long last_place(Long t) {
   return static_cast<Long>(std::nextafter(size, std::numeric_limits<float>::infinity()) - size);
 }
 
-/// The error is that of the nearer of the two roots: which of them counts is the other tests' business.
+/// The error is relative to the nearer of the two roots: other tests check which of them counts.
 void judge_distance(const Roots& roots, double t, StabilityCounts& count) {
   ++count.tried;
   if (!(t > 0)) {
@@ -78,7 +78,7 @@ void judge_distance(const Roots& roots, double t, StabilityCounts& count) {
     return;
   }
   if (!(roots.doubt < last_place(roots.first))) {
-    ++count.explained;  // a tangent: the reference has no more to say
+    ++count.explained; // a tangent: the reference is not accurate enough
     return;
   }
   const Long off = std::min(std::fabs(static_cast<Long>(t) - roots.first), std::fabs(static_cast<Long>(t) - roots.second));
@@ -92,7 +92,7 @@ struct Aim {
   Ray ray;
 };
 
-/// A sphere of radius 1e-6 to 1e-2 at 1 to 1,000 times the scene's extent, met anywhere, often near its silhouette.
+/// Returns a sphere of radius 1e-6 to 1e-2 at 1 to 1,000 times the scene's extent, hit anywhere, often near its silhouette.
 Aim far_sphere(Random& random) {
   const Vec3f center(random.in_box(0, 1));
   const auto radius = static_cast<float>(std::pow(10.0, random.between(-6, -2)));
@@ -103,7 +103,7 @@ Aim far_sphere(Random& random) {
           ray_through(from, Vec3d(center) + side * (double{radius} * off))};
 }
 
-/// A cone or cylinder met near its middle at 1e-1 to 1e-9 from a tangent plane, from up to 100 extents away.
+/// Returns a cone or cylinder hit near its middle at 1e-1 to 1e-9 from a tangent plane, from up to 100 extents away.
 Aim grazed_cone(Random& random) {
   const Vec3d base = random.in_box(0.3, 0.7), axis = random.direction() * random.between(0.1, 0.5);
   const double low = random.between(0.01, 0.1), high = random.bits() % 3 == 0 ? low : random.between(0.01, 0.1);

@@ -1,5 +1,5 @@
-// R9: space cut into regions with planes that triangles lie in: each nearest hit is claimed by one owner, and the journey from
-// owner to owner ends with the same bits.
+// R9: space cut into regions, with triangles in the cutting planes: each nearest hit is claimed by one owner, and the traversal
+// from owner to owner ends with the same bits.
 #include <array>
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ using core::Region;
 using core::Traced;
 using core::Vec3d;
 
-/// A macro cell in sixteen, in finest cells.
+/// A sixteenth of a macro cell, in finest cells.
 constexpr std::int32_t slice = core::finest_per_macro / 16;
 constexpr std::size_t slices_per_cell = core::finest_per_cell / slice;
 
@@ -45,8 +45,7 @@ std::vector<Region> random_regions(const Corner& size, std::size_t count, Random
   return regions;
 }
 
-/// Squares in planes between slices, as far as single precision holds them, within the bounds of mixed_scene(), and what it
-/// holds.
+/// Returns squares in planes between slices, within single precision, in the bounds of mixed_scene(), and that scene.
 core::Scene walls_in_planes(const core::GridFrame& frame) {
   Random random(77);
   core::Scene scene = mixed_scene();
@@ -68,17 +67,18 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
   return scene;
 }
 
-/// Several macro cells. The grid's resolution must not depend on the walls, so it does not depend on their number, either.
+/// Gives several macro cells. The grid's resolution must not depend on the walls, so it does not depend on their number, either.
 core::BuildOptions options_for(std::size_t region_count) { return {.cells_per_primitive = region_count > 8 ? 4.0 : 1.0}; }
 
 core::Scene scene_with_walls(const core::BuildOptions& options) {
-  // Twice: the first grid's planes say where walls are to stand, and as many walls anywhere give the grid that they will have.
+  // Built twice: the first grid's planes determine the walls' positions, and the same number of walls anywhere gives the final
+  // grid.
   const core::Database first =
       core::build_database(walls_in_planes(core::build_database(mixed_scene(), options).header().frame), options);
   return walls_in_planes(first.header().frame);
 }
 
-/// A computer of one region a node, without the computer.
+/// Emulates a computer with one region a node.
 class Owners {
  public:
   Owners(const core::Database& database, std::size_t count) : frame_(database.header().frame) {
@@ -88,7 +88,7 @@ class Owners {
     }
   }
 
-  /// What the first owner that claims a hit on the ray's way says.
+  /// Returns the hit of the first owner on the ray's way that claims one.
   Hit journey(const Ray& ray) const {
     auto passage = core::first_passage(ray, frame_);
     while (passage) {
@@ -101,8 +101,8 @@ class Owners {
     return {};
   }
 
-  /// How many owners claim `hit` who know nothing of each other: the ray comes to each without a candidate, and what lies before
-  /// it enters is not theirs.
+  /// Returns how many owners claim `hit` independently: the ray comes to each without a candidate, and hits before it enters are
+  /// not theirs.
   std::uint64_t claims(const Ray& ray, const Hit& hit) const {
     std::uint64_t count = 0;
     core::Operations operations;

@@ -21,7 +21,7 @@ std::uint64_t hash_of(const std::string& text) {
   return hash;
 }
 
-/// The row that a case counts for; a new one if it is the first.
+/// Returns the row of a case; a new one for its first case.
 KernelCounts& row_of(StabilityState& state, const std::string& name) {
   const auto found =
       std::find_if(state.rows.begin(), state.rows.end(), [&](const StabilityRow& row) { return row.name == name; });

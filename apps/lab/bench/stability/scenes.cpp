@@ -1,5 +1,5 @@
 // R7: scenes of the SPD against Embree and the referee. R8: grazing rays among all kinds of primitives, every kernel. R12: scenes
-// that are empty, flat, of one piece, all in one place or in two far apart.
+// that are empty, flat, a single piece, coincident, or in two places far apart.
 #include <array>
 #include <memory>
 #include <string>
@@ -17,7 +17,7 @@ using core::Ray;
 using core::Scene;
 using core::Vec3d;
 
-/// Many enough for several leaves in one place, few enough for the referee, who takes the square of it.
+/// Enough for several leaves in one place, and few enough for the referee, whose time grows with the square.
 constexpr int coincident_copies = 40;
 
 using MakeRay = Ray (*)(const StabilitySubject& subject, Random& random);
@@ -30,7 +30,7 @@ ShootRays rays_in(const Scene& scene, std::uint64_t referee_interval, MakeRay ma
   });
 }
 
-/// A place in the grid's box, enlarged by half of it to each side.
+/// Returns a point in the grid's box, enlarged by half of it on each side.
 Vec3d anywhere(const StabilitySubject& subject, Random& random) {
   Vec3d at;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -40,7 +40,7 @@ Vec3d anywhere(const StabilitySubject& subject, Random& random) {
   return at;
 }
 
-/// From anywhere to anywhere, or to where a primitive begins.
+/// Returns a ray from anywhere to anywhere, or to where a primitive begins.
 Ray wild_ray(const StabilitySubject& subject, Random& random) {
   const Vec3d from = anywhere(subject, random);
   const auto primitives = subject.database.primitives();
