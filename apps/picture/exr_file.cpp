@@ -23,11 +23,12 @@ constexpr int the_part = 0;
 constexpr int effort = 1;  ///< floats gain little from more: 4 takes half as long again for files 1 to 4 % smaller
 
 using core::operator""_MiB;
-/// Blocks that are packed at a time: some for each thread, so that none waits long for another's, and no more than these bytes.
+/// Limits of the blocks that are packed at a time: several for each thread, so that threads rarely wait for each other, and at
+/// most this many bytes.
 constexpr std::size_t blocks_a_thread = 4;
 constexpr std::size_t blocks_bytes_max = 64_MiB;
 
-/// Writing fails for want of room alone.
+/// Writing fails only for lack of memory.
 void check(exr_result_t result) {
   if (result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_WRITE_IO) {
     throw std::bad_alloc();
@@ -37,7 +38,7 @@ void check(exr_result_t result) {
   }
 }
 
-/// Into a std::string, from C that lets nothing be thrown.
+/// Writes into a std::string, called from C, through which nothing may be thrown.
 std::int64_t write_at(exr_const_context_t, void* file, const void* bytes, std::uint64_t size, std::uint64_t place,
                       exr_stream_error_func_ptr_t) noexcept {
   auto& to = *static_cast<std::string*>(file);
@@ -52,22 +53,22 @@ std::int64_t write_at(exr_const_context_t, void* file, const void* bytes, std::u
   return static_cast<std::int64_t>(size);
 }
 
-/// OpenEXR would say it on stderr; check() throws it.
+/// OpenEXR would print the error on stderr; check() throws it.
 void say_nothing(exr_const_context_t, exr_result_t, const char*) noexcept {}
 
-/// Where blocks of rows are packed, one after the other, each by any thread.
+/// Memory for packing blocks of rows, one after the other, each by any thread.
 class BlockPacker {
  public:
-  /// `first`: the picture's first block, which is as large as any.
+  /// `first` is the picture's first block, which is the largest.
   BlockPacker(exr_context_t context, const ExrRows& picture, const exr_chunk_info_t& first);
   ~BlockPacker();
   BlockPacker(const BlockPacker&) = delete;
   BlockPacker& operator=(const BlockPacker&) = delete;
 
-  /// What one takes.
+  /// Returns the memory of one packer.
   static std::size_t bytes_for(const exr_chunk_info_t& block) { return 4 * block.unpacked_size + 1_MiB; }
   void pack(const exr_chunk_info_t& block);
-  /// Writes what was packed. Requires that the block before it is written.
+  /// Writes the packed block. Requires that the block before it is written.
   void write();
 
  private:
@@ -97,11 +98,11 @@ BlockPacker::BlockPacker(exr_context_t context, const ExrRows& picture, const ex
 }
 
 BlockPacker::~BlockPacker() {
-  encoder_.compressed_buffer = nullptr;  // it is not OpenEXR's
+  encoder_.compressed_buffer = nullptr;  // the buffer does not belong to OpenEXR
   ::exr_encoding_destroy(context_, &encoder_);
 }
 
-/// In place of OpenEXR's own, by zlib. A block that does not get smaller is kept as it is, which is how readers know it.
+/// Replaces OpenEXR's own compression by zlib. A block that does not get smaller is stored uncompressed, which readers recognize.
 exr_result_t BlockPacker::deflate(exr_encode_pipeline_t* encoder) noexcept {
   auto& self = *static_cast<BlockPacker*>(encoder->encoding_user_data);
   const std::span bytes(static_cast<const std::uint8_t*>(encoder->packed_buffer), encoder->packed_bytes);
@@ -139,7 +140,7 @@ void BlockPacker::write() {
                                    encoder_.compressed_bytes));
 }
 
-/// A file on its way into memory.
+/// Writes a file into memory.
 class ExrWriter {
  public:
   explicit ExrWriter(const ExrRows& picture);
@@ -149,7 +150,7 @@ class ExrWriter {
 
   void write_header();
   void write_rows(const core::Parallel& parallel);
-  /// Whole after both.
+  /// The file is complete after both.
   std::string take_file() { return std::move(file_); }
 
  private:
@@ -199,14 +200,15 @@ std::vector<exr_chunk_info_t> ExrWriter::blocks() const {
   return all;
 }
 
-/// The most that blocks take, each with two numbers before it, so that the file need not be moved as it grows.
+/// Returns an upper bound for the size of blocks, each with two numbers before it, so that the file need not be moved as it
+/// grows.
 std::size_t bytes_max(const std::vector<exr_chunk_info_t>& blocks) {
   return std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, [](std::size_t sum, const exr_chunk_info_t& block) {
     return sum + block.unpacked_size + 2 * sizeof(std::int32_t);
   });
 }
 
-/// Some blocks at a time: any thread packs each, and this one writes them in order.
+/// Packs several blocks at a time, each on any thread; this thread writes them in order.
 void ExrWriter::write_rows(const core::Parallel& parallel) {
   const std::vector<exr_chunk_info_t> all = blocks();
   const std::size_t room = std::max<std::size_t>(1, blocks_bytes_max / BlockPacker::bytes_for(all.front()));

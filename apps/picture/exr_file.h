@@ -18,7 +18,7 @@ struct ExrRows {
   /// Writes the numbers of pixels from `first` on, as many as fit, each pixel's in the channels' order. Several threads call it
   /// at the same time.
   std::function<void(std::size_t first, std::span<float> numbers)> take;
-  std::vector<std::pair<std::string, std::string>> remarks; ///< text attributes
+  std::vector<std::pair<std::string, std::string>> remarks;  ///< text attributes
 };
 
 /// Returns the file's bytes, which are equal for equal pictures. `threads` compress rows; 0: one per core. Requires at least a

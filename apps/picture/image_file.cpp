@@ -23,25 +23,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A picture of three channels, floats or bytes, row by row from the top left, on its way into a file.
+/// A picture of three channels, floats or bytes, row by row from the top left, to be written to a file.
 struct PictureValues {
   int width = 0, height = 0;
   bool are_floats = false;  ///< linear light, else bytes on the sRGB curve
   std::span<const std::byte> values;
 };
 
-/// Its process, dmpc_picture_writer, starts at the first call and waits until the end, so that a picture that is done has a
-/// writer: where it has died another is started. Both throw core::InternalError or
-/// InstallationError where there is none, and core::CapacityError where this computer has no room for it. Not
-/// thread-safe.
+/// The process dmpc_picture_writer starts at the first call and stays alive until the end, so that a finished picture has a
+/// writer; a dead one is replaced. Both functions throw core::InternalError or InstallationError if there is none, and
+/// core::CapacityError if this computer has not enough memory for it. Not thread-safe.
 class PictureWriter {
  public:
   PictureWriter();
 
-  /// Whether there is a writer for files whose names end so (".tif").
+  /// Returns whether there is a writer for files with this extension (".tif").
   bool writes(const std::string& extension);
-  /// The file that would be written under this name. Throws core::InputError, a sentence that goes on "PATH: ...", if there is
-  /// none.
+  /// Returns the file that would be written under this name. Throws core::InputError, a sentence that continues "PATH: ...", if
+  /// there is none.
   std::string file_of(const std::string& name, const PictureValues& picture);
 
  private:
@@ -52,7 +51,7 @@ class PictureWriter {
   std::optional<ReaderProcess> process_;
 };
 
-/// What it gets is ours: as much time as the largest picture takes on a busy computer, and no sandbox.
+/// Its input is ours, so it gets as much time as the largest picture takes on a busy computer, and no sandbox.
 constexpr ReaderLimits limits{.seconds = 1'000'000, .sandbox = Sandbox::none};
 
 std::string received_file(ReaderProcess& process) {
@@ -110,7 +109,7 @@ std::string PictureWriter::file_of(const std::string& name, const PictureValues&
   });
 }
 
-/// The one of this process.
+/// Returns the one of this process.
 PictureWriter& picture_writer() {
   static PictureWriter writer;
   return writer;
@@ -122,7 +121,7 @@ bool takes_floats(std::string_view extension) {
   return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".hdr";
 }
 
-/// A process that takes long to start is asked about all but these two.
+/// For all but these two extensions a process that is slow to start is asked.
 void check_extension(const fs::path& path) {
   const std::string extension = lower_extension(path);
   if (extension != ".exr" && extension != ".png" && (extension.empty() || !picture_writer().writes(extension))) {
@@ -159,7 +158,7 @@ std::string png_of(const ImageRows& image) {
       {image.width, image.height, [&image](std::size_t first, std::span<std::uint8_t> rgb) { take_srgb(image, first, rgb); }});
 }
 
-/// Which the image outlives.
+/// The image outlives the rows.
 ImageRows rows_of(const Image& image) {
   core::expect(image.rgb.size() == 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
                "an image has three floats for each pixel");

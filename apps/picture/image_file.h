@@ -25,7 +25,7 @@ struct Image {
 
   int width = 0, height = 0;
   std::vector<float> rgb;
-  std::vector<std::pair<std::string, std::string>> remarks = {}; ///< names and texts, kept if the format is EXR
+  std::vector<std::pair<std::string, std::string>> remarks = {};  ///< names and texts, kept if the format is EXR
 };
 
 /// A picture whose pixels are never all in memory.
@@ -34,7 +34,7 @@ struct ImageRows {
   /// Writes three floats of linear radiance for each pixel from `first` on, as many as fit. Several threads call it at the same
   /// time.
   std::function<void(std::size_t first, std::span<float> rgb)> take;
-  std::vector<std::pair<std::string, std::string>> remarks = {}; ///< as those of Image
+  std::vector<std::pair<std::string, std::string>> remarks = {};  ///< as those of Image
 };
 
 /// Returns the picture with all its pixels.
@@ -45,7 +45,7 @@ struct Channel {
   int width = 0, height = 0;
   std::string name;
   std::vector<float> values;
-  std::vector<std::pair<std::string, std::string>> remarks; ///< names and texts, kept with the picture if the format can
+  std::vector<std::pair<std::string, std::string>> remarks;  ///< names and texts, kept with the picture if the format can
 };
 
 /// Throws core::InputError unless a picture can be written at `path`: the extension is .exr, .png, or one that OpenImageIO

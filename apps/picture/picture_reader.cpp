@@ -21,13 +21,13 @@
 namespace dmpc::apps {
 namespace {
 
-/// Beside what a picture becomes: libraries' own, and the file itself.
+/// Memory in addition to a picture's data: the libraries' own, and the file itself.
 constexpr std::uint64_t spare_bytes = std::uint64_t{512} << 20U;
 
-/// So much room is made for what is announced before it comes.
+/// Limit of the memory that is allocated for announced data before they arrive.
 constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
 
-/// The values as they are decoded, as they are wanted, and what a library keeps of them.
+/// Memory for the decoded values, the converted ones, and the libraries' own data.
 std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
   return std::min(spare_bytes + 2 * decoded_bytes_max(file_bytes) + file_bytes, reader_memory_bytes_max());
 }
@@ -87,7 +87,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
     texture.format = head.format;
     hidden_alphas_ += head.hides_alpha ? 1 : 0;
     const std::uint64_t count = std::uint64_t{head.width} * head.height;
-    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(count, count)});  // which has its room
+    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(count, count)});  // checked by take_room()
   });
   put_below_coat(texture, edges.coat);
   core::add_levels(texture);
@@ -121,7 +121,7 @@ Image PictureReader::read_image(const PictureFile& file, const Check& check) {
   return image;
 }
 
-/// A process that said nonsense, or died, is no more.
+/// A process that sent invalid data, or died, is dropped.
 template <class Take>
 void PictureReader::read(const PictureFile& file, const Request& request, const Take& take) {
   std::string format = "pictures";
@@ -152,7 +152,7 @@ void PictureReader::read(const PictureFile& file, const Request& request, const 
   }
 }
 
-/// What the one program leaves to the other has been looked at once in vain, which is on the budget.
+/// A picture that the first program leaves to the other one has already used some of the budget.
 PictureReader::Head PictureReader::ask(const PictureFile& file, const std::string& format, const Request& request) {
   budget_.add_bytes(file.is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0);
   check_time();
@@ -173,7 +173,7 @@ Message PictureReader::answer_of(Program program, const PictureFile& file, const
   return receive();
 }
 
-/// For a picture that may take more than those before it one is started anew: by powers of two, that is seldom.
+/// A picture that may need more memory than those before it needs a new process; limits are powers of two, so this is rare.
 void PictureReader::start(Program program, std::uint64_t file_bytes) {
   const std::uint64_t memory = std::min(std::bit_ceil(memory_bytes_for(file_bytes)), reader_memory_bytes_max());
   if (!process_ || program != program_ || memory > memory_bytes_) {
@@ -184,7 +184,7 @@ void PictureReader::start(Program program, std::uint64_t file_bytes) {
   }
 }
 
-/// Without it no first process is started.
+/// Without time left no first process is started.
 void PictureReader::check_time() const {
   if (!process_ && budget_.left() <= ReadingBudget::Time{}) {
     throw core::InputError("is not read: pictures before it have taken the " + counted(budget_.seconds(), "second") +
@@ -192,7 +192,7 @@ void PictureReader::check_time() const {
   }
 }
 
-/// Space per texel with all levels, which add a third: once as it is read, and once for the records made of it.
+/// Counts the space per texel with all levels, which add a third: once as read, and once for the records made from it.
 void PictureReader::take_room(const Head& head, std::uint64_t& taken) const {
   const std::uint64_t most = memory_bytes_max();
   taken += 2 * (std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3);
@@ -207,7 +207,7 @@ std::uint64_t PictureReader::memory_bytes_max() const {
   return budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
 }
 
-/// A texel is three floats, then four bytes, then up to three times that in tiles that are made, and laid out as records.
+/// A texel takes three floats, then four bytes, then up to three times that in tiles that are made and laid out as records.
 void PictureReader::check_sky(const Head& head) const {
   constexpr std::uint64_t texel_bytes = 3 * sizeof(float) + 4 * sizeof(std::uint32_t);
   const std::string size = size_text(head.width, head.height);
@@ -245,7 +245,7 @@ PictureReader::Head PictureReader::head_of(const Message& message, const Picture
   return head;
 }
 
-/// Believes no more than `believed` of what was announced until it comes.
+/// Allocates no more than `believed` of the announced size until data arrive.
 template <class T>
 std::vector<T> PictureReader::receive_values(std::uint64_t count, std::uint64_t believed) {
   std::vector<T> values;

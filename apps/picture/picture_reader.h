@@ -19,8 +19,8 @@ struct PictureFile {
   Descriptor descriptor;
   std::uint64_t bytes = 0;
   std::string name;
-  std::string ending; ///< "tga": for formats that the content does not identify
-  bool is_new = true; ///< its bytes have not yet added reading time
+  std::string ending;  ///< "tga": for formats that the content does not identify
+  bool is_new = true;  ///< its bytes have not yet added reading time
 };
 
 /// Opens the ordinary file at `path`. Throws core::InputError "PATH: ..." if there is none.

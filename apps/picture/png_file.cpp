@@ -21,16 +21,16 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::size_t pixel_bytes = 3;
-constexpr int png_effort = 7;  ///< packs as well as what libpng asks of zlib, in two thirds of the time
+constexpr int png_effort = 7;  ///< compresses as well as libpng's zlib level, in two thirds of the time
 
 /// Rows that a thread filters at a time.
 constexpr std::size_t band_rows = 32;
 
-/// What a part of the packed rows takes, and what libpng writes beside it.
+/// Size of a part of the packed rows, and of what libpng writes beside it.
 constexpr std::size_t part_bytes = std::size_t{1} << 20U;
 constexpr std::size_t frame_bytes = 12, other_bytes = 128;
 
-/// Bytes that nobody has written yet, so that only those are touched that are needed.
+/// Uninitialized bytes, so that only the needed ones are touched.
 struct RawBytes {
   explicit RawBytes(std::size_t count) : bytes(std::make_unique_for_overwrite<std::uint8_t[]>(count)), size(count) {}
   std::span<std::uint8_t> span() const { return {bytes.get(), size}; }
@@ -39,7 +39,7 @@ struct RawBytes {
   std::size_t size;
 };
 
-/// Filters a band of rows, into their places among all; the row above it is asked for, too.
+/// Filters a band of rows into their positions; it also fetches the row above the band.
 void filter_band(const PngRows& picture, std::size_t row_bytes, std::size_t first, std::size_t end, std::span<std::uint8_t> all) {
   const auto width = static_cast<std::size_t>(picture.width);
   const std::size_t above = first == 0 ? 0 : 1;
@@ -53,7 +53,7 @@ void filter_band(const PngRows& picture, std::size_t row_bytes, std::size_t firs
   }
 }
 
-/// All rows, filtered. The same whatever the number of threads.
+/// Returns all rows, filtered. The result does not depend on the number of threads.
 RawBytes filtered_rows(const PngRows& picture, std::uint32_t threads) {
   const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(picture.width);
   const auto rows = static_cast<std::size_t>(picture.height);
@@ -64,7 +64,7 @@ RawBytes filtered_rows(const PngRows& picture, std::uint32_t threads) {
   return all;
 }
 
-/// A file on its way into memory, and why it is not one.
+/// A file written into memory, and the error if it failed.
 struct PngFile {
   std::string bytes;  ///< reserved for everything that follows
   std::array<char, 80> complaint{};
@@ -76,7 +76,7 @@ void append(png_structp png, png_bytep bytes, std::size_t count) noexcept {
 
 void flush(png_structp) noexcept {}
 
-/// libpng asks that this does not return.
+/// libpng requires that this does not return.
 [[noreturn]] void leave(png_structp png, png_const_charp message) noexcept {
   auto& file = *static_cast<PngFile*>(::png_get_error_ptr(png));
   static_cast<void>(std::snprintf(file.complaint.data(), file.complaint.size(), "%s", message));
@@ -107,7 +107,7 @@ class PngMemory {
   png_infop info_;
 };
 
-/// False if libpng complains. Nothing in here has a destructor, past which it would leave.
+/// Returns false if libpng reports an error. Nothing in here has a destructor, since libpng would jump past it.
 bool write_chunks(png_structp png, png_infop info, png_uint_32 width, png_uint_32 height, std::span<const std::uint8_t> packed) {
   if (setjmp(png_jmpbuf(png)) != 0) {
     return false;

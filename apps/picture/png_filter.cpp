@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t pixel_bytes = 3;
 
-/// Paeth's: of left, above and the corner between them the one that is nearest to left + above - corner.
+/// Paeth's predictor: of left, above and the corner between them, the one nearest to left + above - corner.
 int nearest(int left, int above, int corner) {
   const int to_left = std::abs(above - corner), to_above = std::abs(left - corner),
             to_corner = std::abs(left + above - 2 * corner);
@@ -29,7 +29,7 @@ PngFilter::PngFilter(std::size_t row_bytes)
       trial_(row_bytes),
       best_(row_bytes) {}
 
-/// Fills the trial, and returns the sum. No branch and no call in the loop, for vectors.
+/// Fills the trial, and returns the sum. The loop has no branch and no call, so that it can be vectorized.
 template <class Predict>
 std::uint32_t PngFilter::differ(Predict predict) {
   const std::uint8_t* const corner = above_.data();

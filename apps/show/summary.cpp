@@ -17,7 +17,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// What only one strategy has to say.
+/// Lines of one strategy only.
 struct StrategyLines {
   std::string computer;  ///< the rest of that line
   std::string figures;   ///< whole lines, with their ends
@@ -39,7 +39,7 @@ std::string memory_text(const Account& account) {
   return text;
 }
 
-/// A whole line of the ranks and what went between them, or nothing.
+/// Returns a whole line on the ranks and the traffic between them, or nothing.
 std::string ranks_line(const Account& account) {
   if (account.ranks.empty()) {
     return "";
@@ -58,13 +58,13 @@ std::string ranks_line(const Account& account) {
          counted(frames, "frame") + ", " + bytes_text(bytes) + "\n";
 }
 
-/// Walks from record to record: each ray's, and one more in every region that it travels to.
+/// Returns the number of traversals: one for each ray, and one more in every region to which it travels.
 std::uint64_t walks_of(const core::Operations& operations, const svm::Report&) { return operations.traced_ray_count(); }
 std::uint64_t walks_of(const core::Operations& operations, const dataflow::Report& report) {
   return operations.traced_ray_count() + report.gathers().rays;
 }
 
-/// Nothing where all rays walked alone.
+/// Returns nothing if all rays were traversed singly.
 std::string bundles_text(const core::Operations& operations, std::uint64_t walks) {
   if (operations.bundles == 0) {
     return "";
@@ -107,7 +107,7 @@ std::string questions_text(const svm::Report& report) {
          counted(sent.packets, "packet") + " of " + fixed(fill, 1) + "; all answered";
 }
 
-/// A whole line of what adaptive sampling did, or nothing.
+/// Returns a whole line on adaptive sampling, or nothing.
 std::string sampling_line(const RenderOptions& options, const Account& account) {
   if (!options.picture.is_refined) {
     return "";
@@ -119,7 +119,7 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
          (result.error > options.picture.refinement.error ? ", more than requested: no pixel may have more samples" : "") + "\n";
 }
 
-/// Behind the picture's name: how light got about, if not as by default, and samples that nobody asked for.
+/// Returns the text after the picture's name: the transport, if not the default, and samples chosen by default.
 std::string picture_text(const PictureOptions& picture) {
   const std::string transport = picture.transport.is_by_paths() ? ", " + text_of(picture.transport) : "";
   const std::string error =
@@ -172,7 +172,7 @@ StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& rep
               "\n"};
 }
 
-/// Lines of a run in virtual time, with their ends; without it none.
+/// Returns the lines of a run in virtual time, with line ends; none without it.
 std::string virtual_lines(const RenderRecord& record, const Account& account) {
   const std::optional<nodes::Machine>& machine = record.options.computer.machine;
   if (!account.virtual_time || !machine) {

@@ -127,7 +127,7 @@ void bound_memory(const AvailableMemory& room) {
   name_memory_limit(room.is_limit ? room.source : "", bytes_text(room.bytes));
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 && room.bytes < limit.rlim_cur) {
     limit.rlim_cur = room.bytes;
-    ::setrlimit(RLIMIT_DATA, &limit); // fails only if it would forbid existing memory
+    ::setrlimit(RLIMIT_DATA, &limit);  // fails only if it would forbid existing memory
   }
 }
 

@@ -87,7 +87,7 @@ bool unblocks_signals() {
 [[noreturn]] void become(const Start& start, int complaint) {
   const bool is_tied = ::prctl(PR_SET_PDEATHSIG, start.death_signal) == 0;
   if (::getppid() != start.parent) {
-    ::_exit(0); // the parent has died before
+    ::_exit(0);  // the parent has died before
   }
   if (is_tied && ::chdir(start.folder) == 0 && opens_as(STDIN_FILENO, start.input, O_RDONLY) &&
       opens_as(STDOUT_FILENO, start.output, O_WRONLY) && ::dup2(start.errors, STDERR_FILENO) >= 0 &&

@@ -29,7 +29,7 @@ int take_run_path(dl_phdr_info* info, std::size_t /*bytes*/, void* text) {
       offset = entry->d_tag == DT_RUNPATH || entry->d_tag == DT_RPATH ? entry->d_un.d_val : offset;
     }
     if (names != 0 && offset != 0) {
-      names += names < info->dlpi_addr ? info->dlpi_addr : 0; // not every loader has added the program's address
+      names += names < info->dlpi_addr ? info->dlpi_addr : 0;  // not every loader has added the program's address
       *static_cast<std::string*>(text) = reinterpret_cast<const char*>(names + offset);
     }
   }
@@ -53,7 +53,7 @@ std::vector<fs::path> run_path() {
 std::vector<fs::path> places_of(const std::string& installed, CompanionOf whose) {
   std::error_code unknown;
   const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  if (folder.empty()) { // without /proc the program's folder is unknown
+  if (folder.empty()) {  // without /proc the program's folder is unknown
     return {};
   }
   std::vector<fs::path> places = whose == CompanionOf::dmpc ? std::vector{folder, folder / installed} : run_path();

@@ -78,7 +78,7 @@ void remove_all_under_way() {
 void remove_files_under_way() {
   for (std::atomic<UnderWay*>& slot : to_remove) {
     if (const UnderWay* const found = slot.exchange(nullptr)) {
-      ::unlink(found->path.c_str()); // nothing is freed: the heap may be corrupt
+      ::unlink(found->path.c_str());  // nothing is freed: the heap may be corrupt
     }
   }
 }

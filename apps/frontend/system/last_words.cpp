@@ -76,7 +76,7 @@ bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && inf
   if (is_for_want_of_memory) {
     ::_exit(complain_of_memory());
   }
-  ::raise(signal); // a signal that was sent does not recur by itself
+  ::raise(signal);  // a signal that was sent does not recur by itself
 }
 
 }  // namespace
@@ -104,13 +104,13 @@ void end_without_abort() {
   [[maybe_unused]] struct sigaction action {};
   action.sa_sigaction = end_crash;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
-#if !defined(__SANITIZE_ADDRESS__) // the sanitizer reports more about a crash
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer reports more about a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);
   }
 #endif
   void* frame = nullptr;
-  ::backtrace(&frame, 1); // loads now the library that ends threads; the C library would abort if memory were lacking later
+  ::backtrace(&frame, 1);  // loads now the library that ends threads; the C library would abort if memory were lacking later
   std::set_new_handler(note_end_of_memory);
   std::set_terminate([] {
     remove_files_under_way();

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 /// What a module exports as the C symbol dmpc_module.
 struct Module {
   const char* build;      ///< DMPC_MODULES_BUILD at its compilation
-  const void* interface; ///< the type that its header names
+  const void* interface;  ///< the type that its header names
 };
 
 /// Opens a shared library, which is never closed; returns nullptr if it cannot be opened. The libraries that it loads may start

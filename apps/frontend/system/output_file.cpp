@@ -222,7 +222,7 @@ OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& fi
   open();
   try {
     stream_.emplace(files_, file_);
-  } catch (...) { // no destructor runs
+  } catch (...) {  // no destructor runs
     drop();
     throw;
   }
@@ -251,7 +251,7 @@ void OutputFile::make(const fs::path& temporary) {
   removed_at_once_.reset();
   removed_at_once_.emplace(temporary_);
   if (settings_.name == TemporaryName::of_target) {
-    files_.remove(temporary_); // left by a killed process
+    files_.remove(temporary_);  // left by a killed process
   }
   file_ = open_patiently(files_, temporary_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
   if (file_ >= 0) {

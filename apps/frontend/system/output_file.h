@@ -56,8 +56,8 @@ void finish_output(std::ostream& output, std::string_view what);
 
 /// Choice of the temporary name.
 enum class TemporaryName : std::uint8_t {
-  random, ///< processes on any number of computers may write the same target
-  of_target ///< always the same, for a target that one process at a time writes: killed processes leave at most one file
+  random,    ///< processes on any number of computers may write the same target
+  of_target  ///< always the same, for a target that one process at a time writes: killed processes leave at most one file
 };
 
 /// Whether a committed file survives a loss of power.
@@ -66,7 +66,7 @@ enum class Durability : std::uint8_t { on_disk, until_power_loss };
 /// What a committed file replaces.
 enum class Replaces : std::uint8_t {
   what_it_names,  ///< the file behind symbolic links; a device or a pipe is written to
-  name ///< whatever has the name, even a link or a pipe: for folders where others may write
+  name            ///< whatever has the name, even a link or a pipe: for folders where others may write
 };
 
 /// Returns `.dmpc-WHO-NAME` beside `target`, a hidden file.

@@ -10,7 +10,7 @@ namespace {
 
 struct ResourceExhaustion {
   int error;
-  const char* short_name; ///< used when the dynamic loader has no memory for words
+  const char* short_name;  ///< used when the dynamic loader has no memory for words
   const char* advice;
 };
 

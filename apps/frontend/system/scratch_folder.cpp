@@ -35,7 +35,7 @@ int spawn(pid_t& id, const std::string& folder, int life) {
   posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // keeps the terminal's Ctrl-C from it
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // keeps the terminal's Ctrl-C from it
   std::array<std::string, 5> words{"/bin/sh", "-c", script, "dmpc-heir", folder};
   std::array<char*, 6> pointers{words[0].data(), words[1].data(), words[2].data(), words[3].data(), words[4].data(), nullptr};
   const int error = ::posix_spawn(&id, pointers[0], &actions, &attributes, pointers.data(), environ);

@@ -16,7 +16,7 @@ void settle_in() {
   ::unsetenv("OIIO_LIBRARY_PATH");
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGCHLD, SIG_DFL); // if it is ignored, nobody can wait for a child
+  std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, nobody can wait for a child
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0) {
       static_cast<void>(::open(stream == STDIN_FILENO ? "/dev/null" : "/dev/full", O_RDWR));

@@ -45,7 +45,7 @@ TextInput::TextInput(const std::filesystem::path& path, const PipeTimeout& timeo
     fail_with("cannot be opened");
   }
   file_bytes_ = is_pipe_ ? 0 : static_cast<std::uint64_t>(status.st_size);
-  exceptions(std::ios::badbit); // so that exceptions of underflow() are not lost
+  exceptions(std::ios::badbit);  // so that exceptions of underflow() are not lost
 }
 
 void TextInput::fail(const std::string& sentence) const { throw core::InputError(name_ + ": " + sentence); }

@@ -47,7 +47,7 @@ bool is_group_of_others(gid_t id) {
     are_others = user.pw_gid == id && user.pw_uid != ::geteuid();
   }
   ::endpwent();
-  return are_others || (error != 0 && error != ENOENT); // unknown users may be in it
+  return are_others || (error != 0 && error != ENOENT);  // unknown users may be in it
 }
 
 /// Returns whether single users and groups have separate rights (POSIX 1003.1e, withdrawn, as in Linux): then the mode's group
@@ -148,7 +148,7 @@ class Trust {
   Sticky sticky_;
   fs::path program_;
   std::optional<uid_t> program_owner_, unknown_owner_ = unknown_owner();
-  std::vector<gid_t> program_groups_; ///< groups that may replace the program
+  std::vector<gid_t> program_groups_;  ///< groups that may replace the program
 };
 
 }  // namespace
@@ -164,7 +164,7 @@ Descriptor open_trusted(const std::string& path) {
   if (!fs::path(path).is_absolute()) {
     throw core::InputError(path + ": it does not begin with /" + expected);
   }
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)); // does not block on a pipe
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));  // does not block on a pipe
   struct stat found {};
   if (!file.is_open() || ::fstat(file.number(), &found) != 0) {
     throw core::InputError(path + " cannot be opened: " + std::strerror(errno));

@@ -178,7 +178,7 @@ class Script {
   }
 
   std::string key() const {
-    const bool needs_none = is_small() && drawn_.size() == 1; // the title has it
+    const bool needs_none = is_small() && drawn_.size() == 1;  // the title has it
     return needs_none ? "off" : is_small() ? "bmargin center horizontal Left reverse" : "outside right top Left reverse";
   }
 
@@ -365,7 +365,7 @@ class Script {
   const Table& table_;
   std::string data_;
   bool is_bars_ = false;
-  std::vector<const PlotSeries*> drawn_; ///< series that have a row
+  std::vector<const PlotSeries*> drawn_;  ///< series that have a row
   std::vector<std::string> places_;       ///< names of bars
 };
 

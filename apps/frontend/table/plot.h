@@ -32,8 +32,8 @@ struct PlotSeries {
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
   std::size_t color = 0;                    ///< below plot_color_count; each has its own shape of points, too
-  std::string low = {}, high = {}; ///< ends of intervals and bands: columns
-  std::string box_low = {}, box_high = {}; ///< ends of the box of bands: columns; `column` is the line in it
+  std::string low = {}, high = {};          ///< ends of intervals and bands: columns
+  std::string box_low = {}, box_high = {};  ///< ends of the box of bands: columns; `column` is the line in it
 };
 
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
@@ -41,7 +41,7 @@ enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
 struct PlotAxis {
   std::string label;  ///< with its unit, unless the ticks have it: for bytes, bytes/s, KiB and times
   PlotScale scale = PlotScale::linear;
-  std::optional<double> least = std::nullopt, most = std::nullopt; ///< limits of the axis; nothing: those of the drawn values
+  std::optional<double> least = std::nullopt, most = std::nullopt;  ///< limits of the axis; nothing: those of the drawn values
 };
 
 /// large: a file of its own. small: a part of a page, legible on a telephone, with the legend below, which has the height that it

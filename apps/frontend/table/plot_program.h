@@ -14,7 +14,7 @@ namespace dmpc::apps {
 struct PlotOutcome {
   bool is_drawn = false;
   bool is_program_missing = false;
-  std::string complaint; ///< if it is not drawn: a sentence with the program's message
+  std::string complaint;  ///< if it is not drawn: a sentence with the program's message
 };
 
 /// Returns the message about a picture that is not drawn: a sentence without its full stop, the same for all if the program is

@@ -42,7 +42,7 @@ struct MarkdownCell {
 /// How one column is laid out.
 struct Layout {
   std::size_t width = 0;
-  bool is_text = false; ///< is left-aligned
+  bool is_text = false;  ///< is left-aligned
 };
 
 /// Returns the header, then a line for each row.

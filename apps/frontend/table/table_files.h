@@ -54,7 +54,7 @@ struct PlottedTable {
 
 /// The results to write. The functions are called only if their output is requested.
 struct TableResult {
-  std::string text; ///< the table in the requested format; may be several tables
+  std::string text;  ///< the table in the requested format; may be several tables
   std::function<std::string()> page = {};
   std::function<std::vector<PlottedTable>()> plotted = {};
 };

@@ -259,7 +259,7 @@ void add_options(OptionSet options, CheckOptions& check) {
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);
     settle_instances(options, {}, check.database, check.picture.scene_setup.mesh);
-    check.picture.scene_setup.mesh.copies = core::Copies::put; // for Embree and the referee, into whatever instance rays go
+    check.picture.scene_setup.mesh.copies = core::Copies::put;  // for Embree and the referee, into whatever instance rays go
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces a given number of samples per pixel");

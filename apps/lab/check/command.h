@@ -16,10 +16,10 @@ namespace dmpc::apps {
 struct CheckOptions {
   PictureOptions picture;
   DatabaseOptions database;
-  std::uint32_t list = 10; ///< maximum number of differences printed in full
-  std::uint64_t brute_force = 0; ///< rays of the render that the referee judges whether they differ or not
-  std::uint64_t certify = 0; ///< hits of the render whose certificates are checked against rational arithmetic
-  std::string certify_text; ///< `certify` as typed; empty: not given
+  std::uint32_t list = 10;        ///< maximum number of differences printed in full
+  std::uint64_t brute_force = 0;  ///< rays of the render that the referee judges whether they differ or not
+  std::uint64_t certify = 0;      ///< hits of the render whose certificates are checked against rational arithmetic
+  std::string certify_text;       ///< `certify` as typed; empty: not given
   bool quiet = false;             ///< no progress
 };
 

@@ -34,7 +34,7 @@ void print_names(std::ostream& output, const CompareOptions& files) {
 }
 
 void print(std::ostream& output, const Json& json) {
-  output << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n'; // names of files may be invalid UTF-8
+  output << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';  // names of files may be invalid UTF-8
 }
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }

@@ -20,12 +20,12 @@ enum class CompareFormat : std::uint8_t { text, json };
 struct CompareOptions {
   /// Two pictures, two files of counters, which end in .json, or two pages of renders, which end in .html.
   std::filesystem::path a, reference;
-  std::optional<std::filesystem::path> difference; ///< output: the picture |A - B|
-  std::optional<std::filesystem::path> flip; ///< output: the picture of perceived differences
+  std::optional<std::filesystem::path> difference;  ///< output: the picture |A - B|
+  std::optional<std::filesystem::path> flip;        ///< output: the picture of perceived differences
   CompareFormat format = CompareFormat::text;
   std::vector<Limit> limits = {};                    ///< for pictures
   FigureChoice figures = {};                         ///< for counters
-  std::optional<std::filesystem::path> report = {}; ///< output: the page of both runs, for two pages
+  std::optional<std::filesystem::path> report = {};  ///< output: the page of both runs, for two pages
   Sandbox sandbox = Sandbox::available;              ///< for the pictures' reader
 };
 

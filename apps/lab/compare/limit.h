@@ -10,7 +10,7 @@ namespace dmpc::apps {
 
 /// One measure of PictureError.
 struct Measure {
-  const char* name; ///< its name in --fail-above
+  const char* name;  ///< its name in --fail-above
   double (*of)(const PictureError& error);
 };
 

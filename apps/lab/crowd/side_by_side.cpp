@@ -43,7 +43,7 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
                                      core::use_usual_arithmetic();
                                      std::exchange(finishes[piece % most], nullptr)();
                                    }));
-  core::use_usual_arithmetic(); // oneTBB loads libraries on first use
+  core::use_usual_arithmetic();  // oneTBB loads libraries on first use
 }
 
 }  // namespace dmpc::apps

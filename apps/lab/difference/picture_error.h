@@ -17,11 +17,11 @@ struct PictureError {
   double percentile_99 = 0;
   double mean_absolute = 0;
   double peak_signal_to_noise_decibels = 0;  ///< for a peak of 1; infinite for equal pictures
-  double relative_mean_square = 0; ///< mean of (a - b)^2 / (b + 0.01)^2, with b the reference, as in pbrt-v4
+  double relative_mean_square = 0;           ///< mean of (a - b)^2 / (b + 0.01)^2, with b the reference, as in pbrt-v4
   double flip_mean = 0;                      ///< flip()
   double flip_percentile_99 = 0;
   std::uint64_t pixels = 0;
-  std::uint64_t differing_pixels = 0; ///< in which any channel differs at all
+  std::uint64_t differing_pixels = 0;  ///< in which any channel differs at all
 };
 
 /// Throws core::InputError if the sizes differ.

@@ -86,7 +86,7 @@ std::vector<Figure> parse_figures(std::string_view text, const std::string& file
   std::vector<Figure> figures;
   add_figures(json, "", figures);
   if (json.contains("film_hash") && !json.contains("film_scale")) {
-    figures.push_back({"film_scale", 1.0}); // films of older versions of dmpc had no other scale
+    figures.push_back({"film_scale", 1.0});  // films of older versions of dmpc had no other scale
   }
   return figures;
 }

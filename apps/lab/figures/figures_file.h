@@ -15,7 +15,7 @@ namespace dmpc::apps {
 using FigureValue = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
 struct Figure {
-  std::string name; ///< the keys that lead to it, separated by dots, with indices for lists: "nodes.3.pages.faults"
+  std::string name;  ///< the keys that lead to it, separated by dots, with indices for lists: "nodes.3.pages.faults"
   FigureValue value;
 };
 

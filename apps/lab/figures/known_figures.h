@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 struct KnownFigure {
-  std::string name; ///< as in Figure; "*" for any index of a list: "nodes.*.pages.faults"
+  std::string name;  ///< as in Figure; "*" for any index of a list: "nodes.*.pages.faults"
   bool is_number = false;
 };
 

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 
 template <class Real>
 struct EmitterAim {
-  core::Vec3<Real> way; ///< to the point on the emitter
+  core::Vec3<Real> way;      ///< to the point on the emitter
   core::Vec3<Real> towards;  ///< direction as a unit vector
   Real density;              ///< probability density of this direction, per steradian, including the emitter's probability
 };

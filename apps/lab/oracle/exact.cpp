@@ -42,7 +42,7 @@ Exact direction_of(const Ray& ray) { return Exact(ray.direction) + Exact(ray.dir
 
 bool holds(const core::Interval& interval, const mpq_class& x) { return !(interval.low > x) && !(interval.high < x); }
 
-/// By Cramer's rule.
+/// Solves by Cramer's rule.
 struct ExactTriangle {
   ExactTriangle(const Ray& ray, const core::PrimitiveValues& values) {
     const auto vertex = [&](std::size_t k) {
@@ -63,7 +63,7 @@ struct ExactTriangle {
     }
   }
 
-  /// Whether each edge function is on the side of `sign`, or as little on the other one as allowed.
+  /// Returns whether each edge function is on the side of `sign`, or no farther on the other side than allowed.
   bool is_within(const std::array<double, 3>& edge_error, int sign) const {
     const auto holds = [&](std::size_t k) { return !std::isfinite(edge_error[k]) || sign * edge[k] >= -edge_error[k]; };
     return holds(0) && holds(1) && holds(2);
@@ -71,7 +71,7 @@ struct ExactTriangle {
 
   bool exists = false;
   mpq_class t, u, v;
-  std::array<mpq_class, 3> edge;  ///< functions, of the edge opposite each vertex
+  std::array<mpq_class, 3> edge;  ///< edge functions, each of the edge opposite a vertex
 };
 
 Fault fault_of_triangle(const Ray& ray, const core::PrimitiveValues& values, float t, const Certificate& certificate) {
@@ -109,7 +109,7 @@ struct ExactSphere {
   }
 
   mpq_class at(const mpq_class& t) const { return (a * t + 2 * b) * t + c; }
-  /// Whether the root that counts lies in [low, high]: before the middle the polynomial falls, behind it rises.
+  /// Returns whether the root that counts lies in [low, high]: the polynomial falls before the middle and rises behind it.
   bool has_answer_in(const mpq_class& low, const mpq_class& high) const {
     return is_near ? low <= middle && at(low) >= 0 && (high >= middle || at(high) <= 0)
                    : high >= middle && at(high) >= 0 && (low <= middle || at(low) <= 0);
@@ -131,7 +131,7 @@ Fault fault_of_sphere(const Ray& ray, const core::PrimitiveValues& values, float
   return exact.has_answer_in(hit - error, hit + error) ? Fault::none : Fault::hit;
 }
 
-/// a t^2 + 2 b t + c, which is 0 on the cone without ends: as core/trace/certificate.cpp has it.
+/// a t^2 + 2 b t + c, which is 0 on the unbounded cone, as in core/trace/certificate.cpp.
 struct ExactCone {
   ExactCone(const Ray& ray, const core::PrimitiveValues& values) {
     const core::CurvedValues cone = values.curved();
@@ -151,12 +151,13 @@ struct ExactCone {
 
   mpq_class at(const mpq_class& t) const { return (a * t + 2 * b) * t + c; }
   bool changes_sign(const mpq_class& low, const mpq_class& high) const { return sgn(at(low)) * sgn(at(high)) < 0; }
-  /// 0 between the ends and on them, else on which side.
+  /// Returns 0 between the ends and on them, else the side.
   int beyond(const mpq_class& t) const {
     const mpq_class there = height + height_rate * t;
     return there < 0 ? -1 : there > axis_squared ? 1 : 0;
   }
-  /// Whether the one root between `low` and `high` counts: a bracket that narrows around it tells on which side of an end it is.
+  /// Returns whether the only root between `low` and `high` counts: a bracket that narrows around it shows on which side of an
+  /// end it is.
   bool counts(mpq_class low, mpq_class high) const {
     if (is_inside_visible_only && at(high) < 0) {
       return false;
@@ -213,7 +214,8 @@ CertificateFault fault_of(const Ray& ray, const core::PrimitiveValues& values, f
 
 CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t) {
   if (values.needs_plane()) {
-    return {};  // hit where the plane is that others share or doubles say (core/database/faces/coplanar.h), not its own corners
+    return {};  // hit in the plane shared with others or given by doubles (core/database/faces/coplanar.h), not at its own
+                // corners
   }
   const core::Certificate certificate = core::certify(ray, values.kind, values.value.data(), 1, 0);
   if (!certificate.is_decided()) {

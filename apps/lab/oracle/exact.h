@@ -17,11 +17,11 @@ namespace dmpc::apps {
 /// The part of a hit's certificate that does not hold.
 enum class CertificateFault : std::uint8_t {
   none,
-  no_answer, ///< the certificate claims an answer, but there is no exact one
+  no_answer,  ///< the certificate claims an answer, but there is no exact one
   distance,   ///< the exact t lies outside its interval
-  weights, ///< the exact u or v lies outside its interval
-  hit, ///< the hit's t is farther from the exact one than the certificate allows
-  edge ///< the exact ray passes the triangle farther from an edge than the certificate allows
+  weights,    ///< the exact u or v lies outside its interval
+  hit,        ///< the hit's t is farther from the exact one than the certificate allows
+  edge        ///< the exact ray passes the triangle farther from an edge than the certificate allows
 };
 inline constexpr std::size_t certificate_fault_count = 6;
 /// A few words for reports.
@@ -35,11 +35,11 @@ CertificateFault fault_of(const core::Ray& ray, const core::PrimitiveValues& val
 /// One hit. Units in the last place are those of a float: of the hit's t, or of the exact t if that is greater.
 struct CertifiedHit {
   CertificateFault fault = CertificateFault::none;
-  bool is_decided = false; ///< if not, the others have no meaning
-  bool is_inside = false; ///< the exact ray certainly meets the triangle
+  bool is_decided = false;  ///< if not, the others have no meaning
+  bool is_inside = false;   ///< the exact ray certainly meets the triangle
   double width_ulp = 0;     ///< width of the interval that holds the exact t
-  double error_ulp = 0; ///< upper bound of the error of the hit's t: the distance from the far end of that interval
-  double allowed_ulp = 0; ///< error that the kernels' bound allows
+  double error_ulp = 0;     ///< upper bound of the error of the hit's t: the distance from the far end of that interval
+  double allowed_ulp = 0;   ///< error that the kernels' bound allows
 };
 
 /// Certifies a hit of `ray` on `values` at `t`. Thread-safe.
@@ -61,7 +61,7 @@ struct CertifiedCounts {
   std::uint64_t hits = 0, undecided = 0, inside = 0;
   std::array<std::uint64_t, certificate_fault_count> faults{};
   Spread width_ulp;               ///< width over decided hits
-  Spread error_ulp, allowed_ulp; ///< over hits that are certainly on their primitive: the exact t of others may lie anywhere on
+  Spread error_ulp, allowed_ulp;  ///< over hits that are certainly on their primitive: the exact t of others may lie anywhere on
                                   ///< the plane
 
   void count(const CertifiedHit& hit);

@@ -43,7 +43,7 @@ using Long = long double;
 using Vec3l = core::Vec3<long double>;
 
 constexpr double unit_rounding = 0x1p-24;
-/// Half a unit in the last place of floats that are denormal, which rounding to float costs at least.
+/// Half a unit in the last place of denormal floats, the least error of rounding to float.
 constexpr double denormal_rounding = 0x1p-150;
 constexpr Long double_rounding = 0x1p-53L;
 constexpr double tiny = std::numeric_limits<double>::min();
@@ -51,7 +51,7 @@ constexpr double tiny = std::numeric_limits<double>::min();
 /// A vertex as seen from the ray's origin.
 struct Sight {
   Vec3d position;
-  double distance, across;  ///< the vertex's distance from the origin and from the ray's line
+  double distance, across;  ///< the vertex's distances from the origin and from the ray's line
 };
 
 Vec3f vertex(const core::PrimitiveValues& values, std::size_t index) {
@@ -76,7 +76,8 @@ struct SeenTriangle {
   double area, reach, longest, direction_length;
 };
 
-/// N of the edge from a to b. Double costs some 2^-50 |a| |b| |D|; a smaller result is computed again in long double.
+/// Returns N of the edge from a to b. In double its error is some 2^-50 |a| |b| |D|; a smaller result is computed again in long
+/// double.
 double signed_area(const Ray& ray, const Vec3f& a, const Vec3f& b, double scale) {
   const double area = spanned<double>(ray, a, b);
   return std::fabs(area) > 0x1p-48 * scale ? area : static_cast<double>(spanned<Long>(ray, a, b));
@@ -86,7 +87,7 @@ bool quickly_outside(const Ray& ray, const std::array<Vec3d, 3>& at) {
   const Vec3d d(ray.direction);
   const std::array<double, 3> area{dot(d, cross(at[0], at[1])), dot(d, cross(at[1], at[2])), dot(d, cross(at[2], at[0]))};
   const double reach = std::sqrt(std::max({dot(at[0], at[0]), dot(at[1], at[1]), dot(at[2], at[2])}));
-  // More than any bound above: every length in them is at most 2 reach, and |D| at most 2 in a ray of unit length.
+  // This is more than any bound above: every length in them is at most 2 reach, and |D| is at most 2 for a ray of unit length.
   const double bound = (64 * unit_rounding * reach + 2 * length(Vec3d(ray.origin_rest))) * reach * (1 + dot(d, d));
   return std::min({area[0], area[1], area[2]}) < -bound && std::max({area[0], area[1], area[2]}) > bound;
 }
@@ -95,7 +96,7 @@ Sight see(const Vec3d& at, const Vec3d& direction, double direction_length) {
   return {at, length(at), length(cross(at, direction)) / direction_length};
 }
 
-/// `rest`: how far from where its floats say the ray starts, which counts next to the start.
+/// `rest` is the distance of the ray's start from the one given by its floats, which matters next to the start.
 std::array<double, 2> area_bounds(const Sight& a, const Sight& b, double direction_length, double area_sum, double rest) {
   const double moved = a.distance * b.across + b.distance * a.across;
   const double rounded = length(a.position - b.position) * length(a.position + b.position);
@@ -137,7 +138,7 @@ double margin_of(const SeenTriangle& seen, Renderer renderer) {
   return inside >= 0 ? inside : -std::min(greatest, -least);
 }
 
-/// Edges are those of a ray that starts where its floats say; next to the start the grid's t is that of where it starts in full.
+/// Edges are those of a ray that starts as its floats say; next to the start the grid's t is that of the full start.
 double distance_error(const Ray& ray, const SeenTriangle& seen, double cosine) {
   const double area = std::fabs(seen.area) + tiny;
   const double tilt = 6 * seen.longest * seen.longest * seen.longest * seen.direction_length / area;
@@ -146,14 +147,14 @@ double distance_error(const Ray& ray, const SeenTriangle& seen, double cosine) {
   return (std::min(3 * seen.longest, moved) + 8 * unit_rounding * seen.reach) / seen.direction_length;
 }
 
-/// t of the vertices' projections onto the ray.
+/// Returns t of the vertices' projections onto the ray.
 std::array<double, 3> depths_of(const Ray& ray, const std::array<Vec3d, 3>& at) {
   const Vec3d d(ray.direction);
   const double squared = dot(d, d);
   return {dot(at[0], d) / squared, dot(at[1], d) / squared, dot(at[2], d) / squared};
 }
 
-/// Where it crosses the plane that its triangle lies in, and how far off either renderer has that.
+/// Moves the hit to the plane in which the triangle lies, with the error of either renderer there.
 void move_to_plane(const Ray& ray, const std::array<Vec3d, 3>& at, const core::FacePlane& plane,
                    ExactIntersection& exact_intersection) {
   constexpr double beside_box = 0x1p-21;
@@ -176,8 +177,8 @@ ExactIntersection meet_triangle(const Ray& ray, const core::PrimitiveValues& val
   const double normal_length = length(normal), across = dot(Vec3d(ray.direction), normal);
   ExactIntersection exact_intersection;
   exact_intersection.margin = {margin_of(seen, Renderer::grid), margin_of(seen, Renderer::embree)};
-  // A ray in the triangle's plane has no one distance, and one that all but lies in it may cross the plane far away: no renderer
-  // says anything beyond the vertices.
+  // A ray in the triangle's plane has no single distance, and one that almost lies in it may cross the plane far away: no
+  // renderer returns a t beyond the vertices.
   const std::array<double, 3> depth = depths_of(ray, at);
   const auto [least, greatest] = std::minmax_element(depth.begin(), depth.end());
   exact_intersection.t = across != 0 ? std::clamp(dot(at[0], normal) / across, *least, *greatest) : *least;
@@ -189,7 +190,7 @@ ExactIntersection meet_triangle(const Ray& ray, const core::PrimitiveValues& val
   return exact_intersection;
 }
 
-/// A t^2 + 2 B t + C and the bounds of what double precision makes of it.
+/// A t^2 + 2 B t + C and its error bounds in double precision.
 struct Quadratic {
   Long a, b, c;
   Long direction, size;  ///< |D| and S above
@@ -199,7 +200,7 @@ struct Quadratic {
     const Long unit = 16 * double_rounding;
     return unit * (2 * std::fabs(b) * direction * size + std::fabs(a) * size * size + std::fabs(c) * direction * direction);
   }
-  /// The error of a root near t; 2 (a t + b) is the slope there.
+  /// Returns the error of a root near t; 2 (a t + b) is the slope there.
   Long root_error(Long t) const {
     const Long residual = 16 * double_rounding * (direction * std::fabs(t) + size) * (direction * std::fabs(t) + size);
     const Long slope = 2 * std::fabs(a * t + b);
@@ -207,7 +208,7 @@ struct Quadratic {
     const Long by_bend = a != 0 ? std::sqrt(residual / std::fabs(a)) : std::numeric_limits<Long>::infinity();
     return std::min(by_slope, by_bend);
   }
-  /// 0, 1 or 2 roots. A discriminant that is negative within its error counts as 0: one double root.
+  /// Returns 0, 1 or 2 roots. A discriminant that is negative within its error counts as 0: one double root.
   std::size_t roots(std::array<Long, 2>& root) const;
 };
 
@@ -229,14 +230,14 @@ std::size_t Quadratic::roots(std::array<Long, 2>& root) const {
   return count;
 }
 
-/// A body of revolution along an axis; a sphere has none and its surface has no ends.
+/// A body of revolution about an axis; a sphere has no axis, and its surface has no ends.
 struct Curved {
   Quadratic quadratic;
   Vec3l from_center, direction, axis;  ///< axis: of unit length, zero for a sphere
   Long base_radius = 0, slope = 0, height = 0;
   bool inside_only = false;
 
-  /// Distance from the nearer of the two ends, positive between them; infinite for a sphere.
+  /// Returns the distance from the nearer of the two ends, positive between them; infinite for a sphere.
   Long from_end(Long t) const {
     if (height == 0) {
       return std::numeric_limits<Long>::infinity();
@@ -244,7 +245,7 @@ struct Curved {
     const Long along = dot(from_center + direction * t, axis);
     return std::min(along, height - along);
   }
-  /// How squarely the ray leaves the body at t, as D . outward normal, not normalised.
+  /// Returns how squarely the ray leaves the body at t: D . outward normal, not normalised.
   Long leaving(Long t) const {
     const Vec3l point = from_center + direction * t;
     const Long along = dot(point, axis);
@@ -252,7 +253,7 @@ struct Curved {
   }
 };
 
-/// What the two floats of each coordinate add up to.
+/// Returns the sums of the two floats of each coordinate.
 Vec3l full_origin(const Ray& ray) { return Vec3l(ray.origin) + Vec3l(ray.origin_rest); }
 Vec3l full_direction(const Ray& ray) { return Vec3l(ray.direction) + Vec3l(ray.direction_rest); }
 
@@ -312,11 +313,11 @@ ExactIntersection meet_curved(const Curved& curved, Long t) {
   return exact_intersection;
 }
 
-/// Whether `t` is where an eye starts that lies on the body, as far as its rounded numbers tell: there it sees nothing of it.
+/// Returns whether `t` is the start of an eye that, within rounding, lies on the body: there the eye sees nothing of it.
 bool is_of_eye_on(const Ray& ray, const Curved& curved, Long t) {
   const Quadratic& quadratic = curved.quadratic;
   constexpr Long moved = 0x1p-30L;
-  const Long place = core::largest_component(ray.full_origin());  // the eye is a radius from centre or axis
+  const Long place = core::largest_component(ray.full_origin());  // the eye's distance from centre or axis is the radius
   const Long other = quadratic.a != 0 ? -2 * quadratic.b / quadratic.a - t : t;
   return ray.kind == core::RayKind::primary && std::fabs(quadratic.c) <= moved * (place + quadratic.size) * quadratic.size &&
          std::fabs(t) <= std::fabs(other);

@@ -20,7 +20,7 @@ enum class Renderer : std::uint8_t { grid, embree };
 struct ExactIntersection {
   std::uint32_t primitive = core::no_primitive;
   double t = 0;        ///< in units of the ray's direction
-  double t_error = 0; ///< the most by which rounding in either renderer moves t
+  double t_error = 0;  ///< the most by which rounding in either renderer moves t
   /// How far the ray is inside the silhouette, in units of that renderer's rounding bound: from 1 up the renderer must see the
   /// hit, from -1 down it must not, and in between rounding decides. Indexed by Renderer.
   std::array<double, 2> margin{};

@@ -18,15 +18,15 @@ namespace dmpc::apps {
 /// What is known of a hit on a microfacet surface. The normals lie on the ray's side.
 template <class Real>
 struct FacetedPlace {
-  core::Vec3<Real> base; ///< the colour at the hit
-  Real metallic = 0, alpha = 1, reflectance = 0; ///< `reflectance`: of a dielectric at normal incidence
-  Real there = 1; ///< the share of the surface that is present, its opacity included
-  Real matt = 0; ///< the share of the entering light that is scattered
-  Real absent = 0, passing = 0; ///< shares of the light that passes the surface without reflection, and of the entering light
-                                                  ///< that is transmitted
-  Real index = 1; ///< ratio of refractive indices: the ray's side over the other side
-  core::Vec3<Real> direction; ///< the ray's
-  core::Vec3<Real> normal, true_normal; ///< `normal` is for shading
+  core::Vec3<Real> base;                          ///< the colour at the hit
+  Real metallic = 0, alpha = 1, reflectance = 0;  ///< `reflectance`: of a dielectric at normal incidence
+  Real there = 1;                                 ///< the share of the surface that is present, its opacity included
+  Real matt = 0;                                  ///< the share of the entering light that is scattered
+  Real absent = 0, passing = 0;  ///< shares of the light that passes the surface without reflection, and of the entering light
+                                 ///< that is transmitted
+  Real index = 1;                ///< ratio of refractive indices: the ray's side over the other side
+  core::Vec3<Real> direction;    ///< the ray's
+  core::Vec3<Real> normal, true_normal;  ///< `normal` is for shading
 };
 
 /// A direction in which a path continues; `kind` is that of the continuing ray.
@@ -34,13 +34,13 @@ template <class Real>
 struct FacetedStep {
   core::Vec3<Real> towards, weight;
   core::RayKind kind{};
-  Real density = std::numeric_limits<Real>::infinity(); ///< per steradian, of scattered light
+  Real density = std::numeric_limits<Real>::infinity();  ///< per steradian, of scattered light
 };
 
 /// The response to light from a direction.
 template <class Real>
 struct FacetedResponse {
-  core::Vec3<Real> value; ///< response to a radiance of 1 from that direction, per steradian, including the cosine
+  core::Vec3<Real> value;  ///< response to a radiance of 1 from that direction, per steradian, including the cosine
   Real density = 0;        ///< probability density of that direction
 };
 
@@ -181,10 +181,10 @@ class FacetLobes {
   }
 
   FacetedPlace<Real> place_;
-  Vec out_; ///< the direction that the ray comes from, or one above the normal close to it
+  Vec out_;  ///< the direction that the ray comes from, or one above the normal close to it
   Real cosine_;
   Vec straight_, matt_;
-  Real scattered_ = 0, reflected_ = 0, through_ = 0, all_ = 0; ///< weights of the directions, and their sum
+  Real scattered_ = 0, reflected_ = 0, through_ = 0, all_ = 0;  ///< weights of the directions, and their sum
 };
 
 }  // namespace dmpc::apps

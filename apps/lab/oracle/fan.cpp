@@ -54,8 +54,8 @@ struct Feature {
   std::optional<std::size_t> vertex, edge;
 };
 
-/// How far float rounding may move a ray beside a triangle: the shear moves a vertex by less than 7, the edge function by less
-/// than 1 rounding of the reach (exact_intersection.cpp).
+/// Returns how far float rounding may move a ray beside a triangle: the shear moves a vertex by less than 7, the edge function by
+/// less than 1 rounding of the reach (exact_intersection.cpp).
 double rounding_of(const Ray& ray, const std::array<Vec3f, 3>& corner) {
   double reach = 0;
   for (const Vec3f& at : corner) {
@@ -86,12 +86,12 @@ Feature feature_near(const std::array<Vec3f, 3>& corner, const Across& across, d
   return feature;
 }
 
-/// The directions that a triangle covers around one of its vertices: from `first` on by `extent`, radians.
+/// The directions that a triangle covers around one of its vertices: `extent` radians from `first` on.
 struct Sector {
   double first, extent;
 };
 
-/// Whether the sectors leave no gap in the full circle. Neighbours share their bounding directions bit for bit.
+/// Returns whether the sectors leave no gap in the full circle. Neighbours share their bounding directions bit for bit.
 bool cover_circle(std::vector<Sector> sectors) {
   constexpr double slack = 1e-12;
   std::sort(sectors.begin(), sectors.end(), [](const Sector& a, const Sector& b) { return a.first < b.first; });
@@ -113,12 +113,12 @@ Sector sector_of(const Across::Point& a, const Across::Point& b) {
   const double angle_a = std::atan2(a.y, a.x), angle_b = std::atan2(b.y, b.x);
   const double first = turn(a, b) >= 0 ? angle_a : angle_b, last = turn(a, b) >= 0 ? angle_b : angle_a;
   const double extent = last >= first ? last - first : last - first + 2 * std::numbers::pi;
-  // A triangle covers less than half a circle. One that is seen edge-on covers nothing, though rounding of the two angles may say
-  // that it goes round.
+  // A triangle covers less than half a circle. One seen edge-on covers nothing, though rounding of the two angles may give a full
+  // circle.
   return {first, extent < 1.5 * std::numbers::pi ? extent : 0};
 }
 
-/// Whether the ray is within `near` of the segment between a and b.
+/// Returns whether the ray is within `near` of the segment between a and b.
 bool passes(const Across& across, const Vec3f& a, const Vec3f& b, double near) { return distance(across(a), across(b)) <= near; }
 
 std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primitives, const Vec3f& vertex, const Across& across,
@@ -141,7 +141,7 @@ std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primit
       }
     }
   }
-  // A sector that begins before the first one's start may reach around the circle: lay the sectors out twice.
+  // A sector that begins before the first one's start may extend around the circle, so the sectors are laid out twice.
   const std::size_t count = sectors.size();
   for (std::size_t k = 0; k < count; ++k) {
     sectors.push_back({sectors[k].first + 2 * std::numbers::pi, sectors[k].extent});

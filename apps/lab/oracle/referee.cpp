@@ -15,13 +15,13 @@ constexpr std::array<std::string_view, verdict_count> verdict_names{"tie",      
 
 bool is_shadow(const Ray& ray) { return ray.kind == core::RayKind::shadow; }
 
-/// Beyond doubt, f lies before e.
+/// Returns whether f certainly lies before e.
 bool before(const ExactIntersection& f, const ExactIntersection& e) { return f.t + f.t_error < e.t - e.t_error; }
 
 Answer exact_of(const Ray& ray, const std::vector<ExactIntersection>& met) {
   const ExactIntersection* nearest = nullptr;
   for (const ExactIntersection& exact_intersection : met) {
-    // Equal distances differ by what double makes of them; they come in ascending order.
+    // Distances that differ only by the rounding of doubles are equal; they come in ascending order.
     const bool level = nearest != nullptr && exact_intersection.t - nearest->t <= 0x1p-48 * nearest->t;
     if (exact_intersection.exact && (nearest == nullptr || (level && exact_intersection.primitive < nearest->primitive))) {
       nearest = &exact_intersection;
@@ -37,7 +37,7 @@ bool same(const Ray& ray, const Answer& a, const Answer& b) {
   return a.hit == b.hit && (is_shadow(ray) || a.primitive == b.primitive);
 }
 
-/// Why two answers that rounding explains may differ.
+/// Returns why two answers that rounding explains may differ.
 Verdict reason(const Ray& ray, const std::vector<ExactIntersection>& met, const std::array<Answer, 3>& answers) {
   bool at_end = false;
   for (const ExactIntersection& exact_intersection : met) {
@@ -86,9 +86,9 @@ bool Referee::admissible(const Ray& ray, const Answer& answer, Renderer renderer
   return admissible(ray, exact_intersections(ray), answer, renderer);
 }
 
-/// Whether `answer`, which lies behind the doubtful `passed`, slipped through a closed fan. `hit` is the answer's exact
-/// intersection, if any. At a silhouette a fan's triangles lie one behind the other: what is hit between them has not come
-/// through all of them.
+/// Returns whether `answer`, which lies behind the doubtful `passed`, slipped through a closed fan. `hit` is the answer's exact
+/// intersection, if any. At a silhouette a fan's triangles lie one behind the other: a hit between them has not passed all of
+/// them.
 bool Referee::leaks(const Ray& ray, const std::vector<ExactIntersection>& met, const ExactIntersection& passed,
                     const Answer& answer, const ExactIntersection* hit, Renderer renderer) const {
   if (!passed.possible(renderer) || passed.at_end || primitives_[passed.primitive].kind != core::PrimitiveKind::triangle) {
@@ -96,7 +96,7 @@ bool Referee::leaks(const Ray& ray, const std::vector<ExactIntersection>& met, c
   }
   const std::vector<std::uint32_t> fan = closed_fan(ray, primitives_, passed.primitive);
   const auto holds = [&](std::uint32_t id) { return std::find(fan.begin(), fan.end(), id) != fan.end(); };
-  // A triangle of the fan that meets the ray's end may be rounded away rightly.
+  // A triangle of the fan that meets the ray's end may legitimately be rounded away.
   const bool ends_here = std::any_of(met.begin(), met.end(), [&](const ExactIntersection& exact_intersection) {
     return exact_intersection.at_end && holds(exact_intersection.primitive);
   });

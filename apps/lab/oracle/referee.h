@@ -15,8 +15,8 @@ namespace dmpc::apps {
 /// A renderer's answer for a ray: the closest hit, or only whether a shadow ray is blocked.
 struct Answer {
   bool hit = false;
-  std::uint32_t primitive = core::no_primitive; ///< of a closest hit; unused for shadow rays
-  float t = 0; ///< as the renderer gave it, for reports
+  std::uint32_t primitive = core::no_primitive;  ///< of a closest hit; unused for shadow rays
+  float t = 0;                                   ///< as the renderer gave it, for reports
 
   bool operator==(const Answer& other) const { return hit == other.hit && primitive == other.primitive; }
 };
@@ -24,7 +24,7 @@ struct Answer {
 /// Causes of a difference. The first four are explained; the others are errors of our grid.
 enum class Verdict : std::uint8_t {
   tie,           ///< both name a primitive that is surely hit, and rounding may order the two distances either way
-  silhouette, ///< the ray passes an edge or a tangent within rounding
+  silhouette,    ///< the ray passes an edge or a tangent within rounding
   end,           ///< a hit lies within rounding of the ray's start or end
   oracle_wrong,  ///< our grid's answer can be explained by rounding, Embree's cannot (it leaks where triangles meet)
   grid_wrong,    ///< Embree's answer can be explained by rounding, our grid's cannot
@@ -37,7 +37,7 @@ std::string_view name_of(Verdict verdict);
 
 struct Ruling {
   Verdict verdict{};
-  Answer exact; ///< by exact geometry: edges belong to their triangle, and the lower id wins at equal distances
+  Answer exact;               ///< by exact geometry: edges belong to their triangle, and the lower id wins at equal distances
   bool favours_grid = false;  ///< its answer is the exact one
   bool favours_oracle = false;
 };

@@ -20,7 +20,7 @@ struct Trial {
   using Counts = std::vector<std::pair<std::uint64_t, std::string>>;  ///< counts, each with the singular name of what is counted
 
   Counts tried, failed = {};
-  std::string worst = {}, where = {}; ///< empty: nothing was off
+  std::string worst = {}, where = {};  ///< empty: nothing was off
 };
 
 /// Returns "Tried: 1,200 rays. Failed: nothing. Worst: a silhouette, in pixel (3, 4)."

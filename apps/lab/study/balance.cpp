@@ -1,4 +1,4 @@
-// The study `balance`: how evenly the work of rays that travel is shared out, and what it is worth where the regions lie.
+// The study `balance`: how evenly the work of travelling rays is distributed, and the effect of the regions' positions.
 #include "apps/lab/study/studies.h"
 
 #include <array>
@@ -19,7 +19,7 @@ namespace {
 using dataflow::Balance;
 using dataflow::CutOrder;
 
-/// A way to cut space.
+/// A method of cutting space.
 struct Cutting {
   const char* name;
   Balance balance;
@@ -46,15 +46,15 @@ struct BalanceRow {
   const char* regions;
   RayHops hops;
   std::vector<double> work;
-  std::optional<std::uint32_t> node = {};  ///< nothing: all of them
+  std::optional<std::uint32_t> node = {};  ///< nothing: all nodes
 };
 
-/// Nothing where no load is known.
+/// Returns an empty cell if no load is known.
 Cell average_load_cell(std::span<const double> loads) {
   return loads.empty() ? Cell() : Cell(100 * dataflow::average_load(loads));
 }
 
-/// The share of `node` in all work; nothing where no load is known.
+/// Returns the share of `node` in all work; empty if no load is known.
 Cell share_cell(std::span<const double> loads, std::uint32_t node) {
   return loads.empty() ? Cell() : Cell(percent_of(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
 }
@@ -62,7 +62,7 @@ Cell share_cell(std::span<const double> loads, std::uint32_t node) {
 /// No picture has a longer side.
 constexpr std::int64_t subsample_max = 65536;
 
-/// Nothing where no ray went on.
+/// Returns an empty cell if no ray went on.
 Cell hops_cell(const BalanceRow& row, double hops) { return row.report.messages_per_ray() > 0 ? Cell(hops) : Cell(); }
 
 FilledColumns<BalanceRow> balance_columns(const BalanceStudy& study) {
@@ -87,13 +87,13 @@ FilledColumns<BalanceRow> balance_columns(const BalanceStudy& study) {
   return columns;
 }
 
-/// The article's Rings3, in as many triangles.
+/// Returns whether it is the article's Rings3, in the same number of triangles.
 bool is_rings_3(const std::string& scene) {
   const auto scene_name = core::find_scene_name(scene);
   return scene_name && scene_name->text() == "rings-3-t1";
 }
 
-/// The average load that a row of these regions on so many nodes has; nothing if there is none.
+/// Returns the average load in the row of these regions and number of nodes; nothing if there is none.
 std::optional<double> load_with(const Table& table, double node_count, const std::string& regions) {
   for (const std::vector<Cell>& row : table.rows()) {
     const auto load = number_in(table, row, "average load achieved");

@@ -1,4 +1,4 @@
-// The study `cache`: how often nodes miss pages with caches of any size and policy, and what that costs on a machine.
+// The study `cache`: how often nodes miss pages with caches of any size and policy, and the cost on a machine.
 #include "apps/lab/study/studies.h"
 
 #include <utility>
@@ -18,23 +18,23 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t standard_size_count = 12;
-/// Within so much of the best lru is as good as any policy.
+/// Within this factor of the best, lru counts as good as any policy.
 constexpr double as_good = 1.1;
 
-/// svm on a machine, one pixel at a time on each node as the 1994 paper's nodes worked.
+/// svm on a machine, with one pixel at a time on each node, as in the 1994 paper.
 StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
   StrategyOptions options{.computer = {.node_count = node_count}, .pages = {.in_flight = 1}};
   choose_machine(options, machine);
   return options;
 }
 
-/// All references, which depend on neither cache nor machine, so any machine will do: the default one takes no time.
+/// All references, which depend on neither cache nor machine, so the default machine, which takes no time, will do.
 svm::RunOptions recording(std::uint32_t node_count) {
   return {.computer = {.node_count = node_count, .machine = nodes::Machine()},
           .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
 }
 
-/// What a size takes on the machine.
+/// The cost of a size on the machine.
 struct TimedCache {
   std::uint32_t node_count;
   std::uint64_t total_ns, page_bytes;
@@ -58,7 +58,7 @@ const FilledColumns<TimedCache>& timed_cache_columns() {
   return columns;
 }
 
-/// Adds a row for each size, as soon as the machine has run with it.
+/// Adds a row for each size as soon as the machine has run with it.
 void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uint32_t page_count, StudyRuns& runs, Table& table) {
   std::vector<StrategyOptions> options = {one_at_a_time(1, *study.machine)};
   for (const std::uint32_t size : curves.sizes()) {
@@ -140,7 +140,7 @@ void CacheStudy::measure(StudyRuns& runs, Table& table) const {
       references_of(recorded), recorded.pages().references,
       cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages, policies,
       {.check = [&runs] { runs.check(); }});
-  recorded = svm::Report{{{.film = core::Film(1, 1)}}};  // the references take much memory
+  recorded = svm::Report{{{.film = core::Film(1, 1)}}};  // frees the references' memory
   if (machine) {
     add_timed_rows(*this, curves, page_count, runs, table);
   } else {

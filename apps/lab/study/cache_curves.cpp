@@ -18,7 +18,7 @@ using svm::Replacement;
 /// By size: of each of the other policies, then of those that are not dmpc's own, then of the optimum.
 using Faults = std::vector<std::vector<std::uint64_t>>;
 
-/// The policies beside lru, whose misses are known for all sizes at once, in the order of their columns.
+/// Returns the policies other than lru, whose misses are known for all sizes at once, in the order of their columns.
 std::vector<Replacement> other_policies() {
   std::vector<Replacement> policies;
   for (std::size_t i = 0; i < svm::policy_kinds().size(); ++i) {
@@ -29,7 +29,7 @@ std::vector<Replacement> other_policies() {
   return policies;
 }
 
-/// Whoever has room for all pages takes each in once.
+/// A cache for all pages fetches each once.
 std::vector<std::uint32_t> bounded(std::vector<std::uint32_t> sizes, std::uint32_t distinct_pages) {
   for (std::uint32_t& size : sizes) {
     size = std::min(size, std::max(1U, distinct_pages));
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> bounded(std::vector<std::uint32_t> sizes, std::uint32
   return sizes;
 }
 
-/// `sizes`: bounded by the references' pages.
+/// `sizes` are limited by the number of the references' pages.
 Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
                  CacheCurves::Policies more, const CacheCurves::Watch& watch) {
   const svm::Optimum optimum(references);
@@ -69,7 +69,7 @@ void add(const Faults& more, Faults& sums) {
 
 std::string fault_column(std::string_view policy) { return "faults " + std::string(policy); }
 
-/// The policies with columns between lru's and the optimum's, in their order.
+/// Returns the policies with columns between lru's and the optimum's, in their order.
 std::vector<std::string> names_beside_lru(CacheCurves::Policies more) {
   std::vector<std::string> names;
   for (const Replacement policy : other_policies()) {

@@ -27,8 +27,8 @@ class CacheCurves {
   using Policies = std::span<const ForeignPolicy>;
   /// Called from any thread while references are fed to the caches.
   struct Watch {
-    std::function<void()> check; ///< called often; may throw
-    std::function<void()> fed = [] {}; ///< called once for each of cache_count()
+    std::function<void()> check;        ///< called often; may throw
+    std::function<void()> fed = [] {};  ///< called once for each of cache_count()
   };
 
   /// `reference_count` is the denominator of a share of misses; `sizes` are in pages. Uses all cores. Throws what a policy or
@@ -55,7 +55,7 @@ class CacheCurves {
   std::vector<std::uint32_t> sizes_;
   std::uint64_t reference_count_;
   svm::MissCurve lru_;
-  std::vector<std::vector<std::uint64_t>> faults_; ///< by size: of each of the other policies, of `more`, then of the optimum
+  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, of `more`, then of the optimum
 };
 
 /// Declares --cache-pages: sizes in pages, about 12 of them by default.

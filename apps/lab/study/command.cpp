@@ -27,7 +27,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// What the pictures are drawn from, in their folder.
+/// Returns the name of the pictures' data file in their folder.
 std::string data_file_of(const std::string& study) { return study + ".csv"; }
 
 TableFiles files_of(const StudyOptions& options) {
@@ -41,16 +41,16 @@ TableFiles files_of(const StudyOptions& options) {
   return {options.table, {plotted}, {.inputs = std::move(inputs)}};
 }
 
-/// What is studied, and the digest of its scene if a page tells it.
+/// The subject, and the digest of its scene for a page.
 struct Loaded {
   Subject subject;
   std::optional<std::uint64_t> scene_digest;
-  std::optional<core::Scene> scene;  ///< for a study that builds other databases of it
+  std::optional<core::Scene> scene;  ///< for a study that builds other databases from it
   core::View view;                   ///< the scene's own
   core::Box bounds;                  ///< in the world's coordinates
 };
 
-/// A signal ends the process here and now.
+/// Here a signal ends the process at once.
 Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   OpenedFiles opened;
@@ -71,12 +71,12 @@ std::string samples_text(const PictureOptions& picture) {
   return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
 }
 
-/// "depth 5", or by paths how light gets about.
+/// Returns "depth 5", or the settings of paths.
 std::string light_text(const PictureOptions& picture) {
   return picture.transport.is_by_paths() ? text_of(picture.transport) : "depth " + std::to_string(picture.depth);
 }
 
-/// "structure extents, " or "structure voxels (article), ", nothing of the grid.
+/// Returns "structure extents, " or "structure voxels (article), ", nothing for the grid.
 std::string structure_text(const core::BuildOptions& build) {
   using core::Structure;
   const std::string rule = build.structure == Structure::voxels ? " (" + text_of(build.voxels) + ")" : "";
@@ -100,7 +100,7 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
-/// By which another study is known to be of the same.
+/// Identify another study of the same subject.
 struct Marks {
   std::optional<std::uint64_t> scene_digest;
   std::optional<std::uint64_t> film_hash;
@@ -127,7 +127,7 @@ Table empty_table(const OneStudy& study, const StudyOptions& options, const Subj
   return table;
 }
 
-/// If something ends it before its time, the table has the rows finished before, and a note that others are missing.
+/// If the study ends early, the table has the finished rows, and a note that others are missing.
 template <class OneStudy>
 void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   try {
@@ -143,7 +143,7 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   }
 }
 
-/// A study that compares structures is given the scene to build them from.
+/// A study that compares structures gets the scene from which to build them.
 void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
   study.build = [&scene, &options](const core::BuildOptions& asked) {
     DatabaseOptions other = options.database;
@@ -154,7 +154,7 @@ void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOption
   };
 }
 
-/// One that asks questions, too, the scene to build their tree from.
+/// One that also asks questions gets the scene from which to build their tree.
 void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions& options) {
   study.build_tree = [&scene, &options] {
     const core::BuildOptions usual = usual_database(Strategy::forest).build;

@@ -18,7 +18,7 @@ struct StudyOptions {
   PictureOptions picture;
   DatabaseOptions database;
   TableOutput table;
-  std::string machine_name; ///< as given on the command line
+  std::string machine_name;  ///< as given on the command line
   bool quiet = false;        ///< no progress
 };
 

@@ -17,9 +17,9 @@ namespace dmpc::apps {
 struct FrameFigures {
   std::uint64_t film = 0;             ///< its hash
   std::uint64_t faults = 0;           ///< page faults, of all nodes
-  std::uint64_t node_faults_max = 0; ///< of the node with the most
+  std::uint64_t node_faults_max = 0;  ///< of the node with the most
   std::uint64_t messages = 0;         ///< packets of every kind
-  std::uint64_t bytes = 0; ///< of pages, of packets with questions and answers, or of packets with rays
+  std::uint64_t bytes = 0;            ///< of pages, of packets with questions and answers, or of packets with rays
   std::uint64_t total_ns = 0;         ///< virtual time
 };
 
@@ -41,14 +41,14 @@ struct FrameSeries {
   std::uint32_t node_count = 1;
   FramesCase of;
   std::uint32_t page_count = 1;          ///< of the database
-  std::vector<FrameFigures> warm, cold; ///< equally many; the first is the same in both
+  std::vector<FrameFigures> warm, cold;  ///< equally many; the first is the same in both
 };
 
 /// Frames of a series, by their indices in it.
 struct FramesRow {
   const FrameSeries& series;
   std::size_t begin = 0, end = 1;
-  std::string frames; ///< their names, counted from 1: "3", or "2 to 6" of means
+  std::string frames;  ///< their names, counted from 1: "3", or "2 to 6" of means
 };
 
 /// Columns for FramesRow; figures are means over its frames.

@@ -1,4 +1,4 @@
-// The study `frames`: what nodes that keep what they have fetch and send of a frame, beside nodes that begin with nothing.
+// The study `frames`: what nodes that keep their contents fetch and send for a frame, beside nodes that begin with nothing.
 #include "apps/lab/study/studies.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// What rows of means over all frames but the first are called.
+/// Returns the name of rows of means over all frames except the first.
 std::string means_of(std::size_t frame_count) { return "2 to " + std::to_string(frame_count); }
 
 CameraPath path_of(const FramesStudy& study) {
@@ -80,10 +80,10 @@ class FrameRuns {
   const core::Database& database_;
   const StudyRuns& runs_;
   std::vector<core::RenderSettings> frames_;
-  std::stop_source token_;  ///< never stopped: between frames a signal is looked for
+  std::stop_source token_;  ///< never stopped: signals are checked between frames
 };
 
-/// The pages that the node which needs most fetches of a cold frame, where nothing leaves its cache: each fault is another page.
+/// Returns the most pages that a node fetches for a cold frame if nothing leaves its cache: each fault is another page.
 std::uint32_t working_set_of(const FrameSeries& kept) {
   std::uint64_t most = 1;
   for (const FrameFigures& frame : kept.cold) {
@@ -92,7 +92,7 @@ std::uint32_t working_set_of(const FrameSeries& kept) {
   return static_cast<std::uint32_t>(most);
 }
 
-/// Puts series into a table, one after the other.
+/// Writes series into a table, one after the other.
 class SeriesRows {
  public:
   SeriesRows(bool has_each_frame, StudyRuns& runs, Table& table) : has_each_frame_(has_each_frame), runs_(runs), table_(table) {}
@@ -107,7 +107,7 @@ class SeriesRows {
   }
 
  private:
-  /// Against those that were added first.
+  /// Compares with the series that was added first.
   void check(const FrameSeries& series) {
     for (std::size_t frame = 0; frame < series.warm.size(); ++frame) {
       if (films_.size() == frame) {
@@ -123,7 +123,7 @@ class SeriesRows {
   std::vector<std::uint64_t> films_;
 };
 
-/// All that travels, on one computer.
+/// Measures everything that travels, on one computer.
 void measure_on(const nodes::Machine& machine, std::uint32_t node_count, const FrameRuns& as_asked, const FrameRuns& in_tree,
                 SeriesRows& rows) {
   const std::uint32_t all = as_asked.page_count();
@@ -175,7 +175,7 @@ std::vector<std::string> parse_machines(const std::string& text) {
   return names;
 }
 
-/// The means of the computer that the last row is of.
+/// Returns the means of the last row's computer.
 std::vector<const std::vector<Cell>*> last_means(const Table& table, const std::string& frames) {
   std::vector<const std::vector<Cell>*> means;
   for (const std::vector<Cell>& row : table.rows()) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double percent = 0.01;
 
-/// At least 1, as a cache has a page in any case.
+/// At least 1, as a cache always has a page.
 std::uint32_t pages_of(double share, const core::Database& database) {
   return std::max(1U, static_cast<std::uint32_t>(share * static_cast<double>(database.page_count())));
 }
@@ -44,7 +44,7 @@ std::string MemoryRule::text() const {
 void MemoryRule::apply(StrategyOptions& options, const core::Database& database) const {
   options.computer.node_memory_bytes = bytes;
   if (options.strategy == Strategy::svm && !bytes) {
-    // Where the host is home to all pages a node's part is room in its cache, too.
+    // If the host is the home of all pages, a node's part is cache, too.
     const auto pages = static_cast<std::uint32_t>(database.page_count());
     const bool has_part = options.pages.homes == svm::PageHomes::spread;
     const std::uint32_t part = (pages + options.computer.node_count - 1) / options.computer.node_count;
@@ -58,7 +58,7 @@ bool MemoryRule::allows(std::size_t held, const core::Database& database, std::u
     return true;
   }
   const std::size_t own_pages = (database.page_count() + node_count - 1) / node_count;
-  const std::size_t slack = database.page_size();  // rounding of what lies behind the last page
+  const std::size_t slack = database.page_size();  // rounding of the rest after the last page
   return held <= (own_pages + pages_of(*share, database)) * database.page_size() + slack;
 }
 

@@ -15,9 +15,9 @@
 namespace dmpc::apps {
 namespace {
 
-/// The pixels of many runs at once, on one line.
+/// The pixels of concurrent runs, on one line.
 ///
-/// Thread safety: any thread; a lock that nobody holds for longer than it takes to write the line.
+/// Thread safety: any thread; a lock is held only while the line is written.
 class CommonProgress {
  public:
   CommonProgress(Progress& line, std::size_t run_count, std::uint64_t pixels_each)
@@ -49,7 +49,7 @@ StudyRuns::StudyRuns(const core::Database& database, const core::RenderSettings&
   alone_.skips.bundles = false;
 }
 
-/// The numbers of the next ones: "3 of 8", "3 to 8".
+/// Returns the numbers of the next runs: "3 of 8", "3 to 8".
 std::string StudyRuns::numbers(std::size_t run_count) const {
   const std::string last = run_count == 1 ? "" : " to " + std::to_string(count_ + run_count);
   const std::string all = expected_ == 0 ? "" : " of " + std::to_string(expected_);
@@ -78,8 +78,8 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
   return run_shown(computer, settings_, std::move(options), svm::run_svm);
 }
 
-/// Nothing if a signal kept it from its end. Throws what the run throws. Only a plan that cannot be made is a misfit: what goes
-/// wrong later is an error.
+/// Returns nothing if a signal prevented the run from finishing. Throws what the run throws. Only a plan that cannot be made is a
+/// misfit: later failures are errors.
 std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
                                                   const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
   core::expect(run.options.computer.machine.has_value(), "runs side by side have no threads");

@@ -32,8 +32,8 @@ struct StudyProgress {
 /// Result of a run on a modelled machine.
 struct StudyOutcome {
   std::optional<Report> report;    ///< of a finished run
-  std::string misfit; ///< if there is no report: why the scene does not fit, with the memory and a remedy
-  std::vector<std::string> notes; ///< sentences on what had to be reduced to fit
+  std::string misfit;              ///< if there is no report: why the scene does not fit, with the memory and a remedy
+  std::vector<std::string> notes;  ///< sentences on what had to be reduced to fit
 };
 
 /// Adds notes about `who`, such as "8 nodes": what was reduced to fit, or why the scene does not.
@@ -113,10 +113,10 @@ class StudyRuns {
 
   const core::Database& database_;
   const core::RenderSettings& settings_;
-  core::RenderSettings alone_; ///< the same, for rays that are traversed singly
+  core::RenderSettings alone_;  ///< the same, for rays that are traversed singly
   StudyProgress progress_;
   const Interrupt& interrupt_;
-  std::size_t expected_ = 0; ///< 0: unknown
+  std::size_t expected_ = 0;  ///< 0: unknown
   std::uint32_t count_ = 0;
   std::optional<std::uint64_t> film_hash_;
 };

@@ -1,4 +1,4 @@
-// The study `speedup`: how much faster a modelled machine gets by more nodes, and what becomes of the rest.
+// The study `speedup`: how much faster a modelled machine gets with more nodes, and where the remaining time goes.
 #include "apps/lab/study/studies.h"
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace {
 
 constexpr double nanosecond = 1e-9;
 
-/// What became of a run on so many nodes.
+/// The result of a run on this many nodes.
 struct SpeedupRow {
   std::uint32_t node_count;
-  std::optional<Account> account = {};  ///< nothing where the scene does not fit
+  std::optional<Account> account = {};  ///< nothing if the scene does not fit
   double first_node_seconds = 0;        ///< of the first run that has an account
 
   double seconds() const { return nanosecond * static_cast<double>(account->virtual_time->total_ns); }

@@ -32,7 +32,7 @@ struct BalanceStudy {
   std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
   int subsample = 8;  ///< loads are predicted by one pixel of every subsample x subsample
   nodes::TopologyKind topology = nodes::TopologyKind::hypercube;
-  bool per_node = false; ///< adds a row for each node below each row, with the node's share of the work
+  bool per_node = false;  ///< adds a row for each node below each row, with the node's share of the work
 
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
@@ -64,10 +64,10 @@ struct CacheStudy {
   static constexpr const char* description = "How often pages are missed with caches of every size and policy";
 
   std::uint32_t node_count = 32;           ///< at least 2
-  std::vector<std::uint32_t> cache_pages; ///< sizes in pages; empty: about 12, from 1 to all pages of other nodes
-  std::optional<nodes::Machine> machine; ///< if not given, nothing is timed
-  std::vector<std::string> policy_places; ///< of policies other than dmpc's own
-  std::vector<ForeignPolicy> policies; ///< those policies, after load()
+  std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages of other nodes
+  std::optional<nodes::Machine> machine;   ///< if not given, nothing is timed
+  std::vector<std::string> policy_places;  ///< of policies other than dmpc's own
+  std::vector<ForeignPolicy> policies;     ///< those policies, after load()
 
   /// Loads the policies. Throws as they do.
   void load(const std::function<void()>& check) { policies = load_policies(policy_places, check); }
@@ -110,13 +110,13 @@ struct FramesStudy {
 
   std::vector<std::uint32_t> node_counts = {8};      ///< each at least 2
   std::uint32_t frame_count = 6;                     ///< at least 2
-  bool has_each_frame = false; ///< also adds rows for single frames
+  bool has_each_frame = false;                       ///< also adds rows for single frames
   double turntable_degrees = 1;                      ///< a frame
-  std::optional<std::filesystem::path> camera_path; ///< replaces the turntable
+  std::optional<std::filesystem::path> camera_path;  ///< replaces the turntable
   std::vector<nodes::Machine> machines = {*on_usual_machine().computer.machine};
-  std::string machine_name = "ipsc2"; ///< on the command line, by which the machines were chosen
+  std::string machine_name = "ipsc2";      ///< on the command line, by which the machines were chosen
   std::vector<std::string> machine_names;  ///< likewise, if there are several
-  core::View own_view; ///< the scene's, set by the caller
+  core::View own_view;                     ///< the scene's, set by the caller
   core::Box bounds;                        ///< likewise, in the world's coordinates
   /// Builds the scene and its picture as one tree, to which questions are sent. Required by measure().
   std::function<Subject()> build_tree;
@@ -131,8 +131,8 @@ struct FramesStudy {
 
 /// The structures on which systems are compared; each has its own table.
 enum class SystemStructures : std::uint8_t {
-  of_papers, ///< the structure of the original description, or our nearest one
-  of_today ///< the structure that `render --system` gives it
+  of_papers,  ///< the structure of the original description, or our nearest one
+  of_today    ///< the structure that `render --system` gives it
 };
 /// Returns the name on the command line: "papers".
 const char* name_of(SystemStructures structures);
@@ -152,8 +152,8 @@ struct SystemsStudy {
   std::vector<SystemStructures> structures = {SystemStructures::of_papers, SystemStructures::of_today};
   std::vector<std::uint32_t> node_counts = {64};
   std::vector<MemoryRule> memories = {{}, {.share = 0.25}, {.share = 0.05}, {.share = 0.01}};
-  StrategyOptions machine = on_usual_machine(); ///< of the runs, with its runner options; the rest is not used
-  Build build; ///< required by measure()
+  StrategyOptions machine = on_usual_machine();  ///< of the runs, with its runner options; the rest is not used
+  Build build;                                   ///< required by measure()
 
   static std::vector<System> all_systems();
   void add_options(StudyLine line);

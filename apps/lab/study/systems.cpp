@@ -22,7 +22,7 @@ constexpr double system_seconds_of_ns = 1e-9;
 
 double ratio(double part, double whole) { return whole == 0 ? 0 : part / whole; }
 
-/// Mean over maximum of the time that the nodes computed.
+/// Returns mean over maximum of the nodes' computing times.
 double load_of(const nodes::VirtualReport& time) {
   std::uint64_t most = 0, sum = 0;
   const auto nodes = std::span(time.nodes).first(time.nodes.size() - 1);
@@ -42,7 +42,7 @@ struct RunTimes {
         computing_seconds(system_seconds_of_ns * static_cast<double>(sum_of_nodes(*account.virtual_time).computing_ns)) {}
 };
 
-/// Bytes of the database at the node that holds most.
+/// Returns the bytes of the database at the node with the most.
 std::size_t most_held_bytes(const Account& account) {
   std::size_t most = 0;
   for (const NodeAccount& node : account.nodes) {
@@ -51,7 +51,7 @@ std::size_t most_held_bytes(const Account& account) {
   return most;
 }
 
-/// The bytes that the host sends or is sent, over all.
+/// Returns the bytes that the host sends or receives, over all bytes.
 double host_share(const Account& account) {
   const std::uint64_t host_bytes = nodes::total(account.host.sent).bytes + nodes::total(account.host.received).bytes;
   return ratio(static_cast<double>(host_bytes), static_cast<double>(nodes::total(account.sent).bytes));
@@ -69,7 +69,7 @@ double all_memory_bytes(const Account& account) {
   });
 }
 
-/// What stands in a row of a run that fits.
+/// The contents of a row for a run that fits.
 struct FittingRun {
   const Account& account;
   RunTimes times, one;  ///< its own, and those of one node with the whole scene in the same structure
@@ -105,13 +105,13 @@ const FilledColumns<FittingRun>& system_columns() {
   return all;
 }
 
-/// What a run came to.
+/// Result of a run.
 struct SystemOutcome {
   std::size_t held_bytes = 0;
   std::vector<Cell> figures;  ///< for a row that it fits
 };
 
-/// The rows of the table, as soon as their runs and all before them have ended.
+/// Adds the rows of the table as soon as their runs and all before them have ended.
 class SystemRows {
  public:
   SystemRows(const SystemPlan& plan, const std::vector<StudyRun>& runs, Table& table)
@@ -200,7 +200,7 @@ std::vector<SystemStructures> parse_structures(const std::string& text) {
   return chosen;
 }
 
-/// In the end: the database is that of the systems in a grid.
+/// Checks after parsing: each system has its own structure.
 void check_database(const OptionSet& set) {
   for (const char* option : {"--structure", "--voxels"}) {
     if (set.is_given(option)) {
@@ -266,7 +266,7 @@ std::vector<Column> SystemsStudy::columns() const {
 
 namespace {
 
-/// A plot of one figure, bars for each system, by the rule of memory.
+/// Returns a plot of one figure, with bars for each system, by the rule of memory.
 Plot bars_of(const SystemsStudy& study, SystemStructures structures, Plot bars, const char* figure) {
   bars.name += structures == SystemStructures::of_papers ? "_papers" : "";
   bars.title += std::string(" of the systems, structures ") + text_of(structures);
@@ -350,7 +350,7 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
 
 namespace {
 
-/// The row of the least time among systems that do not hold the whole scene; nullptr if none has a time.
+/// Returns the row with the least time among systems that do not store the whole scene on a node; nullptr if none has a time.
 const std::vector<Cell>* fastest_of(const Table& table, const std::string& structures) {
   const std::vector<Cell>* fastest = nullptr;
   for (const std::vector<Cell>& row : table.rows()) {

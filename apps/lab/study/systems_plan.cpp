@@ -8,7 +8,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Forest's subtrees are its pages; others have pages of one size, so that faults can be compared.
+/// Forest's subtrees are its pages; all other systems have pages of one size, so that faults can be compared.
 StructureAsked asked_by(System system, SystemStructures structures) {
   const bool is_original = structures == SystemStructures::of_papers;
   const core::BuildOptions build = (is_original ? original_database_of(system) : database_of(system)).build;
@@ -18,7 +18,7 @@ StructureAsked asked_by(System system, SystemStructures structures) {
 
 constexpr MemoryRule as_needed = {};
 
-/// One node with the whole scene in each structure that comes up.
+/// Adds one node with the whole scene in each structure that is used.
 void add_runs_alone(const SystemsStudy& study, SystemPlan& plan) {
   for (const SystemStructures structures : study.structures) {
     for (const System system : study.chosen) {
@@ -31,7 +31,7 @@ void add_runs_alone(const SystemsStudy& study, SystemPlan& plan) {
   }
 }
 
-/// A row, with a run of its own unless there is one that is good for it.
+/// Adds a row, with its own run unless an existing one serves it.
 class PlannedRows {
  public:
   explicit PlannedRows(SystemPlan& plan) : plan_(plan) {}

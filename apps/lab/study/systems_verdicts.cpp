@@ -1,4 +1,4 @@
-// What was expected of the systems, written down before the first comparison, and what a table says of it.
+// The expectations of the systems, written down before the first comparison, and their verdicts from a table.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -27,7 +27,7 @@ struct Round {
     return structures == its_structures && node_count == its_node_count && memory == its_memory;
   }
 
-  /// The fastest of those; nullptr if there is none.
+  /// Returns the fastest of those; nullptr if there is none.
   const Entry* fastest(const std::function<bool(System)>& is_meant) const {
     const Entry* best = nullptr;
     for (const Entry& entry : entries) {
@@ -53,7 +53,7 @@ std::vector<Round> rounds_of(const Table& table) {
   return rounds;
 }
 
-/// That the fastest of the `first` are faster than the fastest of the `others`.
+/// Expects the fastest of `first` to be faster than the fastest of `others`.
 struct Expectation {
   const char* text;
   bool (*is_for)(const Round&);
@@ -70,7 +70,7 @@ bool is_replicated(System system) { return system == System::replicated || syste
 bool is_distributed(System system) { return !is_replicated(system); }
 bool fetches_pages(System system) { return strategy_of(system).strategy == Strategy::svm; }
 bool fetches_no_pages(System system) { return is_distributed(system) && !fetches_pages(system); }
-/// The two have all but their homes in common.
+/// The two systems differ only in the homes of pages.
 bool has_host_home(System system) { return system == System::green_paddon; }
 bool has_spread_homes_else_alike(System system) { return system == System::svm_resident; }
 bool asks(System system) { return system == System::forest || system == System::forest_static; }
@@ -91,7 +91,7 @@ constexpr std::array<Expectation, 7> expectations = {
      {"where hits crowd, regions that move while rays travel are faster than those that stay", is_ample, is_moving,
       is_subsampled}}};
 
-/// Times that differ by no more than this share do not tell which is better.
+/// Times that differ by no more than this share count as equal.
 constexpr double tie_share = 0.01;
 
 const char* verdict_of(double first, double other) {

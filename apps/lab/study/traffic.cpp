@@ -1,4 +1,4 @@
-// The study `traffic`: what travels when rays do, beside what travels when pages do.
+// The study `traffic`: the traffic of travelling rays beside that of travelling pages.
 #include "apps/lab/study/studies.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct TrafficRow {
   nodes::Traffic ray_traffic() const { return dataflow::ray_traffic(rays.sent()); }
 };
 
-/// The memory of the node that used most.
+/// Returns the memory of the node that used most.
 template <class Report>
 std::uint64_t memory_max_bytes(const Report& report) {
   std::size_t most = 0;
@@ -33,7 +33,7 @@ std::uint64_t memory_max_bytes(const Report& report) {
   return most;
 }
 
-/// A share of the rays sent; nothing if none was.
+/// Returns a share of the rays sent; nothing if none was.
 Cell percent_cell(double part, std::uint64_t rays_sent) {
   return rays_sent == 0 ? Cell() : Cell(100 * part / static_cast<double>(rays_sent));
 }

@@ -17,10 +17,10 @@ using core::HeatKind;
 constexpr double picoseconds_in_us = 1e6;
 constexpr double nanoseconds_in_us = 1e3;
 
-/// Work items move from node to node, or pixels overtake each other, unless these hold.
+/// Unless these hold, work items move from node to node, or pixels overtake each other.
 struct FixedOrder {
   bool of_nodes = false;   ///< every pixel has its node before the start
-  bool of_pixels = false;  ///< and a node works on one at a time
+  bool of_pixels = false;  ///< and a node renders one pixel at a time
 };
 
 FixedOrder order_of(const svm::Report& report) {

@@ -38,12 +38,12 @@ constexpr core::Color white{1, 1, 1}, black{0, 0, 0};
 /// All lengths in dots.
 constexpr int margin = 6, bar_height = 10, tick_height = 3, line_height = glyph_height + 4;
 constexpr int legend_height = margin + bar_height + tick_height + 4 * line_height + margin;
-/// So wide that numbers below the bar find room.
+/// Width that gives numbers below the bar enough space.
 constexpr int bar_width_min = 240;
 /// Dots between numbers below the bar.
 constexpr int number_gap = 8;
 
-/// A mean of numbers that are names would mean nothing.
+/// Numbers that are names have no meaningful mean.
 std::string mean_of(const HeatField& field) {
   return field.kind == core::HeatKind::node ? ""
                                             : ", mean " + legend_number(field.sum() / static_cast<double>(field.values.size()));
@@ -87,7 +87,7 @@ void draw_values(Image& image, const HeatField& field, const NumberScale& scale)
 struct Bar {
   int x, y, width, dot;
 
-  /// Where a position of the scale lies.
+  /// Returns the coordinate of a position on the scale.
   int at(double position) const { return x + static_cast<int>(position * (width - 1)); }
 };
 

@@ -28,13 +28,13 @@ using Pages = std::array<ComparedPage, 2>;
 
 constexpr std::array<const char*, 2> letters = {"A", "B"};
 
-/// Names in the order in which either run has them, each with what it took of a node, in milliseconds.
+/// Names in the order in which either run has them, each with the milliseconds of a node.
 struct TimeByName {
   std::vector<std::string> names;
   std::array<std::map<std::string, double>, 2> ms;
 };
 
-/// What is left of nodes' time, once all else is known.
+/// Returns the name of nodes' remaining time.
 const char* rest_of(const json& run) { return run["clock"] == "virtual time" ? "idle at the end" : "waiting for a core"; }
 
 TimeByName time_by_name(const Pages& pages) {
@@ -67,7 +67,7 @@ double value_of(const std::map<std::string, double>& values, const std::string& 
   return at == values.end() ? 0 : at->second;
 }
 
-/// A row per run, a column per name: the most that can be distinguished, and the rest.
+/// Returns a row for each run and a column for each name: the largest that can be distinguished, and the rest.
 Table bars_table(const TimeByName& times) {
   std::vector<std::string> names = times.names;
   const auto larger = [&times](const std::string& name) {
@@ -107,7 +107,7 @@ Plot bars_plot(const Table& table) {
 
 std::string ms_text(double ms) { return amount_text(ms * 1e6, "ns"); }
 
-/// By how much B takes longer or shorter, and what of a node's time makes most of that.
+/// Returns by how much B takes longer or shorter, and the main cause in a node's time.
 std::string run_time_conclusion(const Pages& pages) {
   const double a = pages[0].run.total_ns(), b = pages[1].run.total_ns();
   const std::string took = "A took " + amount_text(a, "ns") + ", B " + amount_text(b, "ns");
@@ -155,7 +155,7 @@ double sum_of_numbers(const json& array) {
   return sum;
 }
 
-/// By name of a field; those of which a sum says something.
+/// Returns sums by name of a field, for fields whose sum has a meaning.
 std::map<std::string, double> sums_of(const json& run) {
   std::map<std::string, double> sums;
   for (const json& field : run["fields"]) {

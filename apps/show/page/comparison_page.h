@@ -23,8 +23,8 @@ struct ComparedPage {
 /// A and B, and what else is known of both.
 struct Comparison {
   std::array<ComparedPage, 2> pages;
-  std::string picture_sentence; ///< difference of the pictures; empty: nothing to report
-  std::string counter_sentence; ///< comparison of their counters
+  std::string picture_sentence;        ///< difference of the pictures; empty: nothing to report
+  std::string counter_sentence;        ///< comparison of their counters
   std::optional<Table> counters = {};  ///< counters that differ
 };
 

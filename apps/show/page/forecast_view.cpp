@@ -22,8 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t sizes_max = 4096;         ///< that are read back
-constexpr double reported_error_least = 0.001;  ///< less is not worth a sentence
+constexpr std::size_t sizes_max = 4096;         ///< limit when they are read back
+constexpr double reported_error_least = 0.001;  ///< smaller errors are not reported
 
 std::string why_wide(const CacheForecast& forecast) {
   std::string text =
@@ -43,14 +43,14 @@ std::string why_wide(const CacheForecast& forecast) {
 
 double milliseconds(double ns) { return ns / 1e6; }
 
-/// The entry with `pages` pages; nullptr if there is none.
+/// Returns the entry with `pages` pages; nullptr if there is none.
 template <class Sized>
 const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
   const auto found = std::find_if(all.begin(), all.end(), [pages](const Sized& one) { return one.cache_pages == pages; });
   return found == all.end() ? nullptr : &*found;
 }
 
-/// Cache sizes predicted and run.
+/// Returns the predicted and measured cache sizes.
 std::set<std::uint32_t> sizes_of(const ForecastView& view) {
   std::set<std::uint32_t> sizes;
   for (const TimeBand& size : view.sizes) {
@@ -103,7 +103,7 @@ Plot forecast_plot() {
                 std::move(series));
 }
 
-/// Conclusion for a cache of twice as many pages or somewhat more.
+/// Returns the conclusion for a cache of twice as many pages or somewhat more.
 std::string forecast_conclusion(const ForecastView& view) {
   const auto twice = std::find_if(view.sizes.begin(), view.sizes.end(),
                                   [&view](const TimeBand& size) { return size.cache_pages >= 2 * view.cache_pages; });

@@ -27,8 +27,8 @@ struct MadeRun {
 /// A band of predicted times beside measured runs.
 struct ForecastView {
   std::uint32_t cache_pages = 0;  ///< the measured run's
-  std::string why; ///< explains the band's width: sentences
-  std::vector<TimeBand> sizes; ///< in ascending order, whether narrow enough to be shown or not
+  std::string why;                ///< explains the band's width: sentences
+  std::vector<TimeBand> sizes;    ///< in ascending order, whether narrow enough to be shown or not
   std::vector<MadeRun> runs;
 };
 

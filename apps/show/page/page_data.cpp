@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// More than any data of ours have, and little enough for a function that calls itself.
+/// Deeper than any data of ours, and small enough for a recursive function.
 constexpr int depth_max = 16;
 
 constexpr const char* what_to_do = "; the page is damaged, or was changed: render it again with --report";

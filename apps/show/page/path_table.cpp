@@ -16,7 +16,7 @@ void drop_empty(std::vector<Part>& parts) {
   std::erase_if(parts, [](const Part& part) { return part.second == 0; });
 }
 
-/// What messages took, by their kinds; the largest first.
+/// Returns the times of messages by kind; the largest first.
 std::vector<Part> kinds_of(const nodes::PathTimes& path, std::span<const char* const> kind_names) {
   std::vector<Part> kinds;
   for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {

@@ -32,8 +32,8 @@ using core::HeatKind;
 using nlohmann::json;
 using Counts = std::vector<std::uint64_t>;
 
-constexpr std::size_t pages_max = 256;          ///< the hottest that are listed
-constexpr std::size_t over_time_side_max = 96;  ///< pairs of nodes; there are 295,000 values then
+constexpr std::size_t pages_max = 256;          ///< limit of the listed hottest pages
+constexpr std::size_t over_time_side_max = 96;  ///< pairs of nodes; they then have 295,000 values
 
 std::uint64_t largest(std::span<const std::uint64_t> values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
@@ -43,7 +43,7 @@ std::uint64_t sum_of(std::span<const std::uint64_t> values) {
   return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
 }
 
-/// By the clock of the run, of whatever is told of it the end.
+/// By the clock of the run: the last time recorded anywhere.
 std::uint64_t total_ns(const RenderRecord& record, const Account& account) {
   std::uint64_t total = std::max<std::uint64_t>(1, largest(record.heat->values(HeatKind::done)));
   if (account.virtual_time) {
@@ -55,7 +55,7 @@ std::uint64_t total_ns(const RenderRecord& record, const Account& account) {
   return total;
 }
 
-/// Rounded up, so that nothing is lit before it is done.
+/// Rounds up, so that nothing is lit before it is done.
 Counts parts_of_run(std::span<const std::uint64_t> done_ns, std::uint64_t total) {
   Counts parts;
   for (const std::uint64_t ns : done_ns) {
@@ -65,7 +65,7 @@ Counts parts_of_run(std::span<const std::uint64_t> done_ns, std::uint64_t total)
   return parts;
 }
 
-/// Values as they are sent, and what each is worth in the unit of the field.
+/// Values as they are sent, and the worth of each in the unit of the field.
 struct Scaled {
   Counts values;
   double scale = 1;
@@ -104,7 +104,7 @@ json fields_of(const RenderRecord& record, const PlayCells& cells) {
   return fields;
 }
 
-/// What a node did in each step, in 255ths of it; what is rounded off comes to the next step.
+/// Appends a node's activity in each step, in 255ths of it; rounding errors carry over to the next step.
 template <class Times>
 void append_shares(Counts& shares, const std::vector<Times>& steps, std::size_t kind, std::uint64_t step_ns) {
   double due = 0;
@@ -191,13 +191,13 @@ void add_causes(json& head, const RunView& view, const Account& account) {
   }
 }
 
-/// How nodes are placed, as far as a drawing goes.
+/// Returns the positions of nodes for a drawing.
 json topology_of(const nodes::Machine& machine, std::uint32_t node_count) {
   const nodes::Topology topology(machine.topology, node_count, machine.uplinks);
   return {{"kind", name_of(machine.topology)}, {"columns", topology.columns()}, {"uplinks", machine.uplinks}};
 }
 
-/// All counts, or where they are not 0 and what they are there, whichever takes less.
+/// Returns all counts, or the positions and values of those other than 0, whichever takes less.
 json pairs_of(std::span<const std::uint64_t> counts, json head) {
   Counts places, there;
   for (std::size_t place = 0; place < counts.size(); ++place) {
@@ -252,7 +252,10 @@ json steps_of(const nodes::StepCounts& counts, const std::vector<std::span<const
   Counts values;
   for (const std::span<const std::uint64_t> row : rows) {
     for (std::size_t step = 0; step < steps; ++step) {
-      values.push_back(row.empty() ? 0 : most < 256 ? row[step] : (row[step] * 255 + most - 1) / most);  // what is there is not 0
+      values.push_back(row.empty()  ? 0
+                       : most < 256 ? row[step]
+                                    : (row[step] * 255 + most - 1) / most);  // keeps values other than 0
+                                                                             // above 0
     }
   }
   return {{"step_ns", counts.step_ns()},
@@ -320,7 +323,7 @@ void add_exchange(json& head, const RenderRecord& record) {
   }
 }
 
-/// Without its lists: each has a figure or more a node or a link, and other pages' data have those.
+/// Leaves out its lists: each has a figure or more for each node or link, which are in other parts of the data.
 json stats_of(const RenderRecord& record) {
   json stats = json::parse(stats_json(record));
   for (const char* const list : {"nodes", "ranks", "pairs", "heat_maps"}) {

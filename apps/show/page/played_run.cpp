@@ -50,12 +50,12 @@ json data_of(std::string_view page, const std::string& file) {
   return std::move(*data);
 }
 
-/// What all else is counted by.
+/// The sizes on which all other data depend.
 struct Sizes {
   std::uint64_t nodes, steps, cells, total_ns;
 };
 
-/// The text in front of a picture's bytes. Nothing if there is none.
+/// Returns the base64 text of a picture's bytes. Nothing if there is none.
 std::string picture_in(std::string_view page) {
   const std::size_t image = page.find("<img class=\"picture\"");
   constexpr std::string_view begin = "src=\"data:image/png;base64,";
@@ -72,7 +72,7 @@ std::string picture_in(std::string_view page) {
   return picture;
 }
 
-/// A list of entry_of() of each entry; there are at most `most`.
+/// Returns the list of entry_of() of each entry; there are at most `most`.
 template <class EntryOf>
 json list_of(const DataPart& list, std::size_t most, const EntryOf& entry_of) {
   json all = json::array();
@@ -151,7 +151,7 @@ json shares_of(const DataPart& works, const Sizes& sizes) {
   });
 }
 
-/// [[text or whole number]], `texts` of them texts.
+/// Reads [[text or whole number]], of which `texts` are texts.
 json rows_of(const DataPart& rows, std::size_t texts, const std::vector<std::uint64_t>& most) {
   return list_of(rows, list_size_limit, [&](const DataPart& row) {
     json cells = json::array();
@@ -163,7 +163,7 @@ json rows_of(const DataPart& rows, std::size_t texts, const std::vector<std::uin
   });
 }
 
-/// "host", or what else stands in a machine, and its number: a script places it by that.
+/// Returns whether it is "host", or another kind of a machine's parts and its number: a script positions it by that.
 bool is_place(const std::string& name) {
   const std::size_t blank = name.find(' ');
   if (blank == std::string::npos) {

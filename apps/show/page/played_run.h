@@ -9,9 +9,9 @@
 namespace dmpc::apps::html {
 
 struct PlayedRun {
-  nlohmann::json data; ///< as from play_data(), without forecast and stats, and with no other key
-  std::optional<std::string> stats; ///< the page's part of --stats, as JSON; a page of an earlier dmpc has none
-  std::string picture; ///< a PNG's bytes, if the picture is one
+  nlohmann::json data;               ///< as from play_data(), without forecast and stats, and with no other key
+  std::optional<std::string> stats;  ///< the page's part of --stats, as JSON; a page of an earlier dmpc has none
+  std::string picture;               ///< a PNG's bytes, if the picture is one
 
   double total_ns() const { return data["total_ns"].get<double>(); }
 };

@@ -33,7 +33,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// By which another run is known to be the same.
+/// Identify another run with the same results.
 Facts results_of(const RenderRecord& record, const Account& account) {
   Facts results = {{"film", hash_text(record.film_hash)}};
   if (account.virtual_time) {

@@ -49,7 +49,7 @@ NodeColumns own_columns(const dataflow::Report& report, Strategy) {
   return columns;
 }
 
-/// Categories of which any node has some bytes.
+/// Returns categories of which any node has some bytes.
 std::vector<NamedCategory> categories_of(const Account& account) {
   std::vector<NamedCategory> categories;
   std::copy_if(memory_categories.begin(), memory_categories.end(), std::back_inserter(categories),

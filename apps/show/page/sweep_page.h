@@ -27,8 +27,8 @@ struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs
   std::vector<SweepPart> parts;
-  Facts results = {}; ///< identify another run with the same results
-  std::optional<ForecastView> forecast = {}; ///< from one of the sweep's runs, shown beside all of them
+  Facts results = {};                         ///< identify another run with the same results
+  std::optional<ForecastView> forecast = {};  ///< from one of the sweep's runs, shown beside all of them
 };
 
 /// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary

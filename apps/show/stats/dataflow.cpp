@@ -14,7 +14,7 @@ namespace {
 
 using nodes::TrafficByKind;
 
-/// What the rays of one node, or of all, did on their way.
+/// Events of the rays of one node, or of all, on their way.
 struct Travel {
   dataflow::ProgramCounts counts;
   TrafficByKind sent;
@@ -28,7 +28,7 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Nothing where regions do not move.
+/// Returns null if regions do not move.
 Json movement_json(const dataflow::MovementCounters& movement, const TrafficByKind& sent, bool is_moving) {
   if (!is_moving) {
     return {};
@@ -70,7 +70,7 @@ Travel travel_of(const dataflow::Report& report) {
   return all;
 }
 
-/// `predicted` is empty if nothing was.
+/// `predicted` is empty if there is no prediction.
 Json loads_json(const std::vector<double>& work, const std::vector<double>& predicted) {
   const auto total = [](const std::vector<double>& loads) { return std::accumulate(loads.begin(), loads.end(), 0.0); };
   const bool is_predicted = !predicted.empty();
@@ -100,8 +100,7 @@ Json regions_json(const dataflow::Report& report) {
           {"primary_rays", rays}};
 }
 
-/// Rows of senders.
-/// Only pairs of which one has sent the other a ray: neighbours, mostly.
+/// Returns rows of senders, only for pairs of which one has sent the other a ray: mostly neighbours.
 Json pairs_json(const dataflow::Report& report) {
   Json rows = Json::array();
   for (std::size_t from = 0; from < report.nodes.size(); ++from) {

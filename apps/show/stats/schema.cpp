@@ -43,7 +43,7 @@ Json counters(const std::array<Counter<T>, count>& rows) {
   return all;
 }
 
-/// Figures called as those of a table are, each of them as `schema` says.
+/// Returns figures with the names of a table's rows, each defined by `schema`.
 template <class Table, class NameOf>
 Json named(const Table& table, const NameOf& name_of_each, const std::string& schema) {
   Json all;
@@ -65,7 +65,7 @@ Json strategy_options() {
   return all;
 }
 
-/// Tasks have no hits and count no pages of theirs.
+/// Tasks have no hits and do not count their pages.
 Json pages_of_tasks() {
   Json all = counters(counters_of<svm::PageCounters>);
   all.erase("hits");
@@ -73,7 +73,7 @@ Json pages_of_tasks() {
   return all;
 }
 
-/// What one node of a program of tasks did, or all of them: apps/computer/stats.cpp.
+/// Returns the figures of one node of a program of tasks, or of all: apps/computer/stats.cpp.
 Json task_node() {
   return {{"pages", reference_to("task_pages")},
           {"packets", reference_to("named_packets")},
@@ -89,7 +89,7 @@ Json packet_kinds() {
   return names;
 }
 
-/// What stands for "*name" in the form.
+/// Returns the rows that replace "*name" in the form.
 const Json& rows_called(const std::string& name) {
   static const std::map<std::string, Json> rows = {
       {"options of strategies", strategy_options()},
@@ -135,7 +135,7 @@ Json completed_properties(const Json& form) {
   return properties;
 }
 
-/// An object with such properties.
+/// Completes an object with these properties.
 void close_object(Json& object, const Json& properties) {
   object.emplace("type", "object");
   object["additionalProperties"] = false;

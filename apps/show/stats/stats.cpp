@@ -30,7 +30,7 @@ using nodes::Traffic;
 
 constexpr double nanosecond = 1e-9;
 
-/// All of `keys` in order, null if `values` does not have them.
+/// Returns all of `keys` in order, null if `values` does not have them.
 Json filled(std::initializer_list<const char*> keys, const Json& values) {
   Json result;
   for (const char* const key : keys) {
@@ -43,7 +43,7 @@ Json filled(std::initializer_list<const char*> keys, const Json& values) {
   return result;
 }
 
-/// How samples were shared out.
+/// Returns how samples were distributed.
 Json sampling_json(const RenderRecord& record, const Account& account) {
   const std::uint64_t samples = account.film.samples();
   Json result = {{"samples", samples},
@@ -54,7 +54,8 @@ Json sampling_json(const RenderRecord& record, const Account& account) {
   return result;
 }
 
-/// A figure of the whole picture that a part of its samples does not tell: null where some were found done.
+/// Returns a figure of the whole picture that a part of its samples does not determine: null if some samples came from an earlier
+/// run.
 Json of_whole_picture(const RenderRecord& record, const Json& figure) { return record.samples_found_done == 0 ? figure : Json(); }
 
 /// Bound of the cutoff: on average a sample lacks at most this much light.
@@ -69,7 +70,7 @@ Json cutoff_json(const RenderRecord& record, const Account& account) {
       {"mean_error_bound", of_whole_picture(record, options.picture.cutoff * cut / static_cast<double>(account.film.samples()))}};
 }
 
-/// What was left out.
+/// Returns what was skipped.
 Json skips_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
   Json result;
@@ -119,7 +120,7 @@ Json memory_json(const nodes::MemoryPlan& memory) {
   return result;
 }
 
-/// What a seed did to the computer, or null without one.
+/// Returns the effects of a seed on the computer, or null without one.
 Json chaos_json(const Account& account, const Json& credits) {
   if (!account.chaos) {
     return nullptr;
@@ -135,7 +136,7 @@ Json chaos_json(const Account& account, const Json& credits) {
 }
 
 Json node_seconds_json(const nodes::NodeCounters& counters) {
-  // The clocks differ, so that a node that never waited may seem to have been busy for longer than it ran.
+  // The clocks differ, so a node that never waited may appear busy for longer than it ran.
   const std::uint64_t accounted_ns = counters.busy_ns + counters.asleep_ns;
   const std::uint64_t waiting_ns = counters.wall_ns > accounted_ns ? counters.wall_ns - accounted_ns : 0;
   return {{"busy", static_cast<double>(counters.busy_ns) * nanosecond},
@@ -144,7 +145,7 @@ Json node_seconds_json(const nodes::NodeCounters& counters) {
           {"wall", static_cast<double>(counters.wall_ns) * nanosecond}};
 }
 
-/// `timed`: what a run in virtual time adds; a node of it has no time by the wall clock.
+/// `timed`: the additions of a run in virtual time, whose nodes have no wall clock time.
 Json node_json(const NodeAccount& node, const Json& special, const Json& timed) {
   Json result = {{"rays", rays_json(node.operations.rays)},
                  {"hits", json_of(node.operations, hit_counters)},
@@ -177,7 +178,7 @@ Json host_json(const RenderRecord& record, const Account& account, const Json& s
   return result;
 }
 
-/// How the scene is placed, seen and lit, as the command line would say it; null where it says nothing.
+/// Adds the scene's transformation, view and lights as on the command line; null if not given.
 void add_scene_setup(Json& options, const SceneSetup& scene_setup) {
   const MeshOptions& mesh = scene_setup.mesh;
   options["camera"] = scene_setup.camera ? Json(text_of(*scene_setup.camera)) : Json();
@@ -348,7 +349,7 @@ std::string stats_json(const RenderRecord& record) {
   all["nodes"] = nodes_json(account, special, timed);
   all["ranks"] = ranks_json(account.ranks, record.options.trace.path || record.options.report);
   all["host"] = host_json(record, account, special.host, timed.host);
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be invalid UTF-8
 }
 
 }  // namespace dmpc::apps

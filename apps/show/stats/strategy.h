@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 struct StrategyStats {
   Json all, chaos, host;
   std::vector<Json> nodes;               ///< by number
-  std::uint64_t packets_overflowed = 0; ///< sent to the host for want of credits
+  std::uint64_t packets_overflowed = 0;  ///< sent to the host for want of credits
 };
 
 StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& report);

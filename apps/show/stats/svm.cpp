@@ -17,7 +17,7 @@ Json pages_json(const svm::PageCounters& pages, std::uint64_t pixels, bool count
   return all;
 }
 
-/// What pages, pixels and questions some nodes had to do with.
+/// Returns the pages, pixels and questions of some nodes.
 Json shares_json(const svm::PageCounters& pages, const svm::WorkCounters& work, const svm::QuestionCounters& questions,
                  const svm::Plan& plan) {
   Json shares = {{"pages", pages_json(pages, work.pixels_rendered, plan.request.pages.count_pages)}, {"work", json_of(work)}};

@@ -7,10 +7,10 @@
 namespace dmpc::apps {
 namespace {
 
-/// The nearest number, so that it shows as many digits as it has.
+/// Returns the nearest double, so that it prints with no more digits than it has.
 double seconds(std::uint64_t ns) { return static_cast<double>(ns) / 1e9; }
 
-/// `total_ns` of the run; the others of a node, or summed over the nodes.
+/// `total_ns` is of the run; the others are of a node, or summed over the nodes.
 Json times_json(std::uint64_t total_ns, const nodes::VirtualTimes& times, std::span<const char* const> kind_names) {
   Json waiting;
   for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {

@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// In one line.
+/// Joins a text into one line.
 std::string line_of(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
@@ -25,7 +25,7 @@ std::string window_text(const std::optional<TraceWindow>& window) {
   return window ? milliseconds(window->from_ns) + " to " + (window->to_ns ? milliseconds(*window->to_ns) : "the end") : "all";
 }
 
-/// How far times of different ranks may be compared.
+/// Returns how accurately times of different ranks can be compared.
 std::string clocks_text(const std::vector<nodes::RankFigures>& ranks, const nodes::Trace& trace) {
   std::uint64_t error_ns = 0;
   for (const nodes::RankFigures& rank : ranks) {

@@ -18,7 +18,7 @@ struct ErrorOptions {
   std::vector<std::string> scenes;
   MeasureOptions measure;
   TableOutput table;              ///< without a page
-  bool has_tessellation = false; ///< tessellation was requested by name: a scene without tessellations is refused
+  bool has_tessellation = false;  ///< tessellation was requested by name: a scene without tessellations is refused
   bool quiet = false;             ///< no progress
 };
 

@@ -13,7 +13,7 @@ namespace dmpc::apps {
 /// The cost of uniform samples for a root mean square error of one 8-bit step, 1/255, as a multiple of the cost of adaptive
 /// sampling.
 struct AdaptiveGain {
-  std::optional<double> seconds, rays; ///< nothing: not measured, or outside the measured range
+  std::optional<double> seconds, rays;  ///< nothing: not measured, or outside the measured range
 };
 AdaptiveGain adaptive_gain(const SceneResult& result);
 

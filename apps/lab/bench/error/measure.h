@@ -18,13 +18,13 @@ namespace dmpc::apps {
 
 struct MeasureOptions {
   PictureOptions picture;    ///< resolution and convention; samples and depth are the base point's; `scene` is not read
-  StrategyOptions strategy; ///< the strategy that renders, on threads
-  std::set<Knob> knobs; ///< tessellation only if the scene can be tessellated
+  StrategyOptions strategy;  ///< the strategy that renders, on threads
+  std::set<Knob> knobs;      ///< tessellation only if the scene can be tessellated
   bool is_quick = false;
   std::size_t rounds = 3;
   ReferenceOptions reference;
-  std::function<void(const SceneResult&)> reported; ///< called each time that a setting has been rendered for the first time
-  std::vector<NamedFile> outputs; ///< none of these may be a file that a scene is read from
+  std::function<void(const SceneResult&)> reported;  ///< called each time that a setting has been rendered for the first time
+  std::vector<NamedFile> outputs;                    ///< none of these may be a file that a scene is read from
 };
 
 /// Returns `text` as a part of a file's name: every character other than letters, digits and hyphens becomes a hyphen.

@@ -21,8 +21,8 @@ struct Measurement {
   std::uint64_t rays = 0;       ///< rays of all kinds
   std::uint64_t samples = 0;    ///< sum over all pixels
   std::uint64_t film_hash = 0;
-  PictureError error; ///< against the reference: all errors, including sampling
-  std::optional<PictureError> deterministic; ///< against the base point's picture, if that has the same samples; not for paths
+  PictureError error;                         ///< against the reference: all errors, including sampling
+  std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples; not for paths
 
   bool is_done() const { return !seconds.empty(); }
 };
@@ -31,11 +31,11 @@ struct SceneResult {
   std::string scene;
   int width = 0, height = 0;
   Setting base;
-  std::uint32_t emitters = 0; ///< number that the base point samples as lights
-  Reference reference; ///< its picture is emptied when the scene is finished
+  std::uint32_t emitters = 0;  ///< number that the base point samples as lights
+  Reference reference;         ///< its picture is emptied when the scene is finished
   std::uint32_t reference_samples_a_side = 0;
   std::vector<Point> points;
-  std::vector<std::size_t> measurement_of; ///< by point: the index of its setting's measurement
+  std::vector<std::size_t> measurement_of;  ///< by point: the index of its setting's measurement
   std::vector<Measurement> measurements;
   std::optional<PictureError> arithmetic;  ///< error of the base point's picture against the same samples in double
 

@@ -44,14 +44,14 @@ void check_knobs(const std::set<Knob>& knobs, bool are_by_paths);
 
 /// All knobs of one render.
 struct Setting {
-  int samples = 16; ///< per pixel; with refinement, in the first pass
+  int samples = 16;                                      ///< per pixel; with refinement, in the first pass
   double error = 0;                                      ///< core::RefinementOptions::error; 0: the same samples in all pixels
   double cutoff = 0;                                     ///< core::ShadeOptions::cutoff
   int depth = 8;                                         ///< PictureOptions::depth
   int tessellation = 0;                                  ///< core::SceneName::tessellation
-  std::optional<int> bounces = std::nullopt; ///< paths: TransportOptions::bounces, in place of depth and cutoff
-  int roulette_from = core::roulette_from; ///< paths: core::Transport::roulette_from
-  std::uint32_t emitters = TransportOptions().emitters; ///< paths: TransportOptions::emitters
+  std::optional<int> bounces = std::nullopt;             ///< paths: TransportOptions::bounces, in place of depth and cutoff
+  int roulette_from = core::roulette_from;               ///< paths: core::Transport::roulette_from
+  std::uint32_t emitters = TransportOptions().emitters;  ///< paths: TransportOptions::emitters
 
   bool operator==(const Setting&) const = default;
   bool is_refined() const { return error > 0; }
@@ -67,10 +67,10 @@ struct Point {
 
 struct SweepOptions {
   std::set<Knob> knobs;
-  std::vector<int> tessellations; ///< positions of that knob in addition to exact quadrics, above 0
+  std::vector<int> tessellations;  ///< positions of that knob in addition to exact quadrics, above 0
   bool is_quick = false;           ///< fewer positions of each knob
-  double error_least = 0; ///< the smallest error requested of a refined picture
-  std::uint32_t emitters = 0; ///< sampled by the base point; 0: there is nothing to vary
+  double error_least = 0;          ///< the smallest error requested of a refined picture
+  std::uint32_t emitters = 0;      ///< sampled by the base point; 0: there is nothing to vary
 };
 
 /// Returns the points by knob, from the cheapest position of each to the base point's or beyond. `base` is exact: neither refined

@@ -16,7 +16,7 @@ namespace dmpc::apps {
 struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
-  int depth = 5; ///< for paths, the transport's
+  int depth = 5;  ///< for paths, the transport's
   TransportOptions transport;
   /// Percentage of the pixels that have the same 8 bits; nothing: the usual or the measured one. The number of pixels that may
   /// differ is rounded up.
@@ -37,7 +37,7 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
 /// The expected percentage of a picture's pixels that have the same 8 bits in float and in double.
 struct Expectation {
   double percent = 0;
-  std::string reason; ///< why it is not higher
+  std::string reason;  ///< why it is not higher
 };
 
 /// Returns, for a family's own scene by its name, the value measured at 256x256 pixels and depth 5 with its own view and lights,

@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 struct SpeedOptions {
   SpeedSettings settings;
-  bool is_ablation = false; ///< then ablation is the only part
+  bool is_ablation = false;  ///< then ablation is the only part
   std::set<SpeedPart> parts = all_speed_parts();
   TableOutput table;   ///< without a page and plots
   bool quiet = false;  ///< no progress

@@ -37,11 +37,11 @@ struct Comparison {
   std::string scene;
   std::string what;               ///< "closest hit", "whole picture"
   std::string detail = {};        ///< a kind of `what`, such as the class of rays; may be empty
-  std::uint32_t threads = 0; ///< threads that worked, or nodes that rendered; 0: irrelevant
-  std::string subject, baseline; ///< names of the contenders
+  std::uint32_t threads = 0;      ///< threads that worked, or nodes that rendered; 0: irrelevant
+  std::string subject, baseline;  ///< names of the contenders
   std::string unit;               ///< unit of the figures: "Mray/s", "s"
-  Figures figures = {}; ///< times are wall clock, unless the unit says otherwise
-  Figures processor = {}; ///< processor time, if both clocks are used
+  Figures figures = {};           ///< times are wall clock, unless the unit says otherwise
+  Figures processor = {};         ///< processor time, if both clocks are used
 
   /// As above with a single round of these figures.
   Comparison once(double subject_figure, double baseline_figure) const;
@@ -83,7 +83,7 @@ class Matches {
  private:
   struct Pair {
     std::size_t subject, baseline, figure;
-    std::size_t comparison; ///< its index among the results
+    std::size_t comparison;  ///< its index among the results
     Figures Comparison::*figures = &Comparison::figures;
 
     std::size_t later() const { return std::max(subject, baseline); }

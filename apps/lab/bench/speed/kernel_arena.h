@@ -23,7 +23,7 @@ const char* name_of(Contender contender);
 /// Result of tracing some rays.
 struct RaysTraced {
   std::uint64_t hits = 0;
-  double seconds = 0; ///< processor time of the busiest thread
+  double seconds = 0;  ///< processor time of the busiest thread
 };
 
 class KernelArena {
@@ -46,7 +46,7 @@ class KernelArena {
   Subject subject_;
   Recording recording_;
   EmbreeTree robust_, fast_;
-  std::vector<std::unique_ptr<WarmPager>> pagers_; ///< one node each, by thread
+  std::vector<std::unique_ptr<WarmPager>> pagers_;  ///< one node each, by thread
 };
 
 }  // namespace dmpc::apps

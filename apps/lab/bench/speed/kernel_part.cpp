@@ -27,7 +27,7 @@ struct Match {
   RayClass ray_class;
   Query query;
   std::uint32_t threads;
-  std::array<std::uint64_t, contender_count> hits{}; ///< of each in the last round
+  std::array<std::uint64_t, contender_count> hits{};  ///< of each in the last round
 
   double ray_count() const { return static_cast<double>(arena.ray_count(ray_class)); }
   std::uint64_t hits_of(Contender contender) const { return hits[static_cast<std::size_t>(contender)]; }

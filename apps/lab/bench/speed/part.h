@@ -30,15 +30,15 @@ std::set<SpeedPart> all_speed_parts();
 std::set<SpeedPart> parse_speed_parts(const std::string& text);
 
 struct SpeedSettings {
-  std::vector<std::string> scenes; ///< empty: those of each part
+  std::vector<std::string> scenes;           ///< empty: those of each part
   bool is_quick = false;                     ///< fewer rays, rounds, pixels and large scenes
-  std::optional<std::size_t> rounds; ///< nothing: the part's default
+  std::optional<std::size_t> rounds;         ///< nothing: the part's default
   std::vector<std::uint32_t> thread_counts;  ///< for the part `kernel`, each once, ascending
-  std::optional<Resolution> resolution; ///< nothing: the part's default
-  std::filesystem::path program; ///< dmpc itself, to be run as a separate process
-  std::vector<NamedFile> outputs; ///< none of these may be a file that a scene is read from
+  std::optional<Resolution> resolution;      ///< nothing: the part's default
+  std::filesystem::path program;             ///< dmpc itself, to be run as a separate process
+  std::vector<NamedFile> outputs;            ///< none of these may be a file that a scene is read from
 
-  SpeedSettings(); ///< One thread and all cores.
+  SpeedSettings();  ///< One thread and all cores.
 
   std::vector<std::string> scenes_of(SpeedPart part) const;
   std::size_t rounds_of(SpeedPart part) const;

@@ -38,11 +38,11 @@ class PlainLobes {
  private:
   float all() const { return scattered_ + mirrored_ + through_; }
 
-  std::optional<FacetLobes<float>> facets_; ///< if set, it replaces everything else
+  std::optional<FacetLobes<float>> facets_;  ///< if set, it replaces everything else
   const PlainSurface& surface_;
   core::Vec3f direction_;
   float index_, behind_ = 0;
-  core::Color matt_, mirror_; ///< diffuse reflectance, and that of a mirror
+  core::Color matt_, mirror_;  ///< diffuse reflectance, and that of a mirror
   float scattered_ = 0, mirrored_ = 0, through_ = 0;
 };
 

@@ -33,9 +33,9 @@ using S = Strategy;
 /// One of the contenders that render.
 struct PlainContender {
   std::uint32_t count;                              ///< number of threads or nodes
-  std::optional<Strategy> strategy = std::nullopt; ///< nothing: the plain renderer
+  std::optional<Strategy> strategy = std::nullopt;  ///< nothing: the plain renderer
   RunnerKind runner = RunnerKind::threads;
-  bool is_command = false; ///< also timed as a whole command
+  bool is_command = false;  ///< also timed as a whole command
   TracerChoice tracer = TracerChoice::grid;
 };
 constexpr std::array<PlainContender, 17> plain_contenders = {{{1},

@@ -89,7 +89,7 @@ struct Walk {
   Vec3f origin, direction;
   Color weight{1, 1, 1};
   int depth = 1;
-  bool is_scattered = false; ///< a surface scattered it before: it finds no background
+  bool is_scattered = false;                               ///< a surface scattered it before: it finds no background
   float density = std::numeric_limits<float>::infinity();  ///< probability density of the direction
 
   core::SamplePair pair(core::Purpose purpose) const { return core::pair_of(pixel, sample, depth, purpose); }

@@ -32,7 +32,7 @@ struct PlainCamera {
 /// Replaces highlight and mirror for a microfacet surface.
 struct PlainFacets {
   float metallic = 0, alpha = 1, reflectance = 0;
-  float there = 1; ///< the share of the surface that is present
+  float there = 1;  ///< the share of the surface that is present
 };
 
 /// A surface with its material extension. A picture in which alpha matters is textured, and is not compared.
@@ -53,7 +53,7 @@ struct PlainMaterial : core::MaterialRecord {
 /// The data of a hit for shading.
 struct PlainSurface {
   core::Vec3f point;
-  core::Vec3f geometric_normal, normal; ///< unit vectors; `normal` is the shading normal, on the ray's side
+  core::Vec3f geometric_normal, normal;  ///< unit vectors; `normal` is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
   float radius = 0;  ///< curved surfaces only

@@ -25,7 +25,7 @@ const char* name_of(RayClass ray_class);
 /// Some of the bundles; their owner keeps the rays.
 struct BundleSpan {
   std::span<const core::Ray> all;          ///< the owner's rays
-  std::span<const std::uint32_t> borders; ///< borders of the bundles in `all`: one more than there are bundles
+  std::span<const std::uint32_t> borders;  ///< borders of the bundles in `all`: one more than there are bundles
 
   std::size_t count() const { return borders.size() - 1; }
   std::span<const core::Ray> bundle(std::size_t index) const { return between(borders[index], borders[index + 1]); }

@@ -16,7 +16,7 @@ namespace dmpc::apps {
 struct ClosedBody {
   std::string name;
   core::Scene scene;
-  std::function<core::Vec3d(Random&)> inside; ///< a random point well inside it
+  std::function<core::Vec3d(Random&)> inside;  ///< a random point well inside it
   bool is_mesh = true;                         ///< has triangles and polygons only
 
   /// Returns a random point well outside it.

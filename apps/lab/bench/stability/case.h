@@ -28,9 +28,9 @@ ShootRays each_ray(ShootOne shoot_one) {
 }
 
 struct StabilityCase {
-  std::string row; ///< the table's row in which it counts: "R1 closed meshes". The first word is the test
-  std::string name; ///< unique within the row
-  std::uint64_t rays = 0; ///< to be shot
+  std::string row;                     ///< the table's row in which it counts: "R1 closed meshes". The first word is the test
+  std::string name;                    ///< unique within the row
+  std::uint64_t rays = 0;              ///< to be shot
   std::function<ShootRays()> prepare;  ///< builds the subject
 
   std::string test() const { return row.substr(0, row.find(' ')); }

@@ -15,8 +15,8 @@ namespace dmpc::apps {
 struct StabilityOptions {
   static constexpr std::uint64_t standard_rays = 100'000, quick_rays = 10'000;
 
-  std::uint64_t rays = standard_rays; ///< for each row of the table; 0: each test's number of the long run
-  bool quick = false, is_long = false; ///< the command line's words for quick_rays and 0; `rays` has the value
+  std::uint64_t rays = standard_rays;   ///< for each row of the table; 0: each test's number of the long run
+  bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` has the value
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;
   TableOutput table;   ///< without a page and plots

@@ -24,7 +24,7 @@ double failure_rate_bound(std::uint64_t failures, std::uint64_t tried) {
   if (failures == 0) {
     return std::min(1.0, 3.0 / static_cast<double>(tried));
   }
-  constexpr double normal_quantile = 1.6448536269514722; // 95 % quantile of a normal distribution
+  constexpr double normal_quantile = 1.6448536269514722;  // 95 % quantile of a normal distribution
   const double count = static_cast<double>(failures) + 1;
   const double root = 1 - 1 / (9 * count) + normal_quantile / (3 * std::sqrt(count));
   return std::min(1.0, count * root * root * root / static_cast<double>(tried));

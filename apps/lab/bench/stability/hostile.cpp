@@ -75,7 +75,7 @@ void count_answers(const Ray& ray, const StabilityAnswers& answers, KernelCounts
     } else if (must_agree && !(any_hit ? answers[k].found() == grid.found() : same_hit(answers[k], grid))) {
       ++counts[k].unexplained;
     } else if (!must_agree && answers[k].primitive != grid.primitive) {
-      ++counts[k].explained; // if numbers overflow, there is no right answer
+      ++counts[k].explained;  // if numbers overflow, there is no right answer
     }
   }
 }

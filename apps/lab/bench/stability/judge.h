@@ -11,8 +11,8 @@ struct StabilityExpectation {
   enum class Must : std::uint8_t { either, hit, miss };
 
   Must must = Must::either;         ///< by geometry: rays that start in a closed body hit
-  bool to_referee = false; ///< use brute force even if all kernels agree
-  const core::Hit* bits = nullptr; ///< exact bits of the grid kernels' answer; if not set, those that `grid` answers
+  bool to_referee = false;          ///< use brute force even if all kernels agree
+  const core::Hit* bits = nullptr;  ///< exact bits of the grid kernels' answer; if not set, those that `grid` answers
 };
 
 /// Counts `ray` and its answers. A kernel that disagrees with another one (or is sampled) is judged by the referee, which shares

@@ -40,17 +40,17 @@ struct StabilitySubject {
 enum class StabilityKernel : std::uint8_t {
   grid,           ///< the traversal with vectors of 8 triangles
   scalar,         ///< the traversal with the scalar twin
-  plain, ///< the traversal that leaves empty space cell by cell
+  plain,          ///< the traversal that leaves empty space cell by cell
   resumed,        ///< the traversal stopped by an absent record before each of its steps
-  bundle, ///< the traversal in a bundle with three other rays
+  bundle,         ///< the traversal in a bundle with three other rays
   any_hit,        ///< as a shadow ray: only whether there is a hit
   voxels,         ///< the traversal of a plain grid of voxels with lists, over the same scene
-  voxels_bundle, ///< as above, in a bundle with three other rays
+  voxels_bundle,  ///< as above, in a bundle with three other rays
   embree_fast,    ///< Embree without its robust flag
-  embree_robust, ///< Embree with its robust flag
-  regions, ///< the traversal from owner to owner of a space cut into regions
+  embree_robust,  ///< Embree with its robust flag
+  regions,        ///< the traversal from owner to owner of a space cut into regions
   planes,         ///< the traversal's planes alone, finest cell by finest cell
-  listing, ///< no traversal: the primitives that the boxes around a point list
+  listing,        ///< no traversal: the primitives that the boxes around a point list
   certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };
 inline constexpr std::size_t stability_kernel_count = 14;

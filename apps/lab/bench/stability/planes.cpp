@@ -55,7 +55,7 @@ class Sequence {
     std::optional<Passage> passage = first_passage(ray, frame_);
     ++count.tried;
     if (!passage) {
-      ++count.leaks; // aimed at a point inside
+      ++count.leaks;  // aimed at a point inside
       return;
     }
     const Corner size = core::grid_size(frame_);

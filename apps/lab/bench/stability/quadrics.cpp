@@ -24,7 +24,7 @@ using Vec3l = core::Vec3<Long>;
 /// remains. 64 bits of mantissa are 11 more than the kernels have.
 struct Roots {
   Long first = 0, second = 0;
-  Long doubt = 0; ///< how far 2^-60 of the coefficients moves a root
+  Long doubt = 0;  ///< how far 2^-60 of the coefficients moves a root
   bool exist = false;
 };
 
@@ -78,7 +78,7 @@ void judge_distance(const Roots& roots, double t, StabilityCounts& count) {
     return;
   }
   if (!(roots.doubt < last_place(roots.first))) {
-    ++count.explained; // a tangent: the reference is not accurate enough
+    ++count.explained;  // a tangent: the reference is not accurate enough
     return;
   }
   const Long off = std::min(std::fabs(static_cast<Long>(t) - roots.first), std::fabs(static_cast<Long>(t) - roots.second));

@@ -23,7 +23,7 @@ struct GltfFile {
   const BytesOfNamed& bytes_of;
   FilePlaces& places;
   std::map<const PlacesJson*, std::string> buffers = {};
-  std::multimap<std::size_t, core::View> cameras = {};  ///< by their places in the document, then as the tree has them
+  std::multimap<std::size_t, core::View> cameras = {};  ///< by their indices in the document, then in the order of the tree
 };
 
 std::size_t whole(double number) {
@@ -33,7 +33,7 @@ std::size_t whole(double number) {
   return static_cast<std::size_t>(number);
 }
 
-/// What the document lists, and a member of `part` names.
+/// Returns the element of the document's list that a member of `part` refers to.
 const PlacesJson& listed(const GltfFile& file, const char* list, const PlacesJson& part, const char* name) {
   return file.json.at(list).at(whole(part.at(name).get<double>()));
 }
@@ -67,7 +67,7 @@ const std::string& buffer_of(GltfFile& file, const PlacesJson& view) {
   return known->second;
 }
 
-/// Calls take(i, bytes) for `count` elements that lie where `part` says.
+/// Calls take(i, bytes) for `count` elements at the location given by `part`.
 template <class Take>
 void for_each_element(GltfFile& file, const PlacesJson& part, std::size_t count, std::size_t element_bytes, const Take& take) {
   const PlacesJson& view = listed(file, "bufferViews", part, "bufferView");
@@ -83,7 +83,7 @@ void for_each_element(GltfFile& file, const PlacesJson& part, std::size_t count,
   }
 }
 
-/// All of the accessor that `part` names, `width` for each of its elements.
+/// Returns all values of the accessor that `part` names, `width` for each of its elements.
 Numbers numbers_of(GltfFile& file, const PlacesJson& part, const char* name, std::size_t width) {
   const PlacesJson& accessor = listed(file, "accessors", part, name);
   const std::size_t count = whole(accessor.at("count").get<double>()), type = whole(accessor.at("componentType").get<double>());
@@ -110,7 +110,7 @@ Numbers numbers_of(GltfFile& file, const PlacesJson& part, const char* name, std
   return numbers;
 }
 
-/// Where the axes and the origin of a node's coordinates are.
+/// The axes and the origin of a node's coordinates.
 struct NodeAxes {
   Vec3d x, y, z, origin;
 
@@ -121,7 +121,7 @@ struct NodeAxes {
   }
 };
 
-/// Turned by a quaternion (q, w), v is v + 2 w (q x v) + 2 q x (q x v).
+/// A quaternion (q, w) rotates v to v + 2 w (q x v) + 2 q x (q x v).
 NodeAxes axes_of_node(const PlacesJson& node) {
   const auto vector = [](const Numbers& from, std::size_t i) { return Vec3d{from.at(i), from.at(i + 1), from.at(i + 2)}; };
   if (node.contains("matrix")) {
@@ -135,7 +135,7 @@ NodeAxes axes_of_node(const PlacesJson& node) {
           vector(node.value("translation", Numbers{0, 0, 0}), 0)};
 }
 
-/// A mask that no texture raises to its cutoff hides the whole primitive.
+/// Returns whether a mask that no texture raises to its cutoff hides the whole primitive.
 bool is_cut_away(const GltfFile& file, const PlacesJson& primitive) {
   static const PlacesJson plain = PlacesJson::object();
   const PlacesJson& material = primitive.contains("material") ? listed(file, "materials", primitive, "material") : plain;
@@ -161,18 +161,18 @@ void add_primitive(GltfFile& file, const PlacesJson& primitive, const NodeAxes& 
   }
 }
 
-/// Its angle goes from edge to edge of the vertical, a view's between the middles of the outer pixels of the shorter side.
+/// A glTF angle spans the vertical from edge to edge, a view's spans the middles of the outer pixels of the shorter side.
 core::View view_of_camera(const PlacesJson& camera, const NodeAxes& axes, const Resolution& size) {
   const double angle = camera.value(JsonPointer("/perspective/yfov"), 0.0);
   const double slope = std::tan(angle / 2) * std::max(1, std::min(size.width, size.height) - 1) / size.height;
-  const double far = std::max(1.0, largest_component(axes.origin));  // so that the place leaves the direction its digits
+  const double far = std::max(1.0, largest_component(axes.origin));  // keeps the digits of the direction at a distant position
   return {.from = axes.origin,
           .at = axes.origin - axes.z * far,
           .up = axes.y,
           .angle_degrees = 2 * std::atan(slope) * 180 / std::numbers::pi};
 }
 
-/// With all below it. A hidden one has nothing to show.
+/// Adds the node with its subtree. A hidden node has nothing to show.
 void add_node(GltfFile& file, const PlacesJson& index, const NodeAxes& above, const Resolution& size, int level) {
   constexpr int levels_max = 2000;
   const PlacesJson& node = file.json.at("nodes").at(whole(index.get<double>()));
@@ -200,7 +200,7 @@ void add_node(GltfFile& file, const PlacesJson& index, const NodeAxes& above, co
   }
 }
 
-/// The chunk of a .glb that begins there.
+/// Returns the chunk of a .glb that begins there.
 std::string_view chunk_at(std::string_view file, std::size_t at) {
   std::uint32_t bytes = 0;
   if (at + 8 > file.size()) {
@@ -231,7 +231,7 @@ void read_gltf_places(const std::string& file, const BytesOfNamed& bytes_of, dou
   for (const PlacesJson& root : scene.value("nodes", PlacesJson::array())) {
     add_node(read, root, {{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, {}}, size, 0);
   }
-  for (const auto& [index, view] : read.cameras) {  // the first that makes a picture
+  for (const auto& [index, view] : read.cameras) {  // the first that gives a picture
     places.view = places.view || fault_of(view) ? places.view : std::optional(view);
   }
 }

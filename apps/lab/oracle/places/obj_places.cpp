@@ -11,7 +11,8 @@ namespace {
 
 using ObjWords = std::vector<std::string>;
 
-/// Words of the next line; a backslash at its end, outside a comment, joins it with the next. Nothing after the last line.
+/// Returns the words of the next line; a backslash at its end, outside a comment, joins it with the next. Returns nothing after
+/// the last line.
 std::optional<ObjWords> next_words(std::istream& lines) {
   std::string line, more;
   bool is_there = false, goes_on = true;
@@ -32,7 +33,7 @@ void read_obj_places(std::string file, double scale, FilePlaces& places) {
   }
   std::istringstream lines(std::move(file));
   std::vector<core::Vec3d> vertices, face;
-  std::vector<std::vector<std::size_t>> faces;  // whose vertices may follow
+  std::vector<std::vector<std::size_t>> faces;  // their vertices may follow later
   while (const auto words = next_words(lines)) {
     places.spend(1);
     const std::size_t count = words->size();

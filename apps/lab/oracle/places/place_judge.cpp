@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Contents of the first of these files that the product has opened, too.
+/// Returns the contents of the first of these files that the product has also opened.
 std::string bytes_of_opened(const std::vector<fs::path>& meant, const OpenedFiles& opened) {
   constexpr std::uintmax_t bytes_max = std::uintmax_t{1} << 28U;
   for (const fs::path& path : meant) {
@@ -53,8 +53,8 @@ constexpr double place_rounding = 0x1p-49;
 
 struct Spot {
   core::Vec3d point;
-  double pixel = 0;  ///< how wide one is there; 0: the ray meets nothing
-  double slack = 0;  ///< how far from there rays beside meet the same surface
+  double pixel = 0;  ///< width of a pixel there; 0: the ray hits nothing
+  double slack = 0;  ///< distance within which neighbouring rays hit the same surface
 };
 
 /// First hits of the faces of a scene.
@@ -80,8 +80,8 @@ class FirstHits {
   ReferenceFinder finder_;
 };
 
-/// In pixels; 0 for one place. An edge may lie so near to the ray that rounding decides which side it passes: then a ray beside
-/// it sees what was read.
+/// Returns the difference in pixels; 0 for the same position. If an edge lies so near to the ray that rounding decides which side
+/// it passes, a ray beside it sees what was read.
 double apart_at(const FirstHits& read, const FirstHits& own, double column, double row) {
   constexpr std::array<std::array<double, 2>, 5> beside{{{0, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}};
   const Spot spot = read.at(column, row);

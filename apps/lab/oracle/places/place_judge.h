@@ -11,8 +11,8 @@
 namespace dmpc::apps {
 
 struct PlaceFindings {
-  std::string not_judged = {}; ///< why the file was not judged; empty: it was
-  std::uint64_t pixels = 0, elsewhere = 0; ///< `elsewhere`: pixels that see another position than the file has there
+  std::string not_judged = {};              ///< why the file was not judged; empty: it was
+  std::uint64_t pixels = 0, elsewhere = 0;  ///< `elsewhere`: pixels that see another position than the file has there
   std::string worst, where;                 ///< worst case: "3.2 pixels off", "pixel (10, 20)"
 };
 

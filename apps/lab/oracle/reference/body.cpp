@@ -11,7 +11,7 @@ namespace {
 using core::PrimitiveKind;
 using core::Vec3d;
 
-/// Beyond it the product leaves primitives out, too.
+/// The product also leaves out primitives beyond it.
 constexpr double coordinate_max = 1e30;
 
 bool is_usable(const Vec3d& v) {
@@ -20,14 +20,14 @@ bool is_usable(const Vec3d& v) {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
-/// The volume of the ray's direction with an edge, as seen from the ray's origin: from the edge's middle, so that it loses no
-/// more than the ray's distance times the edge's length, which is little of a small triangle that is far away. Swapping the
-/// edge's ends changes the sign and nothing else, in floating point as well.
+/// Returns the volume of the ray's direction with an edge, as seen from the ray's origin. It is computed from the edge's middle,
+/// so its error is at most relative to the ray's distance times the edge's length, which is small for a small, distant triangle.
+/// Swapping the edge's ends changes only the sign, in floating point as well.
 double volume(const ReferenceRay& ray, const Vec3d& from, const Vec3d& to) {
   return dot((from + to) * 0.5 - ray.origin, cross(to - from, ray.direction));
 }
 
-/// With each corner's opposite edge.
+/// Returns the volumes with each corner's opposite edge.
 std::array<double, 3> volumes(const ReferenceBody& body, const ReferenceRay& ray) {
   const auto& [a, b, c] = body.place;
   return {volume(ray, b, c), volume(ray, c, a), volume(ray, a, b)};
@@ -79,7 +79,8 @@ std::optional<double> to_cone(const ReferenceBody& body, const ReferenceRay& ray
   const ConeAxis cone = axis_of(body);
   const Vec3d middle = cone.base + cone.axis * (cone.height / 2);
   const double rise = dot(ray.direction, cone.axis), widest = std::max(cone.base_radius, std::fabs(body.radius[1]));
-  // One that is thin all but lies in a plane. Off where the ray crosses that, its two sheets would be one to doubles.
+  // A thin cone almost lies in a plane. Away from the point at which the ray crosses that plane, doubles could not distinguish
+  // its two sheets.
   const bool is_crossed = cone.height < thin_share * std::fabs(rise) * widest;
   const double shift =
       is_crossed ? dot(middle - ray.origin, cone.axis) / rise : dot(middle - ray.origin, ray.direction) / squared(ray.direction);
@@ -132,7 +133,7 @@ bool is_usable(const ReferenceBody& body) {
 
 namespace {
 
-/// The other root, once one is where the ray starts.
+/// Returns the other root, once one is the ray's start.
 std::optional<double> if_ahead(double other, const ReferenceRay& ray) {
   return other > 0 && other < ray.t_max ? std::optional(other) : std::nullopt;
 }

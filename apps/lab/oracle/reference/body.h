@@ -28,8 +28,8 @@ struct ReferenceBody {
   std::uint32_t first_normal = flat;      ///< smooth triangle: index of its three normals in ReferenceScene::normals
   std::uint32_t first_place = flat;       ///< textured triangle: index of its three texture coordinates in ReferenceScene::places
   std::uint32_t first_color = flat;       ///< triangle with vertex colours: index in ReferenceScene::colors
-  bool is_light_sampled = false; ///< paths sample it as a light, as it emits
-  std::array<std::uint32_t, 3> corner{}; ///< triangle: its corners' indices in the object
+  bool is_light_sampled = false;          ///< paths sample it as a light, as it emits
+  std::array<std::uint32_t, 3> corner{};  ///< triangle: its corners' indices in the object
 
   bool is_smooth() const { return first_normal != flat; }
   bool is_textured() const { return first_place != flat; }
@@ -38,8 +38,8 @@ struct ReferenceBody {
 
 /// The point that a ray hits.
 struct ReferenceSurface {
-  core::Vec3d point; ///< on the body, however t was rounded
-  core::Vec3d normal; ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
+  core::Vec3d point;               ///< on the body, however t was rounded
+  core::Vec3d normal;              ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
   std::array<double, 3> weight{};  ///< a triangle's barycentric coordinates
 };
 

@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// In diagonals of what is seen: nearer eyes need no more than double.
+/// In diagonals of the visible scene: double is enough for nearer eyes.
 constexpr long double far_eye = 64;
 
 long double lead_to(const core::Box& bounds, const core::Vec3<long double>& eye) {
@@ -51,7 +51,7 @@ ReferenceRay ReferenceCamera::ray_through(double column, double row) const {
   return ray;
 }
 
-/// The lesser singular value of the two changes of the direction.
+/// Returns the lesser singular value of the two changes of the direction.
 double narrow_angle(const ReferenceRay& ray) {
   const auto& [column, row] = ray.apart;
   const double first = dot(column, column), second = dot(row, row);

@@ -28,7 +28,7 @@ class ReferenceCamera {
   using Vec3l = core::Vec3<long double>;
 
   Vec3l eye_, forward_, right_, down_;  ///< right_, down_: one pixel's step in the plane at distance 1
-  long double lead_ = 0; ///< distance from the eye at which rays start
+  long double lead_ = 0;                ///< distance from the eye at which rays start
   int width_, height_;
 };
 

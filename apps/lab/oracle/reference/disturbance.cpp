@@ -12,13 +12,13 @@ using core::Vec3d;
 
 /// The product counts shares of levels and of probes in steps of half of this.
 constexpr double share_rounding = 0x1p-15;
-/// What rounding takes of a value with its rest; and of a ray with its own.
+/// Relative error of rounding a value with its rest, and a ray with its rest.
 constexpr double curved_rounding = 0x1p-32;
 constexpr double rest_rounding = 0x1p-45;
-/// What the product's secondary rays start off their surface by, grid-local, and how much farther along their way.
+/// Offset of the product's secondary rays from their surface, grid-local, and its multiple along their way.
 constexpr double clearance = 0x1p-20, tie_clearance = 0x1p-23, clearances_along = 8;
 
-/// The height of the triangle or the cone, whose normal turns where an end of it is moved.
+/// Returns the height of the triangle or the cone, whose normal turns if one of its ends is moved.
 double height_of(const ReferenceBody& body) {
   const Vec3d a = body.place[1] - body.place[0], b = body.place[2] - body.place[0];
   return body.kind == core::PrimitiveKind::cone ? length(a)
@@ -49,7 +49,7 @@ void Disturbance::shoot(ReferenceRay& ray) {
     const double across = std::copysign(is_flat_ ? std::max(gap - along * std::fabs(cosine), 0.0) : 0.0, cosine);
     ray.origin = ray.origin + (ray.direction * along + normal_ * across) * (0.75 + random() / 4);
   }
-  // A shadow ray is aimed from where it starts.
+  // A shadow ray is aimed from its start.
   const Vec3d direction = ray.kind == core::RayKind::shadow ? normalize(end - ray.origin) : ray.direction;
   const bool is_rounded = is_smooth_ || ray.kind == core::RayKind::refracted;
   ray.direction = normalize(direction + random_vector() * (is_rounded ? 4 * float_rounding : rest_rounding));

@@ -26,7 +26,7 @@ constexpr double level_reach = 1e-9;
 
 using Vec3l = core::Vec3<long double>;
 
-/// Relative to a coordinate: a double is off by 2^-53 of it, and a few rotations and translations add as much each.
+/// Relative to a coordinate: a double's error is 2^-53 of it, and each of a few rotations and translations adds as much.
 constexpr long double corner_rounding = 0x1p-51L;
 
 struct Leaf {
@@ -45,11 +45,11 @@ struct Leaf {
   std::array<Vec3l, 3> corner;
   Vec3l area, normal;
   long double longest = 0;
-  long double moved = 0;  ///< how far rounding moves a corner across the plane
+  long double moved = 0;  ///< how far rounding moves a corner perpendicularly to the plane
 };
 
-/// Whether both are triangles of one plane: the corners of the smaller one lie in the plane of the other, within the rounding of
-/// coordinates to double (2^-51 of each, as after a few rotations of a scene). Others are apart.
+/// Returns whether both are triangles of one plane: the corners of the smaller one lie in the plane of the other, within the
+/// rounding of coordinates to double (2^-51 of each, as after a few rotations of a scene).
 bool share_plane(const ReferenceScene& scene, std::uint32_t a, std::uint32_t b) {
   const ReferenceBody &first = scene.bodies[a], &second = scene.bodies[b];
   if (first.kind != core::PrimitiveKind::triangle || second.kind != core::PrimitiveKind::triangle) {
@@ -65,12 +65,12 @@ bool share_plane(const ReferenceScene& scene, std::uint32_t a, std::uint32_t b) 
   });
 }
 
-/// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
+/// Data of the current query for callbacks. Embree returns the address of `context`, the first member.
 struct Query {
   embree::Context context;
   const ReferenceRay* ray = nullptr;
   ReferenceHit best;
-  std::array<ReferenceHit, 32> level{};  ///< hits so near to each other that they may lie in one plane
+  std::array<ReferenceHit, 32> level{};  ///< hits so close together that they may lie in one plane
   std::size_t level_count = 0;
 };
 static_assert(std::is_standard_layout_v<Query>);
@@ -82,20 +82,20 @@ Query& query_of(embree::Context* context) { return *reinterpret_cast<Query*>(con
 struct ReferenceFinder::Parts {
   const ReferenceScene* scene = nullptr;
   Vec3d middle;
-  double unit = 1, margin = box_margin;  ///< a unit of Embree's in the world's; `margin` in Embree's
+  double unit = 1, margin = box_margin;  ///< Embree's unit in world units; `margin` in Embree's
   const embree::Library& library = embree::library();
   embree::OwnedScene boxes{RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH};
 
   void build();
   RTCRay embree_ray(const ReferenceRay& ray) const;
-  /// `t` in Embree's units, rounded up.
+  /// Returns `t` in Embree's units, rounded up.
   float end_of(double t) const;
-  /// Tests one body; returns whether it is the query's best so far, or level with that.
+  /// Tests one body; returns whether its hit is the query's best so far, or level with that.
   bool test(unsigned body, Query& query) const;
-  /// Whether it lies in the plane that the ray starts on, at its start.
+  /// Returns whether it lies in the plane on which the ray starts, at its start.
   bool starts_on(unsigned body, double t, const ReferenceRay& ray) const;
   void note_level(const ReferenceHit& hit, Query& query) const;
-  /// Who shows of those that are level with the best in its plane.
+  /// Returns the visible one of the hits that are level with the best in its plane.
   ReferenceHit shown(const Query& query) const;
   double reach() const { return level_reach * (scene->size + length(middle)); }
 

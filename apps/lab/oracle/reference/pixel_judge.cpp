@@ -20,7 +20,7 @@ constexpr double level = 64 * 0x1p-24;
 /// its end.
 constexpr double ray_end = 8e-6;
 
-/// A ray's light is a product of two floats at most, one of them the rounded background.
+/// A ray's light is a product of at most two floats, one of them the rounded background.
 constexpr double light_rounding = 4 * 0x1p-24;
 
 PixelCause undecided(const LoggedRay& ray) {
@@ -56,7 +56,7 @@ Judgement PixelJudge::judge(std::uint32_t pixel, const core::Vec3d& radiance) co
   return {cause, audit.largest_step, audit.error};
 }
 
-/// The film rounds what each ray brings to a step of its own.
+/// The film rounds each ray's light to its own step.
 bool PixelJudge::is_light_of(const ProductLog& product, const Audit& audit, const core::Vec3d& radiance) const {
   const core::Vec3d light = product.light(scene_.background) + audit.glow;
   const double steps = core::film_resolution / options_.film_scale.factor() * static_cast<double>(product.rays.size());

@@ -15,13 +15,13 @@ namespace dmpc::apps {
 /// The first point at which the rays of the two renderers differ, if they do.
 enum class PixelCause : std::uint8_t {
   tie,                ///< two surfaces lie so near to each other that rounding orders them
-  silhouette, ///< a ray passes a surface's silhouette within rounding
-  shadow_silhouette, ///< a shadow ray does so
-  ray_end, ///< an occluder lies within rounding of the shadow ray's start or end
-  terminator, ///< the surface all but turns away from a light, and rounding decides whether a shadow ray is sent
-  critical_angle, ///< rounding decides whether a ray still leaves glass
-  rounding, ///< the surfaces are the same all the way, and the colours differ by rounding alone
-  warned, ///< a surface is farther off than pixels may be without a warning, but no farther than was warned of
+  silhouette,         ///< a ray passes a surface's silhouette within rounding
+  shadow_silhouette,  ///< a shadow ray does so
+  ray_end,            ///< an occluder lies within rounding of the shadow ray's start or end
+  terminator,         ///< the surface all but turns away from a light, and rounding decides whether a shadow ray is sent
+  critical_angle,     ///< rounding decides whether a ray still leaves glass
+  rounding,           ///< the surfaces are the same all the way, and the colours differ by rounding alone
+  warned,             ///< a surface is farther off than pixels may be without a warning, but no farther than was warned of
   unexplained         ///< none of these: an error of one of the renderers
 };
 inline constexpr std::size_t pixel_cause_count = 9;
@@ -30,7 +30,7 @@ std::string_view name_of(PixelCause cause);
 struct Judgement {
   PixelCause cause{};
   double largest_step = 0;  ///< from the pixel's Audit
-  std::string error; ///< of an unexplained pixel
+  std::string error;        ///< of an unexplained pixel
 };
 
 /// Follows a pixel's rays in both renderers to the first point where they differ. The pixel is explained if its light is that of
@@ -57,7 +57,7 @@ class PixelJudge {
   const ReferenceScene& scene_;
   const ReferenceFinder& finder_;
   const ReferenceCamera& camera_;
-  double unit_; ///< the product's grid-local unit in world units
+  double unit_;  ///< the product's grid-local unit in world units
 };
 
 }  // namespace dmpc::apps

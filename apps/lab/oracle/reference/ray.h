@@ -15,8 +15,8 @@ struct ReferenceRay {
   core::Vec3d origin;
   core::Vec3d direction;                                   ///< unit vector
   double t_max = std::numeric_limits<double>::infinity();  ///< hits count in (0, t_max)
-  std::uint32_t ignored_body = core::no_primitive; ///< the body on which it starts; only its far side can be hit
-  core::Vec3d weight{1, 1, 1}; ///< factor of the light it finds; for a shadow ray, the light that it brings if nothing blocks it
+  std::uint32_t ignored_body = core::no_primitive;         ///< the body on which it starts; only its far side can be hit
+  core::Vec3d weight{1, 1, 1};  ///< factor of the light it finds; for a shadow ray, the light that it brings if nothing blocks it
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;
   std::uint32_t light = 0;  ///< shadow ray: index into the scene's lights
@@ -26,7 +26,7 @@ struct ReferenceRay {
   std::array<core::Vec3d, 2> apart{};
   /// core::density_of() the bits of the density with which a surface scattered it; infinite for all others.
   double density = std::numeric_limits<double>::infinity();
-  std::uint32_t pixel = 0, sample = 0; ///< determine a path's random numbers
+  std::uint32_t pixel = 0, sample = 0;  ///< determine a path's random numbers
 };
 
 /// Returns the narrower of the two angles, in radians, under which a ray's pixel is seen from the eye.

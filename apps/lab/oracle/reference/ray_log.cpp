@@ -16,7 +16,7 @@ using core::Vec3d;
 
 std::uint64_t joined(std::uint64_t path, std::uint64_t step) { return core::mix(path * 0x9e3779b97f4a7c15ULL + step + 1); }
 
-/// Names rays as they come, depth first.
+/// Names rays in depth-first order.
 class PathNamer {
  public:
   PathNamer() : levels_(1) {}
@@ -36,10 +36,10 @@ class PathNamer {
   struct Level {
     std::uint64_t path = 0, hit = 0;
   };
-  std::vector<Level> levels_;  ///< by depth: the last ray that hit, and what its children's names begin with
+  std::vector<Level> levels_;  ///< by depth: the last ray that hit, and the prefix of its children's names
 };
 
-/// A core::Tracer that notes what the grid answers.
+/// A core::Tracer that records the grid's answers.
 class NotingTracer {
  public:
   using Grid = core::GridTracer<core::LocalRecords>;
@@ -85,7 +85,7 @@ class NotingTracer {
             .light = noted.light,
             .cone = core::cone_width(ray) / frame_.scale};
   }
-  /// The light that a shadow ray goes to: of those after the last one of this hit, the one nearest to the ray's end.
+  /// Returns the light of a shadow ray: of those after the last one of this hit, the one nearest to the ray's end.
   std::uint32_t next_light(const core::Ray& ray) {
     const Vec3d end = ray.full_origin() + ray.full_direction() * static_cast<double>(ray.t_max);
     std::uint32_t nearest = light_;
@@ -102,7 +102,7 @@ class NotingTracer {
   std::span<const std::uint32_t> bodies_;
   const core::GridFrame& frame_;
   PathNamer namer_;
-  std::uint32_t light_ = 0;  ///< the least that the next shadow ray can go to
+  std::uint32_t light_ = 0;  ///< the first that the next shadow ray can go to
 };
 
 class NotingWatcher final : public RayWatcher {
@@ -124,7 +124,7 @@ class NotingWatcher final : public RayWatcher {
   PathNamer namer_;
 };
 
-/// Whether rounding the body's corners gives the primitive's floats; of spheres and cones there is one an object.
+/// Returns whether rounding the body's corners gives the primitive's floats; spheres and cones are one for each object.
 bool same_values(const ReferenceBody& body, const core::PrimitiveValues& values, const core::GridFrame& frame) {
   if (body.kind != core::PrimitiveKind::triangle || values.kind != body.kind) {
     return values.kind == body.kind;
@@ -159,7 +159,7 @@ Vec3d ProductLog::light(const Vec3d& background) const {
 
 std::vector<std::uint32_t> bodies_of_primitives(const ReferenceScene& scene, const core::Database& database) {
   std::vector<std::uint32_t> bodies(database.primitives().size(), core::no_primitive);
-  std::vector<std::uint32_t> next;  // by object: its first body that no primitive is yet
+  std::vector<std::uint32_t> next;  // by object: its first body without a primitive so far
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
     const std::uint32_t object = scene.bodies[body].object;
     next.resize(std::max<std::size_t>(next.size(), object + std::size_t{1}), body);

@@ -21,7 +21,7 @@ struct LoggedRay {
   core::RayKind kind{};
   std::uint32_t light = 0;  ///< shadow ray only
   bool hit = false;
-  std::uint32_t body = core::no_primitive; ///< that was hit, an index into ReferenceScene::bodies
+  std::uint32_t body = core::no_primitive;  ///< that was hit, an index into ReferenceScene::bodies
   double t = 0;                             ///< distance of the hit, in world units
   double t_max = 0;
 

@@ -11,7 +11,7 @@ namespace {
 using core::Vec3d;
 using Clock = std::chrono::steady_clock;
 
-/// What is added to a reference's value where relative errors are divided by it; as in apps/lab/difference/picture_error.h.
+/// Added to a reference's value in the denominator of relative errors, as in apps/lab/difference/picture_error.h.
 constexpr double relative_floor = 0.01;
 
 }  // namespace

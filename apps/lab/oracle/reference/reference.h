@@ -13,18 +13,18 @@ namespace dmpc::apps {
 
 struct ReferenceOptions {
   std::uint32_t samples_a_side = 16;  ///< n for n x n samples a pixel: even, 2 to 128
-  std::uint64_t seed = 1; ///< another seed gives other, equally good samples
+  std::uint64_t seed = 1;             ///< another seed gives other, equally good samples
 };
 
 /// A picture of n x n samples a pixel, in two independent halves A and B: n x n/2 and n/2 x n strata with one random sample each.
 /// The picture is (A + B) / 2. Since A and B have the same mean, the variance of (A - B) / 2 is that of (A + B) / 2, so its size
 /// says how far the picture is from the one with infinitely many samples.
 struct Reference {
-  Image picture; ///< linear radiance, rounded to float at the end
+  Image picture;         ///< linear radiance, rounded to float at the end
   double own_error = 0;  ///< root mean square of (A - B) / 2 over all channels of all pixels, to compare with an RMSE
   /// Mean of ((A - B) / 2)^2 / (picture + 0.01)^2, to compare with PictureError::relative_mean_square.
   double own_relative_mean_square = 0;
-  std::uint64_t rays = 0; ///< traced for the picture, of all kinds
+  std::uint64_t rays = 0;  ///< traced for the picture, of all kinds
   double seconds = 0;      ///< wall clock
 };
 

@@ -28,7 +28,7 @@ void add(ReferenceScene& to, ReferenceBody body) {
   }
 }
 
-/// A place that is far away or no number counts as 0.
+/// Texture coordinates that are far away or NaN count as 0.
 ReferencePlace usable(const std::array<float, 2>& place) {
   constexpr double place_max = 1 << 20;
   const auto usable = [](double coordinate) { return std::fabs(coordinate) < place_max ? coordinate : 0; };
@@ -41,7 +41,7 @@ ReferenceTexel color_of(const core::TexturedCorner& corner) {
   return {{share(0), share(1), share(2)}, share(3)};
 }
 
-/// What the corners of a triangle have beside their positions.
+/// Adds the data of a triangle's corners other than their positions.
 void add_corners(ReferenceScene& to, const core::Scene& scene, const core::Object& object, ReferenceBody& body) {
   const bool is_textured = object.kind == core::ObjectKind::textured;
   const bool has_colors = is_textured && scene.materials[object.material].texture == core::Material::no_texture;

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 struct ReferenceLight {
   core::Vec3d position;
   core::Vec3d intensity;
-  core::LightSpread spread; ///< rounded as in the product
+  core::LightSpread spread;  ///< rounded as in the product
 };
 
 /// An emitter that paths sample, and its probability.
@@ -40,7 +40,7 @@ struct ReferenceScene {
   bool has_emission = false;  ///< some material emits
   // These are empty unless aim_as_product() was called:
   std::vector<ReferenceEmitter> emitters;
-  std::vector<core::EmitterChoice> choices; ///< the product's choices, from which one is drawn
+  std::vector<core::EmitterChoice> choices;  ///< the product's choices, from which one is drawn
   double emitter_density = 0;                ///< probability density of a point on an emitter, by area, over its emission
 
   /// Returns whether hits send light by themselves.

@@ -15,23 +15,24 @@ using core::Vec3d;
 using Rays = std::vector<ReferenceRay>;
 
 constexpr std::size_t trial_count = 16;
-/// What rounding takes of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
+/// Relative rounding error of a weight that is a product of some floats, including the effect of a light's rounded position on a
+/// highlight.
 constexpr double weight_rounding = 8e-6;
 /// The product's shadow rays end this share of their length before the light.
 constexpr double end_rounding = 4e-6;
-/// The product's rays have the width of their cones in two bytes.
+/// The product's rays store the width of their cones in two bytes.
 constexpr double cone_rounding = 0x1p-7;
-/// A body's own distance, if it is so near to the product's, in sizes of both.
+/// A body's own distance is used if it is so near to the product's, in sizes of both.
 constexpr double same_hit = 1e-4;
 
-/// The ray of this kind and light, or null.
+/// Returns the ray of this kind and light, or null.
 const ReferenceRay* find(const Rays& rays, const ReferenceRay& like) {
   const auto at = std::find_if(rays.begin(), rays.end(),
                                [&](const ReferenceRay& ray) { return ray.kind == like.kind && ray.light == like.light; });
   return at == rays.end() ? nullptr : &*at;
 }
 
-/// How far a ray is from another in each respect.
+/// The distance of a ray from another in each respect.
 struct Distance {
   double start = 0, direction = 0, weight = 0;
 
@@ -43,7 +44,7 @@ struct Distance {
     direction = std::max(direction, other.direction);
     weight = std::max(weight, other.weight);
   }
-  /// The largest quotient.
+  /// Returns the largest quotient.
   double over(const Distance& other) const {
     return std::max({start / other.start, direction / other.direction, weight / other.weight});
   }
@@ -76,7 +77,7 @@ class StepAudit::Case {
  private:
   void complain(const std::string& error) { result_.error = result_.error.empty() ? error : result_.error; }
 
-  /// A ray of an eye that is far away starts nearer, where it has passed nothing.
+  /// The ray of a distant eye starts nearer, which must not skip anything.
   void check_primary(ReferenceRay primary) {
     check_start(0, primary);
     const double ahead = dot(log_.shots.front().origin - primary.origin, primary.direction);
@@ -111,13 +112,13 @@ class StepAudit::Case {
     }
   }
 
-  /// Size of a pixel in world units, at the place or at the ray's origin if that is farther.
+  /// Returns the size of a pixel in world units, at `place` or at the ray's origin if that is farther.
   double pixel_at(const Vec3d& place, const ReferenceRay& ray) const {
     const Vec3d eye = primary_.origin - primary_.direction * primary_.cone;
     return narrow_angle(primary_) * std::max(length(place - eye), length(ray.origin - eye));
   }
 
-  /// Why a ray got an answer, about a place that one of the two met.
+  /// Explains a ray's answer at a point that one of the two hit.
   std::optional<Verdict> cause_of(const ReferenceRay& ray, const ClaimedAnswer& claimed, const Vec3d& place) {
     const double pixel = pixel_at(place, ray);
     std::optional<Verdict> why = audit_.witnesses_.find(ray, claimed, core::rounding_allowed_pixels * pixel, pixel);
@@ -128,7 +129,7 @@ class StepAudit::Case {
     return why;
   }
 
-  /// What lies between a surface and the start of a ray that leaves it is not seen by that ray, which may miss it.
+  /// A surface between the hit and the offset start of a ray that leaves it is invisible to that ray, which may miss it.
   void check_start(std::size_t index, const ReferenceRay& right) {
     const ReferenceRay& found = log_.shots[index];
     const double ahead = dot(found.origin - right.origin, right.direction);
@@ -141,7 +142,7 @@ class StepAudit::Case {
     }
   }
 
-  /// Where the ray meets the body, or a ray beside it, which the product's distance tells then.
+  /// Returns where the ray, or a ray beside it, meets the body; in the latter case at the product's distance.
   ReferenceHit hit_of(std::size_t index) {
     const LoggedRay& logged = log_.rays[index];
     const ReferenceRay& ray = log_.shots[index];
@@ -205,7 +206,7 @@ class StepAudit::Case {
     result_.glow_doubt = result_.glow_doubt + doubt;
   }
 
-  /// `right`: the ray that it should be, or null.
+  /// `right` is the exact ray, or null.
   void check_child(std::size_t child, const ReferenceRay* right, const std::vector<Rays>& trials) {
     if (right == nullptr) {
       return check_decision(log_.shots[child], trials, true);
@@ -226,7 +227,7 @@ class StepAudit::Case {
     return trials;
   }
 
-  /// A ray that only one of the two shot.
+  /// Checks a ray that only one of the two shot.
   void check_decision(const ReferenceRay& ray, const std::vector<Rays>& trials, bool was_shot) {
     if (std::none_of(trials.begin(), trials.end(),
                      [&](const Rays& trial) { return (find(trial, ray) != nullptr) == was_shot; })) {

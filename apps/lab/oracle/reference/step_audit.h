@@ -18,8 +18,8 @@ struct Audit {
   std::vector<std::optional<Verdict>> doubts;
   /// The farthest that a ray lies from its right position, in units of the disturbances (disturbance.h) of it.
   double largest_step = 0;
-  bool is_warned = false; ///< an answer is farther off than pixels may be without a warning, and no farther than was warned of
-  std::string error; ///< what cannot be explained, in words; empty if all is explained
+  bool is_warned = false;  ///< an answer is farther off than pixels may be without a warning, and no farther than was warned of
+  std::string error;       ///< what cannot be explained, in words; empty if all is explained
   /// The light that the hits send by themselves, and how much disturbances change it.
   core::Vec3d glow, glow_doubt;
 };
@@ -61,7 +61,7 @@ class StepAudit {
  private:
   class Case;
 
-  double unit_; ///< the product's grid-local unit in world units
+  double unit_;  ///< the product's grid-local unit in world units
   double warned_pixels_;
   core::ShadeOptions options_;
   const ReferenceScene& scene_;

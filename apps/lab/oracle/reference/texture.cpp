@@ -11,7 +11,7 @@ namespace {
 using core::TextureWrap;
 using core::Vec3d;
 
-/// Probes of a look-up at most; a longer line has wider ones.
+/// Maximum number of probes of a look-up; a longer line has wider ones.
 constexpr double strides_max = 15;
 /// The least cosine between a cone and a surface that is distinguished from 0.
 constexpr double cosine_min = 1e-6;
@@ -56,7 +56,7 @@ ReferenceTexel texel_of(const core::Texture& texture, std::uint32_t texel) {
   return ReferenceTexel{Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]} * alpha, alpha};
 }
 
-/// Which of a side's texels lies at `place`, in texels, on or beyond the texture.
+/// Returns the index of the texel at `place`, in texels, on or beyond the texture.
 std::size_t texel_at(double place, std::uint32_t size, TextureWrap wrap) {
   const double period = size;
   if (wrap == TextureWrap::clamp) {
@@ -67,7 +67,7 @@ std::size_t texel_at(double place, std::uint32_t size, TextureWrap wrap) {
   return static_cast<std::size_t>(is_turned ? period - 1 - within : within);
 }
 
-/// Between the four texels about a place.
+/// Interpolates between the four texels about a point.
 ReferenceTexel blend(const core::Texture& texture, const core::TextureLevel& level, const ReferencePlace& place) {
   const double x = place[0] * level.width - 0.5, y = place[1] * level.height - 0.5;
   ReferenceTexel sum;
@@ -82,7 +82,7 @@ ReferenceTexel blend(const core::Texture& texture, const core::TextureLevel& lev
   return sum;
 }
 
-/// Between the two levels whose texels are next in size to `width` of the finest level's.
+/// Interpolates between the two levels whose texels are next in size to `width` of the finest level's.
 ReferenceTexel probe(const core::Texture& texture, double width, const ReferencePlace& place) {
   const double coarsest = static_cast<double>(texture.levels.size()) - 1;
   const double detail = std::clamp(std::log2(std::max(width, 1.0)), 0.0, coarsest), level = std::floor(detail);
@@ -92,20 +92,21 @@ ReferenceTexel probe(const core::Texture& texture, double width, const Reference
                         : fine;
 }
 
-/// Where the ends of a cone's ellipse come to lie, in texels from its middle; the longer axis of what lies there.
+/// The longer axis of a cone's ellipse on the texture, in texels from its middle.
 struct Axes {
   double angle = 0;  ///< angle of the longer axis on the texture
   double longer = 0, shorter = 0;
 };
 
-/// The singular values of the matrix with the columns (a, c) and (b, d), by the sum of a similarity and a reflected one.
+/// Returns the singular values of the matrix with the columns (a, c) and (b, d), from the sum of a similarity and a reflected
+/// one.
 Axes axes_of(double a, double b, double c, double d) {
   const double similar = std::hypot(a + d, c - b) / 2, reflected = std::hypot(a - d, c + b) / 2;
   const double one = std::atan2(c - b, a + d), other = std::atan2(c + b, a - d);
   return {(one + other) / 2, similar + reflected, std::fabs(similar - reflected)};
 }
 
-/// How far from `middle` one may go by steps of `length`, at most `reach` of them, until `low` or `high`.
+/// Returns how far from `middle` one may go by steps of `length`, at most `reach` of them, until `low` or `high`.
 double reach_to(double middle, double length, double low, double high, double reach) {
   if (length == 0) {
     return reach;
@@ -114,7 +115,7 @@ double reach_to(double middle, double length, double low, double high, double re
   return reach > 0 ? std::clamp(steps, 0.0, reach) : std::clamp(steps, reach, 0.0);
 }
 
-/// The change of (s, t) over a step from the ray to one beside it, along which the triangle's plane is then looked for.
+/// Returns the change of (s, t) over a step from the ray to one beside it; the triangle's plane is then searched along that ray.
 ReferencePlace change_over(const ReferencePaint& paint, const Vec3d& aside, const Vec3d& direction) {
   const Vec3d normal = cross(paint.corner[1] - paint.corner[0], paint.corner[2] - paint.corner[0]);
   const double approach = dot(direction, normal), least = cosine_min * length(normal);
@@ -169,7 +170,8 @@ ReferenceFootprint footprint_of(const ReferencePaint& paint, const core::Texture
   return footprint;
 }
 
-/// A probe a stride from the middle outwards; what is left at the ends counts as much as it is, with its outer edge at the end.
+/// Probes lie one stride apart from the middle outwards; a shorter rest at the ends counts in proportion, with its outer edge at
+/// the end.
 ReferenceTexel texture_sum(const core::Texture& texture, const ReferenceFootprint& footprint) {
   const auto at = [&](double offset) {
     return probe(texture, footprint.width,

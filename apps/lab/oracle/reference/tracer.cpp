@@ -13,7 +13,7 @@ namespace {
 using core::RayKind;
 using core::Vec3d;
 
-/// Where a light's cone points, from the unit octahedron unfolded on a square: the corners are its lower half.
+/// Returns the direction of a light's cone, from the unit octahedron unfolded on a square: the corners are its lower half.
 Vec3d ahead_of(const core::LightSpread& spread) {
   const double x = spread.ahead[0] / 32767.5 - 1, y = spread.ahead[1] / 32767.5 - 1, z = 1 - std::fabs(x) - std::fabs(y);
   const Vec3d below{std::copysign(1 - std::fabs(y), x), std::copysign(1 - std::fabs(x), y), z};
@@ -22,7 +22,7 @@ Vec3d ahead_of(const core::LightSpread& spread) {
 
 double cosine_of(std::uint16_t angle) { return std::cos((angle & 0x7fff) * (std::numbers::pi / 32767)); }
 
-/// What is left of a light, by what its record says of distance and cone: read here once more, as judges do.
+/// Returns the fraction of a light left by the distance and cone in its record, which the judges decode independently.
 double left_of(const core::LightSpread& spread, const Vec3d& towards, double distance) {
   const double near = spread.falls_off() ? 1 / (distance * distance) : 1;
   if (!spread.is_cone()) {
@@ -34,20 +34,20 @@ double left_of(const core::LightSpread& spread, const Vec3d& towards, double dis
   return near * (first < second ? t * t : spread.is_smooth() ? t * t * (3 - 2 * t) : t);
 }
 
-/// How far a secondary ray starts from its surface: of the body's coordinates and radius, as a point is computed to some 1e-16 of
-/// them. Nothing else in the scene, however large, moves a shadow.
+/// Offset of a secondary ray from its surface, relative to the body's coordinates and radius, as a point is computed to some
+/// 1e-16 of them. Nothing else in the scene, however large, moves a shadow.
 constexpr double gap = 1e-13;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
-/// That a ray's record can hold.
+/// The largest depth that a ray's record can hold.
 constexpr int depth_limit = 255;
 
-/// Nearer than this to all or nothing, alpha is that, as in the product.
+/// Alpha nearer than this to 0 or 1 counts as that, as in the product.
 constexpr double alpha_rounding = 0x1p-16;
 
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
-/// By Veach's power heuristic, of light that another way might have brought.
+/// Veach's power heuristic, for light that another technique might have found.
 double share_of(double own, double other) { return std::isinf(own) ? 1 : own * own / (own * own + other * other); }
 
 double start_gap(const ReferenceBody& body) {
@@ -61,7 +61,7 @@ double start_gap(const ReferenceBody& body) {
 
 double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z}); }
 
-/// In single precision, as the product judges it.
+/// Judges in single precision, as the product does.
 bool brings_nothing(const ReferenceRay& shadow) { return core::Color(shadow.weight) == core::Color{}; }
 
 }  // namespace
@@ -72,19 +72,19 @@ struct ReferenceTracer::Touch {
   std::uint32_t body;
   const core::Material& material;
   ReferenceSurface surface;
-  Vec3d normal;            ///< for shading: on the ray's side, between a patch's normals
-  double index = 1;        ///< ratio of refractive indices: the ray's side over the other one
+  Vec3d normal;            ///< for shading: on the ray's side, interpolated between a patch's normals
+  double index = 1;        ///< ratio of refractive indices: the ray's side over the other side
   double cone = 0;         ///< the width here of the cones of the rays that leave
   ReferenceReach reach{};  ///< the ray's
   Vec3d color;             ///< diffuse colour, with texture or vertex colours
   Vec3d specular;          ///< colour of highlight and mirror
   Vec3d emission;
   double diffuse = 0, transmittance = 0;
-  double there = 1;  ///< the share of the surface that alpha leaves
+  double there = 1;  ///< the share of the surface that is present according to alpha
 
-  /// By paths, if the material has them.
+  /// For paths, if the material has microfacets.
   bool has_facets = false;
-  core::Microfacets facets_there;  ///< with what a texture makes of them
+  core::Microfacets facets_there;  ///< with the effect of textures
   FacetLobes<double> facets() const {
     const core::Microfacets& facets = facets_there;
     const double side = dot(ray.direction, surface.normal) > 0 ? -1 : 1;
@@ -103,7 +103,7 @@ struct ReferenceTracer::Touch {
                                .true_normal = surface.normal * side});
   }
 
-  /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
+  /// Returns the square of the cosine behind the surface by Snell's law; below 0 all light is reflected.
   double refracted_cosine_squared() const {
     const double cosine = dot(ray.direction, normal);
     return 1 - index * index * (1 - cosine * cosine);
@@ -199,7 +199,7 @@ ReferenceTracer::Touch ReferenceTracer::touch(const ReferenceRay& ray, const Ref
   return result;
 }
 
-/// Where metal and roughness have one, too, and are shown, both have the footprint on the finer of the two.
+/// If metal and roughness have a shown texture, too, both use the footprint on the finer of the two.
 ReferenceTexel ReferenceTracer::look_up(const Touch& touch, const core::Texture& texture) const {
   const ReferenceBody& body = scene_.bodies[touch.body];
   ReferencePaint paint{.corner = body.place, .place = {}};
@@ -218,7 +218,7 @@ ReferenceTexel ReferenceTracer::look_up(const Touch& touch, const core::Texture&
   return texture_sum(texture, footprint);
 }
 
-/// What metal and roughness are there.
+/// Returns metal and roughness at the hit.
 core::Microfacets ReferenceTracer::facets_of(const Touch& touch) const {
   core::Microfacets facets = touch.material.microfacets;
   if (touch.has_facets && facets.have_texture()) {
@@ -229,7 +229,7 @@ core::Microfacets ReferenceTracer::facets_of(const Touch& touch) const {
   return facets;
 }
 
-/// What a texture, or the colours of its corners, give there; alpha is none of the light's.
+/// Returns the colour from a texture, or from the colours of the corners; alpha does not affect light.
 ReferenceTexel ReferenceTracer::paint_of(const Touch& touch) const {
   const ReferenceBody& body = scene_.bodies[touch.body];
   if (body.has_colors()) {
@@ -249,13 +249,13 @@ ReferenceTexel ReferenceTracer::paint_of(const Touch& touch) const {
              : ReferenceTexel{sum.light * (sum.alpha > 0 ? 1 / sum.alpha : 0), sum.alpha};
 }
 
-/// The file's cutoff, like its texels' alpha, is a number of few digits: what lies within half a 65,535th of it is there.
+/// The file's cutoff, like its texels' alpha, has few digits: alpha within half of 1/65,535 of the cutoff is kept.
 bool is_cut_away(double alpha, const core::Material& material) {
   constexpr double steps = 65535;
   return alpha * steps < std::max(1.0, std::floor(material.alpha_cutoff * steps + 0.5)) - 0.5;
 }
 
-/// What the surface does with light there, as far as alpha leaves any of it.
+/// Sets how the surface scatters light at the hit, weighted by alpha.
 void ReferenceTracer::finish(Touch& touch) const {
   const core::Material& material = touch.material;
   touch.has_facets = options_.transport.is_by_paths() && material.microfacets.are_there();
@@ -291,7 +291,7 @@ ReferenceRay ReferenceTracer::child(const Touch& touch, const Vec3d& towards, Ra
   return ray;
 }
 
-/// Each with the diffuse light and Phong's highlight that it brings unless something hides the light.
+/// Each has the diffuse light and Phong's highlight that it brings unless the light is blocked.
 void ReferenceTracer::add_shadow_rays(const Touch& touch, std::vector<ReferenceRay>& rays) const {
   const Vec3d mirror = mirrored(touch.ray.direction, touch.normal);
   for (std::uint32_t index = 0; index < scene_.lights.size(); ++index) {
@@ -324,7 +324,7 @@ void ReferenceTracer::add_shadow_rays(const Touch& touch, std::vector<ReferenceR
   }
 }
 
-/// The mirrored ray and the one through glass. What cannot be transmitted is reflected.
+/// Adds the mirrored ray and the one through glass. Light that cannot be transmitted is reflected.
 void ReferenceTracer::add_children(const Touch& touch, std::vector<ReferenceRay>& rays) const {
   const double total = touch.transmits() ? 0 : touch.transmittance;
   const Vec3d mirrored_share = touch.specular * touch.material.mirror + Vec3d{total, total, total};
@@ -346,12 +346,12 @@ Vec3d ReferenceTracer::sky(const Vec3d& direction) const {
   return scene_.background * (1 - height) + Vec3d(transport.zenith) * height;
 }
 
-/// A backdrop is not met by what a surface has scattered.
+/// Scattered rays do not see a background.
 Vec3d ReferenceTracer::light_beyond(const ReferenceRay& ray) const {
   return options_.transport.has_sky ? sky(ray.direction) : ray.kind == RayKind::scattered ? Vec3d{} : scene_.background;
 }
 
-/// What a surface does with light, in each channel.
+/// How a surface scatters light, in each channel.
 struct ReferenceTracer::Ways {
   Vec3d scattered, mirrored, through;
 
@@ -365,7 +365,7 @@ ReferenceTracer::Ways ReferenceTracer::ways_of(const Touch& touch) {
           {through, through, through}};
 }
 
-/// Nothing if that leads into the surface.
+/// Returns nothing if the direction leads into the surface.
 std::optional<Vec3d> ReferenceTracer::scattered_direction(const Touch& touch) {
   const ReferenceRay& ray = touch.ray;
   const Vec3d towards =
@@ -384,7 +384,7 @@ double ReferenceTracer::scattered_density(const Touch& touch, const Vec3d& towar
   return cosine > 0 && is_outside && ways.all() > 0 ? brightest(ways.scattered) / ways.all() * cosine / std::numbers::pi : 0;
 }
 
-/// At one emitter, as far as a path's own ray would not find it.
+/// Samples one emitter, weighted by how rarely a path's own ray would find it.
 void ReferenceTracer::add_light_sample_ray(const Touch& touch, std::vector<ReferenceRay>& rays) const {
   const ReferenceRay& from = touch.ray;
   if (scene_.emitters.empty() || from.depth > options_.depth_max || from.depth >= depth_limit) {
@@ -415,7 +415,7 @@ void ReferenceTracer::add_light_sample_ray(const Touch& touch, std::vector<Refer
   }
 }
 
-/// Weight of the emission at the ray's hit: the rest is light sampling.
+/// Returns the weight of the emission at the ray's hit: the rest is light sampling.
 double ReferenceTracer::mis_weight(const Touch& touch) const {
   const ReferenceBody& body = scene_.bodies[touch.body];
   return body.is_light_sampled ? share_of(touch.ray.density, light_sampling_density(scene_, body, touch.ray.origin,
@@ -438,7 +438,7 @@ std::optional<ReferenceRay> ReferenceTracer::continued_by_facets(const Touch& to
   return ray;
 }
 
-/// One way of the three, as often as its brightest channel says, counts for all.
+/// Chooses one of the three lobes with a probability in proportion to its brightest channel; it counts for all.
 std::optional<ReferenceRay> ReferenceTracer::continued(const Touch& touch, const core::SamplePair& choice) const {
   if (touch.has_facets) {
     return continued_by_facets(touch, choice);
@@ -466,7 +466,7 @@ std::optional<ReferenceRay> ReferenceTracer::continued(const Touch& touch, const
              : go(touch.bent_direction(), ways.through, RayKind::refracted);
 }
 
-/// After roulette. The last ray looks at the sky alone, or, where something shines, for that, too.
+/// Applies roulette. The last ray sees only the sky, and emitters if there are any.
 void ReferenceTracer::add_path_ray(const Touch& touch, std::vector<ReferenceRay>& rays) const {
   const core::SamplePair choice = core::pair_of(touch.ray.pixel, touch.ray.sample, touch.ray.depth, core::Purpose::choice);
   std::optional<ReferenceRay> ray = continued(touch, choice);

@@ -10,10 +10,10 @@ namespace {
 
 using core::Vec3d;
 
-/// Rays in a ring, and rings, each a quarter as wide as the one before: what is narrow is passed by the wide ones.
+/// Rays in a ring, and rings, each a quarter as wide as the one before: wide rings miss narrow things.
 constexpr int ring_rays = 16, ring_count = 8;
 constexpr double ring_ratio = 0.25;
-/// Between a ray and the surface that it leaves; one that grazes it more starts off the surface.
+/// The least cosine between a ray and the surface that it leaves; a ray that grazes it more starts off the surface.
 constexpr double least_cosine = 0.01;
 
 bool is_shadow(const ReferenceRay& ray) { return ray.kind == core::RayKind::shadow; }

@@ -23,7 +23,7 @@ std::string sentence_of(std::string complaint) {
 
 namespace {
 
-/// Nothing if it did what it should; why there was no room for it, if that was so.
+/// Returns nothing after success, and the reason if there was not enough memory.
 std::optional<std::string> misfit_of(const WatchedProcess& process) {
   if (process.status == 0) {
     return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<std::string> misfit_of(const WatchedProcess& process) {
                             sentence_of(process.complaint));
 }
 
-/// That the disk gives them back is the computer's to do, that they hold together ours.
+/// The computer is responsible for what the disk returns, dmpc for its consistency.
 std::vector<Figure> figures_in(const std::filesystem::path& stats) {
   const std::string text = bounded_text(stats, figures_bytes_max, "what dmpc render --stats writes");
   try {

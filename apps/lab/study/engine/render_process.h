@@ -19,9 +19,9 @@ std::string sentence_of(std::string complaint);
 
 /// Result of such a process.
 struct RenderEnd {
-  std::optional<std::vector<Figure>> figures; ///< of its --stats; nothing if there was not enough memory
-  std::string misfit; ///< the reason if there are no figures, without a full stop
-  std::optional<std::size_t> peak_anonymous_bytes; ///< if any was observed
+  std::optional<std::vector<Figure>> figures;       ///< of its --stats; nothing if there was not enough memory
+  std::string misfit;                               ///< the reason if there are no figures, without a full stop
+  std::optional<std::size_t> peak_anonymous_bytes;  ///< if any was observed
 };
 
 /// Thread-safe if no two renders at a time have the same name.

@@ -16,8 +16,8 @@ namespace dmpc::apps {
 /// The context in which a study declares its own options.
 struct StudyLine {
   OptionSet set;
-  std::string& machine_name; ///< set to the typed text if a machine was typed: the table must not replace its file
-  DatabaseOptions& database; ///< of the scene
+  std::string& machine_name;  ///< set to the typed text if a machine was typed: the table must not replace its file
+  DatabaseOptions& database;  ///< of the scene
 };
 
 /// Declares --nodes: several numbers, whose defaults are in `counts`.

@@ -21,9 +21,9 @@ namespace dmpc::apps {
 /// The command's own part. The functions are called once each, in this order.
 struct TabledJob {
   std::function<void()> measure;
-  std::function<bool()> has_findings = {}; ///< whether there are findings although measure() threw; without this function there
-                                                                       ///< are none
-  const char* consequence = "the table has the rows finished before"; ///< of a signal, once the table is written: a literal
+  std::function<bool()> has_findings = {};  ///< whether there are findings although measure() threw; without this function there
+                                            ///< are none
+  const char* consequence = "the table has the rows finished before";  ///< of a signal, once the table is written: a literal
   /// Writes the findings, complete or not.
   std::function<void(bool is_whole, Attempts& attempts)> write = {};
 };
@@ -41,12 +41,12 @@ int run_tabled(TabledJob job, const std::function<TableResult(bool is_whole)>& r
 struct StudyFindings {
   std::string title;  ///< of the page
   Table table;
-  std::string data_file; ///< name of the data file beside the plots
+  std::string data_file;  ///< name of the data file beside the plots
   std::vector<Plot> plots;
   std::string conclusion = {};  ///< a sentence; empty: none
-  html::Facts facts = {}; ///< identify another study with the same findings
+  html::Facts facts = {};       ///< identify another study with the same findings
   std::optional<std::uint64_t> scene_digest = {};
-  std::optional<html::ForecastView> forecast = {}; ///< from one of the study's runs, shown beside all of them
+  std::optional<html::ForecastView> forecast = {};  ///< from one of the study's runs, shown beside all of them
 };
 TableResult study_result(StudyFindings findings, TableFormat format);
 

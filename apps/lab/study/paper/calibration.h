@@ -12,8 +12,8 @@ namespace dmpc::apps {
 
 /// Factors for the figures.
 struct Fit {
-  double operations = 1; ///< for the prices of all operations, including a cached look-up
-  double cached_lookup = 1; ///< an additional factor for a cached look-up
+  double operations = 1;     ///< for the prices of all operations, including a cached look-up
+  double cached_lookup = 1;  ///< an additional factor for a cached look-up
 };
 
 /// Seconds of the calibration's scene on a machine: on one node, on two, and on two with the price of a cached look-up doubled.

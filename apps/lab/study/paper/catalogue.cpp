@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The iPSC/2's, in the article.
+/// Memory of the iPSC/2 in the article.
 constexpr std::size_t node_memory_bytes = std::size_t{4} << 20U;
 
 const nodes::Machine& preset(const char* name) {
@@ -19,7 +19,7 @@ const nodes::Machine& preset(const char* name) {
 }
 
 /// Our databases are smaller than the article's (Table 2), so the same memory would hold more of them: caches have the article's
-/// share of the database in place of its bytes.
+/// share of the database instead of its bytes.
 PaperRun run_of_table_3(const PaperRun& like, std::size_t scene, std::size_t column) {
   PaperRun run = like;
   run.scene = paper_scenes[scene].scene;
@@ -65,7 +65,7 @@ void add_rings(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
-/// Records without an order in space; other memories than those of the article's text.
+/// Adds runs with records without an order in space, and with other memories than those of the article's text.
 void add_memories(Catalogue& catalogue) {
   for (std::size_t row = 0; row < missing_rows.size(); ++row) {
     const std::size_t scene = missing_rows[row];
@@ -85,7 +85,7 @@ void add_memories(Catalogue& catalogue) {
   }
 }
 
-/// At half the resolution a side: small caches miss so often that a whole picture takes minutes.
+/// Runs at half the resolution a side: small caches miss so often that a whole picture takes minutes.
 void add_caches(Catalogue& catalogue, const PaperRun& like) {
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
     PaperRun run = like;
@@ -100,7 +100,7 @@ void add_caches(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
-/// The options of one way for rays to travel.
+/// Returns the options of one variant of travelling rays.
 dataflow::RayOptions rays_by(RayWay way) {
   dataflow::RayOptions rays;
   switch (way) {
@@ -134,7 +134,7 @@ void add_ray_ways(Catalogue& catalogue) {
   }
 }
 
-/// A machine whose hardware finds cached pages, as fast as those at home, and puts them into frames.
+/// Returns a machine whose hardware finds cached pages as fast as those at home, and puts them into frames.
 nodes::Machine with_shared_memory(nodes::Machine machine) {
   const auto price = [&](core::Charge charge) -> auto& { return machine.cost_ps[static_cast<std::size_t>(charge)]; };
   price(core::Charge::cached_lookup) = price(core::Charge::home_lookup);
@@ -153,7 +153,7 @@ void add_page_sizes(Catalogue& catalogue) {
   }
 }
 
-/// What claims of the text hang on: sizes of work items, a light inside the scene, and copies of the database on every node.
+/// Adds the runs for claims of the text: sizes of work items, a light inside the scene, and copies of the database on every node.
 void add_foils(Catalogue& catalogue) {
   const std::size_t last = paper_node_counts.size() - 1;
   for (std::size_t size = 0; size < item_sides.size(); ++size) {

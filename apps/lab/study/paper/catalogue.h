@@ -27,11 +27,11 @@ inline constexpr std::size_t article_item = 3;
 inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
 /// Variants of travelling rays there on 64 nodes, in addition to the default.
 enum class RayWay : std::uint8_t {
-  standard, ///< cuts across the longer side from a subsampled picture, backpressure
+  standard,       ///< cuts across the longer side from a subsampled picture, backpressure
   alternating,    ///< cuts in alternating directions
   equal_size,     ///< regions of equal size
   unchecked,      ///< without backpressure
-  unchecked_long ///< unchecked, with a queue that fills the node's memory
+  unchecked_long  ///< unchecked, with a queue that fills the node's memory
 };
 inline constexpr std::array<const char*, 5> ray_way_names = {"longer-side cuts", "alternating cuts", "equal sizes",
                                                              "no backpressure", "no backpressure, long queue"};
@@ -49,7 +49,7 @@ inline constexpr std::array<std::size_t, 2> missing_rows = {rings_row, tetra_row
 
 /// A scene of the cache experiments, with cache sizes from one page to the article's largest.
 struct CacheScene {
-  std::size_t paper_row = 0; ///< index in paper_scenes
+  std::size_t paper_row = 0;                            ///< index in paper_scenes
   std::array<std::uint32_t, cache_size_count> pages{};  ///< of the article's database
 
   constexpr const PaperScene& row() const { return paper_scenes[paper_row]; }
@@ -75,10 +75,10 @@ inline constexpr std::size_t calibration_cell_count = 2;
 struct Catalogue {
   using ByNodeCount = RunsByNodeCount;
 
-  std::uint32_t resolution = 0; ///< pixels a side, except in the cache experiments
+  std::uint32_t resolution = 0;  ///< pixels a side, except in the cache experiments
   std::vector<PaperRun> runs;
-  std::size_t run_count_without_variations = 0; ///< number of the first runs, on which all tables except the sensitivity are
-                                                           ///< based
+  std::size_t run_count_without_variations = 0;  ///< number of the first runs, on which all tables except the sensitivity are
+                                                 ///< based
   std::array<std::size_t, paper_scenes.size()> counted{};  ///< Table 2
   std::array<ByNodeCount, paper_scenes.size()> timed{};    ///< Table 3
   /// By scene: one worker on the smallest printed machine, whose other nodes lend their memories; a single node if that is the
@@ -96,11 +96,11 @@ struct Catalogue {
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
   /// Rings4 on 64 nodes, by size: shared memory in software, and in hardware.
   std::array<std::size_t, page_sizes_bytes.size()> paged{}, paged_by_hardware{};
-  std::size_t lit_by_rays = 0, lit_by_pages = 0; ///< Rings4 on 64 nodes, with a light in its middle
+  std::size_t lit_by_rays = 0, lit_by_pages = 0;  ///< Rings4 on 64 nodes, with a light in its middle
   std::size_t copies = 0;                         ///< the small scene on 64 nodes, replicated
   RunsByScene extents{};                          ///< as those of Table 2, on a tree of extents
   std::size_t faster_machine = 0;                 ///< Rings4 on 32 nodes of an iPSC/860
-  std::size_t dearer_cache = 0; ///< the calibration's scene on two nodes, with a doubled price of a cached look-up
+  std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, with a doubled price of a cached look-up
 
   VoxelRuns voxels;  ///< on the article's own structure
 

@@ -1,4 +1,4 @@
-// The claims of the article's text, each held against our runs.
+// The claims of the article's text, each compared with our runs.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ void claim_efficiency(Claims& rows, const Catalogue& catalogue, const PaperResul
            "the least is " + fixed(least, 1) + " %");
 }
 
-/// In percent against one node, by node count; nothing if a run is missing.
+/// Returns percent against one node, by node count; nothing if a run is missing.
 std::optional<std::vector<double>> efficiencies_of(const std::optional<PaperResult>& first, const PaperResults& results,
                                                    const Catalogue::ByNodeCount& runs) {
   std::vector<double> efficiencies;
@@ -39,7 +39,7 @@ std::optional<std::vector<double>> efficiencies_of(const std::optional<PaperResu
   return efficiencies;
 }
 
-/// Each is below the one before; a tie if some two are the same to the digits that are shown, and none is above.
+/// Each value must be below the one before; it is a tie if two are the same to the digits shown, and none rises.
 const char* verdict_of_fall(const std::vector<double>& values) {
   double least_fall = values.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -92,7 +92,7 @@ std::vector<CachePoint> points_of(const Catalogue& catalogue, const PaperResults
   return points;
 }
 
-/// The smallest cache from which on all have more than 50 %; nothing if there is none. `points` are by size.
+/// Returns the smallest cache from which on all have more than 50 %; nothing if there is none. `points` are sorted by size.
 std::optional<CachePoint> cache_for_half(const std::vector<CachePoint>& points) {
   const auto largest_without =
       std::find_if(points.rbegin(), points.rend(), [](const CachePoint& point) { return point.efficiency <= 50; });
@@ -107,7 +107,7 @@ std::string from_cache(const std::optional<CachePoint>& cache) {
 
 std::string to_text(const CachePoint& point) { return std::to_string(point.pages) + (point.pages == 1 ? " page" : " pages"); }
 
-/// Pages that a node receives, of what messages of 1 KB allow.
+/// Returns the pages that a node receives as a share of what messages of 1 KB allow.
 double share_of_network(const CachePoint& point) { return point.page_rate / 0.9e6; }
 
 void claim_caches(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
@@ -138,7 +138,7 @@ void claim_faster_machine(Claims& rows, const Catalogue& catalogue, const PaperR
   }
 }
 
-/// On fewer nodes than 16 any regions are loaded well.
+/// On fewer nodes than 16, any regions are loaded well.
 constexpr std::size_t fewest_balanced = 4;
 
 void claim_balance(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
@@ -159,7 +159,7 @@ void claim_balance(Claims& rows, const Catalogue& catalogue, const PaperResults&
   }
 }
 
-/// By the article's own cuts, which alternate.
+/// Uses the article's own cuts, which alternate.
 void claim_cuts(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& longer = results[catalogue.rings_by_rays[0].back()];
   const auto& alternating = results[catalogue.by_way(0, RayWay::alternating)];
@@ -187,7 +187,7 @@ void claim_overflow(Claims& rows, const Catalogue& catalogue, const PaperResults
            found + "on 64 nodes without backpressure, whose queues fill their memories");
 }
 
-/// Twice the mean is a flood, a quarter above it is none.
+/// Twice the mean counts as a flood, a quarter above it does not.
 void claim_lights(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& rays = results[catalogue.lit_by_rays];
   const auto& pages = results[catalogue.lit_by_pages];
@@ -225,7 +225,7 @@ void claim_items(Claims& rows, const Catalogue& catalogue, const PaperResults& r
            seconds(article_item) <= (1 + tie_share) * least, "seconds: " + found);
 }
 
-/// Static and on demand are the foils of the article's way, which is both.
+/// Static and on-demand assignment are compared with the article's method, which is both.
 void claim_scheduling(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& none = results[catalogue.items.front()];
   const auto& ring = results[catalogue.items[article_item]];
@@ -242,8 +242,8 @@ void claim_scheduling(Claims& rows, const Catalogue& catalogue, const PaperResul
   }
 }
 
-/// What pages of a small scene cost is the look-up of cached pages, and its price is fitted to the article's own cells: whatever
-/// comes out, it says nothing.
+/// The cost of pages for a small scene is the look-up of cached pages, whose price is fitted to the article's own cells: the
+/// result proves nothing.
 void claim_copies(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& pages = results[catalogue.timed[small_row].back()];
   const auto& copies = results[catalogue.copies];

@@ -36,7 +36,7 @@ Table claims_with_note(const Catalogue& catalogue, const PaperResults& results) 
   return table;
 }
 
-/// All but the sensitivity.
+/// Returns all tables except the sensitivity.
 std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
                                   const std::vector<PaperSubject>& subjects) {
   return {{"voxel_table_2", voxel_table_2(catalogue, results, subjects)},
@@ -88,7 +88,7 @@ void check_files(const PaperStudyOptions& options, const PaperReport& empty) {
   check_open_files();
 }
 
-/// Writes what is known: to `output` before the folder, so that a file in the way there loses nothing.
+/// Writes the known results: to `output` before the folder, so that a failure there loses nothing.
 void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output, Attempts& attempts) {
   attempts.make([&] {
     output << text_of(report);
@@ -104,7 +104,7 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
   }
 }
 
-/// Rows of the tables whose rows need a run or two, as they come.
+/// Shows rows of tables whose rows need a run or two, as they finish.
 void show_rows(const Catalogue& catalogue, const PaperResults& results, ShownRows& shown) {
   constexpr std::size_t key_count = 2;  // a scene, and nodes or a size
   if (shown.is_shown()) {

@@ -17,8 +17,8 @@ namespace dmpc::apps {
 struct PaperStudyOptions {
   /// Pixels a side of every picture. With a resolution other than the article's nothing is judged.
   std::uint32_t resolution = paper_resolution;
-  bool has_sensitivity = false; ///< also vary each figure of the machine and show the effect
-  std::optional<std::filesystem::path> output; ///< a folder for the report, its tables and plots; if not given, only the report
+  bool has_sensitivity = false;                 ///< also vary each figure of the machine and show the effect
+  std::optional<std::filesystem::path> output;  ///< a folder for the report, its tables and plots; if not given, only the report
                                                 ///< is printed
   std::optional<std::filesystem::path> report;  ///< a page with the tables and their pictures
   bool quiet = false;                           ///< no progress

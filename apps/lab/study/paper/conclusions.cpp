@@ -14,7 +14,7 @@ namespace {
 
 using Row = std::vector<Cell>;
 
-/// Sizes of numbers over rows.
+/// Absolute values of numbers over rows.
 struct Sizes {
   double sum = 0, most = 0;
   std::size_t count = 0;
@@ -32,7 +32,7 @@ struct Sizes {
   double mean() const { return sum / static_cast<double>(count); }
 };
 
-/// The sizes of the rows that have a number in the column.
+/// Returns those of the rows that have a number in the column.
 Sizes sizes_of(const Table& table, const char* column) {
   Sizes sizes;
   for (const Row& row : table.rows()) {
@@ -43,7 +43,7 @@ Sizes sizes_of(const Table& table, const char* column) {
   return sizes;
 }
 
-/// "Teapot, nodes 64": what stands in the row's first two cells.
+/// Returns "Teapot, nodes 64", from the row's first two cells.
 std::string place_of(const Table& table, const Row& row) {
   const std::vector<std::string> texts = texts_of(table, row);
   return texts[0] + ", " + table.columns()[1].name + " " + texts[1];
@@ -51,7 +51,7 @@ std::string place_of(const Table& table, const Row& row) {
 
 std::string points_text(double points) { return fixed(points, 1) + " points"; }
 
-/// Rows whose column `name` has the most that any has.
+/// Returns the rows with the maximum of column `name`.
 std::vector<const Row*> rows_of_most(const Table& table, const char* name) {
   std::vector<const Row*> rows;
   const Sizes sizes = sizes_of(table, name);
@@ -120,7 +120,7 @@ std::string on_errors(const Table& table) {
          points_text(std::max(*ours, *model)) + ".";
 }
 
-/// The columns behind the printed one are ways to choose memories.
+/// The columns after the printed one are ways to choose memories.
 std::string on_memories(const Table& table) {
   std::map<double, std::string> by_error;
   for (std::size_t column = 3; column < table.columns().size(); ++column) {

@@ -20,7 +20,7 @@ inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 1
 
 /// A cell of Table 3.
 struct PaperPlace {
-  std::size_t scene = 0, column = 0; ///< indices in paper_scenes and paper_node_counts
+  std::size_t scene = 0, column = 0;  ///< indices in paper_scenes and paper_node_counts
 
   bool operator==(const PaperPlace&) const = default;
 };

@@ -1,4 +1,4 @@
-// What the article says of trees of extents beside subdivisions of space.
+// The article's claim on trees of extents and subdivisions of space.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// A tree's figures over those of the same scene in space.
+/// A tree's figures over those of the same scene with a subdivision of space.
 struct Ratios {
   double memory = 0, time = 0;
 };
@@ -30,7 +30,7 @@ struct Range {
   std::string text() const { return fixed(least, 2) + " to " + fixed(most, 2); }
 };
 
-/// As a whole: what it says must be so in each scene, and a tie is none that it says.
+/// Judges the claim as a whole: it must hold in each scene, and a tie does not count.
 const char* verdict_of(bool is_smaller, double least_time) {
   return !is_smaller || least_time < 1 - tie_share ? not_held : least_time > 1 + tie_share ? held : tie;
 }

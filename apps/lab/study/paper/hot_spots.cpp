@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Nothing divided by nothing is 0.
+/// 0 / 0 counts as 0.
 double over_mean(std::uint64_t one, const std::vector<std::uint64_t>& all) {
   const auto sum = static_cast<double>(std::accumulate(all.begin(), all.end(), std::uint64_t{0}));
   return sum == 0 ? 0 : static_cast<double>(one) * static_cast<double>(all.size()) / sum;

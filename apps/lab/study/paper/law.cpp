@@ -11,7 +11,7 @@ namespace {
 
 double share_elsewhere(std::uint32_t node_count) { return static_cast<double>(node_count - 1) / node_count; }
 
-/// A cell that we predict, and what the law says of it.
+/// A cell that we predict, and the baseline model's value.
 struct Comparison {
   CellOfTable3 cell;
   double by_model = 0;  ///< efficiency in percent
@@ -21,7 +21,7 @@ struct Comparison {
   double difference_of_model() const { return by_model - cell.printed_efficiency; }
 };
 
-/// Every predicted cell is in a row with a base, so its scene has a law.
+/// Every predicted cell is in a row with a base, so its scene has a model.
 std::vector<Comparison> comparisons_of(const Catalogue& catalogue, const PaperResults& results) {
   std::vector<Comparison> comparisons;
   for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
@@ -38,7 +38,7 @@ std::vector<Comparison> comparisons_of(const Catalogue& catalogue, const PaperRe
   return comparisons;
 }
 
-/// Every scene has a base; of the calibration's cells one is that.
+/// Every scene has a base; one of the calibration's cells is such a base.
 std::size_t predicted_cell_count() { return printed_cell_count() - paper_scenes.size() - (calibration_cell_count - 1); }
 
 void add_scenes_without_model(Table& table) {
@@ -78,7 +78,7 @@ std::optional<PaperModel> model_of(const PaperScene& scene) {
   const std::uint32_t fewer = paper_node_counts[first], more = paper_node_counts[second];
   const double at_fewer = static_cast<double>(scene.seconds[first]) * fewer;
   const double at_more = static_cast<double>(scene.seconds[second]) * more;
-  // A straight line in the share of references elsewhere.
+  // The model is a straight line in the share of references elsewhere.
   const double slope = (at_more - at_fewer) / (share_elsewhere(more) - share_elsewhere(fewer));
   const double one_node = at_fewer - slope * share_elsewhere(fewer);
   return PaperModel{.one_node = one_node, .dearer = slope / one_node};

@@ -1,4 +1,4 @@
-// What Table 3 owes to the sizes of memories and to the order of records.
+// The effect of memory sizes and of the order of records on Table 3.
 #include <array>
 #include <string>
 #include <vector>

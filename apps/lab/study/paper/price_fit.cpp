@@ -12,7 +12,7 @@ constexpr std::size_t price_count = 3;
 using PriceVector = std::array<double, price_count>;
 using PriceMatrix = std::array<PriceVector, price_count>;
 
-/// Without a solution where the rows depend on each other.
+/// Returns nothing if the rows are linearly dependent.
 std::optional<PriceVector> solution_of(PriceMatrix rows, PriceVector right) {
   constexpr double least_pivot = 1e-9;  // of rows scaled to a diagonal of 1
   for (std::size_t i = 0; i < price_count; ++i) {
@@ -39,7 +39,7 @@ std::optional<PriceVector> solution_of(PriceMatrix rows, PriceVector right) {
   return right;
 }
 
-/// A cell's equation, divided by what is printed.
+/// A cell's equation, divided by the printed value.
 struct Equation {
   PriceVector factors;
   double right = 0;
@@ -66,7 +66,7 @@ double square_sum(std::span<const PricedCell> cells, const PriceVector& prices) 
   return sum;
 }
 
-/// The best prices where only those with a bit in `used` are not 0.
+/// Returns the best prices if only those with a bit in `used` are not 0.
 std::optional<PriceVector> best_prices(std::span<const PricedCell> cells, unsigned used) {
   const auto is_used = [used](std::size_t i) { return (used >> i & 1U) != 0; };
   PriceMatrix normal{};
@@ -133,12 +133,12 @@ RayTime ray_time_of(const PaperResult& result) {
   const double longer = computing > 0 ? 1 + idle / computing : 1;
   const double rays = static_cast<double>(result.rays);
   RayTime time{.per_price = {}, .rest = 1e-6 * (static_cast<double>(result.parts.total_ns()) - computing - idle) / rays};
-  // A voxel machine's prices, thousandfold since they are whole picoseconds.
+  // A voxel machine's prices, times a thousand since they are whole picoseconds.
   constexpr double unit = 1000;
   const auto milliseconds = [&](const VoxelPrices& prices) {
     return 1e-9 * static_cast<double>(voxel_machine(prices).price_ps({result.charges})) * longer / rays;
   };
-  const double of_page = milliseconds({});  // what no price of these hangs on
+  const double of_page = milliseconds({});  // independent of these prices
   for (std::size_t i = 0; i < price_count; ++i) {
     VoxelPrices prices = unit_price(i);
     prices = {unit * prices.walk, unit * prices.rays, unit * prices.cached_lookup};

@@ -12,9 +12,9 @@ namespace dmpc::apps {
 
 /// The time of a ray in a run with travelling pages, in node-milliseconds, as a function of the prices.
 struct RayTime {
-  std::array<double, 3> per_price{}; ///< per unit of each of VoxelPrices, in their order; idle time for want of work grows in
+  std::array<double, 3> per_price{};  ///< per unit of each of VoxelPrices, in their order; idle time for want of work grows in
                                       ///< proportion to computing
-  double rest = 0; ///< messages and waits for pages, as in the run
+  double rest = 0;                    ///< messages and waits for pages, as in the run
 
   double milliseconds(const VoxelPrices& prices) const;
 };

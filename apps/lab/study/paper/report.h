@@ -22,7 +22,7 @@ struct NamedTable {
 
 struct PaperReport {
   std::vector<NamedTable> tables;
-  std::uint32_t resolution = 0; ///< pixels a side of the pictures on which the tables are based
+  std::uint32_t resolution = 0;  ///< pixels a side of the pictures on which the tables are based
   bool is_complete = true;       ///< no row is missing
 };
 
@@ -43,7 +43,7 @@ std::string page_of(const PaperReport& report, std::ostream& complaints);
 
 /// A plot of one of its tables.
 struct PaperPlot {
-  std::string table; ///< name of the table's files: "table_3"
+  std::string table;  ///< name of the table's files: "table_3"
   Plot plot;
 };
 

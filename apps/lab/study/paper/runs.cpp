@@ -28,7 +28,7 @@ namespace {
 /// In the middle of Rings4.
 constexpr core::PointLight inner_light{.position = {-1, 7.36, 0.5}};
 
-/// A shadow ray that is stopped goes no further, and what counts for nothing is not shot: all else came later.
+/// A blocked shadow ray goes no further, and a ray without weight is not shot: all other skips came later.
 core::Skips article_skips() {
   core::Skips skips = core::no_skips();
   skips.any_hit = skips.zero_terms = true;
@@ -76,7 +76,7 @@ Report report_of(const PaperRun& run, const Subject& subject, const std::stop_to
   return make_ready(options, subject.database, subject.settings, stop).start([](std::uint32_t, std::uint32_t) {}, stop);
 }
 
-/// As the nodes of a shared memory are charged.
+/// Charges as for the nodes of a shared memory.
 core::ChargeCounts charges_of(const Account& account, const svm::PageCounters& pages) {
   core::ChargeCounts charges = core::charges_of(account.operations);
   const auto set = [&charges](core::Charge charge, std::uint64_t count) { charges[static_cast<std::size_t>(charge)] = count; };

@@ -29,17 +29,17 @@ struct PaperRun {
   std::uint32_t node_count = 1;
   Strategy strategy = Strategy::svm;
   nodes::Machine machine;
-  std::optional<double> cache_share = std::nullopt; ///< svm: size of a node's cache as a share of the database; at least a page
-  std::optional<std::uint32_t> cache_pages = std::nullopt; ///< svm: size of a node's cache, in place of a share
+  std::optional<double> cache_share = std::nullopt;  ///< svm: size of a node's cache as a share of the database; at least a page
+  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< svm: size of a node's cache, in place of a share
   /// svm, in place of either: pages of a node's shared memory. The cache gets what the node's own pages leave of them, at most
   /// all others, at least a page.
   std::optional<std::uint32_t> shared_pages = std::nullopt;
   /// Grid is dmpc's own structure; voxels is the article's, by core::article_voxels, without the skips that its program did not
   /// have.
   core::Structure structure = core::Structure::grid;
-  bool lacks_later_skips = false; ///< grid and extents: also without those skips
-  svm::PageOptions pages = {.in_flight = 1}; ///< svm and replicated, except for the cache
-  dataflow::RayOptions rays = {}; ///< dataflow; regions are mapped onto the machine
+  bool lacks_later_skips = false;             ///< grid and extents: also without those skips
+  svm::PageOptions pages = {.in_flight = 1};  ///< svm and replicated, except for the cache
+  dataflow::RayOptions rays = {};             ///< dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
@@ -55,11 +55,11 @@ struct PaperResult {
   TimeParts parts;  ///< summed over the nodes
   std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
   std::uint64_t tests = 0;        ///< of rays against primitives
-  core::ChargeCounts charges{}; ///< operations that computing was charged for, if pages travelled
+  core::ChargeCounts charges{};   ///< operations that computing was charged for, if pages travelled
   double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
-  double overflowed = 0; ///< packets of rays sent by way of the host over all, in [0, 1]
-  std::uint64_t ray_bytes = 0; ///< of the packets with rays, by either way
-  double flood = 0; ///< arrivals at a light's region or at a page's home, over the mean (hot_spots.h)
+  double overflowed = 0;          ///< packets of rays sent by way of the host over all, in [0, 1]
+  std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by either way
+  double flood = 0;               ///< arrivals at a light's region or at a page's home, over the mean (hot_spots.h)
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::size_t database_bytes = 0;
@@ -126,7 +126,7 @@ inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2,
 
 /// A scene of the article's Figures 8 to 10, on 32 nodes.
 struct VoxelCaches {
-  std::size_t scene = 0; ///< index in paper_scenes
+  std::size_t scene = 0;                 ///< index in paper_scenes
   std::array<std::uint32_t, 6> pages{};  ///< of 1 KB
 };
 /// The sizes of cache_scenes with which a picture does not take minutes: with smaller caches most look-ups of another node's page
@@ -142,8 +142,8 @@ struct VoxelRuns {
   RunsByScene counted{};                                                       ///< Table 2
   RunsByScene extents{};                                                       ///< the same on a tree of extents
   std::array<RunsByNodeCount, paper_scenes.size()> timed{};                    ///< Table 3
-  RunsByScene one_worker{}; ///< on the smallest printed machine
-  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{}; ///< by size; the runs on one node are `counted`
+  RunsByScene one_worker{};                                                    ///< on the smallest printed machine
+  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{};  ///< by size; the runs on one node are `counted`
   /// Travelling rays on Rings3, by loaded_node_counts: regions from a subsampled picture, cut in alternating directions, and of
   /// equal size; and one node.
   std::array<std::size_t, loaded_node_counts.size()> subsampled{}, equal_size{};

@@ -18,7 +18,7 @@ using nodes::MessageCost;
 
 std::uint64_t& price(Machine& machine, Charge charge) { return machine.cost_ps[static_cast<std::size_t>(charge)]; }
 
-/// The charges of what has a price that Table 3's runs pay.
+/// Charges whose prices affect Table 3's runs.
 constexpr std::pair<Charge, const char*> charges[] = {
     {Charge::ray_setup, "ray set-up"},        {Charge::cell_step, "cell step"}, {Charge::bvh_node_read, "BVH node read"},
     {Charge::triangle_test, "triangle test"}, {Charge::shading, "shading"},     {Charge::cached_lookup, "cached look-up"},
@@ -29,12 +29,12 @@ std::string time_text(std::uint64_t ps) {
   return ns < 1000 ? fixed(ns, 1) + " ns" : fixed(1e-3 * ns, 1) + " us";
 }
 
-/// "50.0 us and 430.0 us", of short and long messages.
+/// Returns "50.0 us and 430.0 us", of short and long messages.
 std::string both(std::uint64_t of_short_ps, std::uint64_t of_long_ps) {
   return of_short_ps == of_long_ps ? time_text(of_short_ps) : time_text(of_short_ps) + " and " + time_text(of_long_ps);
 }
 
-/// By a fifth less and more: what is scaled gets its numerator over 5.
+/// Scales figures by a fifth down and up: the numerator is over 5.
 class Scaled {
  public:
   Scaled(const Machine& machine, std::vector<Variation>& variations) : machine_(machine), variations_(variations) {}
@@ -48,7 +48,7 @@ class Scaled {
       variations_.push_back(std::move(variation));
     }
   }
-  /// A figure that messages of both classes have.
+  /// Adds a figure that messages of both classes have.
   void add_of_messages(const std::string& figure, std::uint64_t MessageCost::*member, std::uint64_t ps) {
     add(figure, both(machine_.short_message.*member * ps, machine_.long_message.*member * ps),
         [member](Machine& machine, const auto& scale) {
@@ -101,7 +101,7 @@ Variation without_contention(Machine machine) {
   return {"contention for links", "", "off", std::move(machine)};
 }
 
-/// Efficiencies of the watched cells, and how far they lie from what is printed.
+/// Efficiencies of the watched cells, and their differences from the printed ones.
 struct Watched {
   std::array<double, watched_cells.size()> efficiency{};
   Differences differences;

@@ -14,8 +14,8 @@ namespace dmpc::apps {
 /// A machine with one of its figures changed.
 struct Variation {
   std::string figure;
-  std::string value; ///< unchanged value with its unit; empty for a switch
-  std::string change; ///< "-20 %", "+20 %"; other changes are in words and not in the picture
+  std::string value;   ///< unchanged value with its unit; empty for a switch
+  std::string change;  ///< "-20 %", "+20 %"; other changes are in words and not in the picture
   nodes::Machine machine;
 };
 

@@ -32,7 +32,7 @@ std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const
 
 /// A cell of Table 3, printed and found; either is nothing if it is not printed or not known.
 struct CellOfTable3 {
-  std::size_t scene = 0; ///< index in paper_scenes
+  std::size_t scene = 0;  ///< index in paper_scenes
   const char* title = "";
   std::uint32_t nodes = 0;
   double printed_seconds = 0, seconds = 0, printed_efficiency = 0, efficiency = 0;
@@ -101,8 +101,8 @@ Table claims(const Catalogue& catalogue, const PaperResults& results);
 struct VoxelCell {
   PaperPlace place;
   double printed_seconds = 0, seconds = 0;
-  PricedCell ray; ///< node-milliseconds of a ray, by prices; printed ones over the printed number of rays
-  double milliseconds = 0; ///< node-milliseconds of a ray in our run
+  PricedCell ray;           ///< node-milliseconds of a ray, by prices; printed ones over the printed number of rays
+  double milliseconds = 0;  ///< node-milliseconds of a ray in our run
   double printed_efficiency = 0;
   std::optional<double> efficiency;  ///< nothing if the scene's smallest machine has no time
   std::optional<double> one_worker_seconds;

@@ -1,4 +1,4 @@
-// The claims of the article's text that a structure decides, held against our runs on its own.
+// The claims of the article's text that depend on the structure, compared with our runs on its own structure.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -36,7 +36,7 @@ std::optional<std::string> loads_text(const PaperResults& results, const auto& r
   return text;
 }
 
-/// At one of the numbers of nodes, as the article does not say which.
+/// Judged at one of the numbers of nodes, as the article does not say which.
 void claim_loads(Claims& rows, const VoxelRuns& voxels, const PaperResults& results) {
   const auto subsampled = loads_text(results, voxels.subsampled), equal = loads_text(results, voxels.equal_size);
   if (!subsampled || !equal) {
@@ -71,7 +71,7 @@ std::vector<CachedRun> cached_runs(const VoxelRuns& voxels, const PaperResults& 
   return runs;
 }
 
-/// The smallest cache that was tried with more than half of an efficiency; nothing if there is none.
+/// Returns the smallest tested cache with more than half of an efficiency; nothing if there is none.
 std::optional<CachedRun> smallest_for_half(const std::vector<CachedRun>& runs) {
   const auto found = std::find_if(runs.begin(), runs.end(), [](const CachedRun& run) { return run.efficiency > 50; });
   return found == runs.end() ? std::nullopt : std::optional(*found);

@@ -1,4 +1,4 @@
-// What the article shows of caches and of the load of regions, on its own structure.
+// The article's results on caches and on the load of regions, on its own structure.
 #include <string>
 
 #include "apps/frontend/line/number_text.h"

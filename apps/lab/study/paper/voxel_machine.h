@@ -14,8 +14,8 @@ struct VoxelPrices {
   /// are one operation here, since each reference that is read has its polygon tested, and cost as much as a record read and a
   /// test.
   double walk = 0;
-  double rays = 0; ///< of setting up a ray, and of shading a hit
-  double cached_lookup = 0; ///< extra cost of looking up a page whose home is another node
+  double rays = 0;           ///< of setting up a ray, and of shading a hit
+  double cached_lookup = 0;  ///< extra cost of looking up a page whose home is another node
 
   bool operator==(const VoxelPrices&) const = default;
 };

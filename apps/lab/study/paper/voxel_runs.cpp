@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t article_memory_bytes = std::size_t{4} << 20U;
 
-/// One node has the whole scene, however large: the article prints no time of one that its memory does not hold.
+/// One node has the whole scene, however large: the article prints no time of one whose memory does not hold it.
 PaperRun timed_voxel_run(const PaperRun& like, std::size_t scene, std::size_t column) {
   PaperRun run = like;
   run.scene = paper_scenes[scene].scene;
@@ -33,7 +33,7 @@ void add_voxel_caches(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
-/// As the article's rays travelled: without backpressure, by cuts in alternating directions.
+/// Rays travel as in the article: without backpressure, with cuts in alternating directions.
 void add_voxel_loads(Catalogue& catalogue, const PaperRun& like) {
   PaperRun run = like;
   run.scene = rings[0];

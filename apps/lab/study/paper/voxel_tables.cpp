@@ -57,9 +57,9 @@ void note_errors(Table& table, const std::vector<VoxelCell>& cells) {
                  fixed(efficiencies.worst, 2) + " at worst, " + counted(efficiencies.count, "cell") + ".");
 }
 
-/// By scene, the mean of found over printed that these prices give.
+/// By scene, the mean of found over printed with these prices.
 struct Fitness {
-  std::array<Differences, paper_scenes.size()> ratios{};  ///< as they are, not from 1
+  std::array<Differences, paper_scenes.size()> ratios{};  ///< the ratios themselves, not their differences from 1
   Differences errors;
 };
 Fitness fitness_of(const VoxelPrices& prices, const std::vector<VoxelCell>& cells) {
@@ -72,7 +72,7 @@ Fitness fitness_of(const VoxelPrices& prices, const std::vector<VoxelCell>& cell
   return fitness;
 }
 
-/// The cells on the smallest and the largest machine of these scenes.
+/// Returns the prices fitted to the cells on the smallest and the largest machine of these scenes.
 std::optional<VoxelPrices> prices_of(const std::vector<VoxelCell>& cells, std::size_t one, std::size_t other) {
   std::vector<PricedCell> chosen;
   for (const VoxelCell& cell : cells) {

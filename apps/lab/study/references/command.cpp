@@ -29,7 +29,7 @@ TableFiles files_of(const ReferencesOptions& options) {
   return {options.table, {names_of(references_data_file, {CacheCurves::plot({})})}, {.inputs = std::move(inputs)}};
 }
 
-/// How many caches have been fed, on a terminal. Thread safety: count() from any thread.
+/// Shows the number of caches fed, on a terminal. Thread safety: any thread may call count().
 class CachesFed {
  public:
   CachesFed(std::uint64_t total, bool is_shown) : progress_(std::cerr, is_shown, "study references: ", "caches"), total_(total) {}

@@ -14,10 +14,10 @@
 namespace dmpc::apps {
 
 struct ReferencesOptions {
-  std::string file; ///< "-" is the standard input
-  ReferenceColumns columns; ///< their names in the file
+  std::string file;                        ///< "-" is the standard input
+  ReferenceColumns columns;                ///< their names in the file
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages
-  std::vector<std::string> policies; ///< other than dmpc's own, as ForeignPolicy takes them
+  std::vector<std::string> policies;       ///< other than dmpc's own, as ForeignPolicy takes them
   TableOutput table;
   bool quiet = false;  ///< no progress
 };

@@ -13,7 +13,7 @@ struct GzipText::Stream : z_stream {};
 namespace {
 
 constexpr std::size_t buffer_bytes = 64 * 1024;
-/// zlib's largest window, and 16 for gzip's heads and sums, which are checked.
+/// zlib's largest window, and 16 for gzip's headers and checksums, which are verified.
 constexpr int gzip_window_bits = 15 + 16;
 
 }  // namespace
@@ -23,7 +23,7 @@ GzipText::GzipText(std::istream& packed)
   if (::inflateInit2(stream_.get(), gzip_window_bits) != Z_OK) {
     throw std::bad_alloc();
   }
-  exceptions(std::ios::badbit);  // so that what underflow() throws is not lost
+  exceptions(std::ios::badbit);  // so that exceptions of underflow() are not lost
 }
 
 GzipText::~GzipText() { ::inflateEnd(stream_.get()); }

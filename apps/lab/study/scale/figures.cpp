@@ -76,7 +76,7 @@ std::optional<double> growth_exponent(std::span<const std::pair<double, double>>
   for (const auto& [x, y] : points) {
     if (x > 0 && y > 0) {
       logs.emplace_back(core::natural_log(x), core::natural_log(y));
-      // Measured from the first, so that what does not grow at all comes out as 0.
+      // Relative to the first, so that an exponent of no growth is exactly 0.
       x_sum += logs.back().first - logs.front().first;
       y_sum += logs.back().second - logs.front().second;
     }
@@ -88,7 +88,7 @@ std::optional<double> growth_exponent(std::span<const std::pair<double, double>>
     squares += from_middle * from_middle;
     products += from_middle * (y - logs.front().second - y_sum / count);
   }
-  constexpr double same = 1e-12;  // what rounding leaves of equal x
+  constexpr double same = 1e-12;  // rounding error of equal x
   return squares > same ? std::optional(products / squares) : std::nullopt;
 }
 

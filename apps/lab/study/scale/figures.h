@@ -21,7 +21,7 @@ namespace dmpc::apps {
 const std::vector<Column>& scale_figure_columns();
 
 struct ScaleFigures {
-  std::map<std::string, double> by_name; ///< of the applicable columns
+  std::map<std::string, double> by_name;  ///< of the applicable columns
   std::uint64_t primitives = 0;           ///< in the database
   std::string film_hash;
 

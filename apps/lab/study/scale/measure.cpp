@@ -14,7 +14,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// The anonymous memory of a dmpc that does nothing; that ends so soon that it is watched several times, and may not be seen.
+/// Returns the anonymous memory of an idle dmpc; it ends so soon that it is sampled in several runs, and may be missed.
 std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Interrupt& interrupt) {
   constexpr int times = 5;
   std::optional<std::size_t> most;
@@ -52,7 +52,7 @@ std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettin
 
 void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
                    const std::function<void(ScaleResult)>& take) {
-  const std::optional<std::size_t> idle = idle_bytes(settings, interrupt);  // of the libraries, before anything is done
+  const std::optional<std::size_t> idle = idle_bytes(settings, interrupt);  // used by the libraries before any work
   const RenderProcesses renders(settings.program, interrupt);
   std::map<std::string, std::string> films;  // by scene
   for (std::size_t i = 0; i < runs.size(); ++i) {

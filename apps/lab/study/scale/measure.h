@@ -16,7 +16,7 @@ namespace dmpc::apps {
 struct ScaleResult {
   ScaleRun run;
   std::optional<ScaleFigures> figures;
-  std::string misfit; ///< if there are no figures: a sentence that says why, without its full stop
+  std::string misfit;  ///< if there are no figures: a sentence that says why, without its full stop
 };
 
 /// Returns the words after `dmpc`, without outputs.

@@ -17,7 +17,7 @@ const std::vector<std::string> part_names = {"sizes", "nodes"}, method_names = {
 constexpr std::uint64_t least_count = 1000;
 constexpr int size_limit = 100'000;
 
-/// What the words of `text` stand for: each for its place among `names`. Throws core::UsageError.
+/// Returns the meanings of the words of `text`, each by its index in `names`. Throws core::UsageError.
 template <class Meaning>
 std::vector<Meaning> meanings_of(const std::string& text, const std::string& option, const std::vector<std::string>& names) {
   std::vector<Meaning> meanings;

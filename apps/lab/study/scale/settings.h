@@ -35,7 +35,7 @@ struct ScaleSettings {
   std::optional<std::string> nodes_scene;                                       ///< of part nodes; nothing: scene_of_nodes()
   std::size_t cache_bytes = std::size_t{1} << 20U;                              ///< a node's, of method cache
   Resolution resolution{512, 512};
-  std::uint32_t rounds = 1; ///< each run is repeated this often, and medians are taken
+  std::uint32_t rounds = 1;  ///< each run is repeated this often, and medians are taken
   std::filesystem::path program = "/proc/self/exe";
 
   /// Returns the scenes of a family, in order. Throws core::InputError if the family or a size is unknown.

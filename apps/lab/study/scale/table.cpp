@@ -11,7 +11,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// So many of the largest rows are taken for the growth where small things that do not grow no longer matter.
+/// Number of the largest rows used for the growth, where small constant costs no longer matter.
 constexpr std::size_t last_count = 3;
 constexpr int exponent_digits = 2;
 
@@ -31,7 +31,7 @@ bool belongs(const ScaleRun& one, const ScaleRun& other) {
   return one.part == other.part && one.method == other.method && one.scene.family == other.scene.family;
 }
 
-/// In the order of their first runs.
+/// Returns groups in the order of their first runs.
 std::vector<Group> groups_of(const std::vector<ScaleResult>& results) {
   std::vector<Group> groups;
   for (const ScaleResult& result : results) {
@@ -58,7 +58,7 @@ std::string range_of(std::span<const ScaleResult* const> rows) {
   return first.scene.text() + " on " + std::to_string(first.node_count) + " to " + counted(last.node_count, "node");
 }
 
-/// How each figure grows, as a row and in words. "(2 of 4 rows)": so many have more than nothing of it.
+/// Adds the growth of each figure, as a row and in words. "(2 of 4 rows)": only this many rows have a value above 0.
 void add_growth(std::span<const ScaleResult* const> rows, const ScaleSettings& settings, Table& table) {
   const ScaleRun& run = rows.front()->run;
   std::vector<Cell> row(table.columns().size());

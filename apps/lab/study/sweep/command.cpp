@@ -43,7 +43,7 @@ TableResult result_of(const StudySweepOptions& options, const std::vector<SweepR
                       options.table.format);
 }
 
-/// The options of `render`, as words to be passed on.
+/// Declares the options of `render`, as words to be passed on.
 void add_render_options(OptionSet& set, StudySweepOptions& options) {
   std::string group = sweepable_options().front().group;
   for (const OptionDescription& option : sweepable_options()) {
@@ -89,7 +89,7 @@ void add_sweep_options(OptionSet& set, SweepSettings& settings) {
       "Keep the counters of each run there, and run nothing twice: who was stopped goes on, who asks for more adds to it");
 }
 
-/// In the end: flags are words, too, and there is something to vary.
+/// Runs last: flags become words, too, and something must vary.
 void finish(StudySweepOptions& options) {
   for (const auto& [name, is_on] : options.flags) {
     if (is_on) {

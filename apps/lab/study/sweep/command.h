@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 struct StudySweepOptions {
   SweepSettings settings;
-  std::map<std::string, bool> flags; ///< of `render`, by name: set by the line
+  std::map<std::string, bool> flags;  ///< of `render`, by name: set by the line
   TableOutput table;
   bool quiet = false;  ///< no progress
 };

@@ -31,8 +31,8 @@ void add_file(const fs::path& path, Digest& digest) {
   digest.add(std::string_view(text.str()));
 }
 
-/// What reads for the program and what it opens: another of them may make another picture of the same scene. What is not
-/// installed takes no part.
+/// Adds the readers and modules of the program: another version may render another picture of the same scene. Missing ones are
+/// skipped.
 void add_companions(Digest& digest) {
   for (const auto& [name, folder] : {std::pair("dmpc_mesh_reader", "../libexec/dmpc"),
                                      {"dmpc_picture_reader", "../libexec/dmpc"},
@@ -46,7 +46,7 @@ void add_companions(Digest& digest) {
   }
 }
 
-/// What an ordinary file has, and nothing that a link leads to. Throws core::InputError.
+/// Reads an ordinary file without following links. Throws core::InputError.
 std::vector<Figure> read_entry(const fs::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status {};
@@ -56,8 +56,8 @@ std::vector<Figure> read_entry(const fs::path& path) {
   return read_figures("/proc/self/fd/" + std::to_string(file.number()));
 }
 
-/// Whether a figure is there, or said to be none: "pages" is null where no pages travel.
-/// What each strategy calls by names of its own is there if others of its kind are.
+/// Returns whether a figure is present, or reported as absent: "pages" is null if no pages travel. A figure that strategies name
+/// differently is present if others of its kind are.
 bool has(const std::vector<Figure>& figures, const std::string& column) {
   const std::size_t kinds = std::min(column.find(".by_kind."), column.find(".waiting."));
   const std::string kin = kinds == std::string::npos ? column : column.substr(0, column.find('.', kinds + 1) + 1);
@@ -113,7 +113,7 @@ std::optional<std::vector<Figure>> KeptRuns::find(const SweepRun& run) const {
 }
 
 void KeptRuns::keep(const SweepRun& run, const fs::path& stats) const {
-  static std::mutex one_at_a_time;  // there are few places for files under way
+  static std::mutex one_at_a_time;  // the slots for files in progress are few
   const std::lock_guard lock(one_at_a_time);
   OutputFile file(file_of(run), {.replaces = Replaces::name, .option = "--runs"});
   file.stream() << std::ifstream(stats, std::ios::binary).rdbuf();

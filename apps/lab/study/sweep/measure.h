@@ -15,9 +15,9 @@ namespace dmpc::apps {
 /// Result of a run.
 struct SweepResult {
   SweepRun run;
-  std::optional<std::vector<Figure>> figures; ///< of its --stats; nothing if there was not enough memory
-  std::string misfit; ///< if there are no figures: why
-  bool is_kept = false; ///< from an earlier sweep
+  std::optional<std::vector<Figure>> figures;  ///< of its --stats; nothing if there was not enough memory
+  std::string misfit;                          ///< if there are no figures: why
+  bool is_kept = false;                        ///< from an earlier sweep
 };
 
 /// Runs them in order, as many at a time as there are cores; one at a time if one of them has a thread for each node, since that

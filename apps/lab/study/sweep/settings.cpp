@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t runs_max = 10'000;
 
-/// Options of outputs, of what goes on from earlier ones, and of what is said meanwhile.
+/// Options of outputs, of continuing earlier ones, and of messages.
 constexpr const char* unsweepable[] = {"--help",
                                        "--output",
                                        "--stats",
@@ -37,7 +37,7 @@ constexpr const char* unsweepable[] = {"--help",
                                        "--animation",
                                        "--fps"};
 
-/// `render` alone, for one line.
+/// Parses one line of `render` alone.
 class RenderLine {
  public:
   RenderLine() { add_options(line_.add_command("render", ""), options_); }
@@ -92,7 +92,7 @@ void check_values(const VariedOption& variation, const std::string& text) {
   }
 }
 
-/// A value that has commas itself, such as a camera's place, ends with a semicolon.
+/// A value that contains commas, such as a camera's position, ends with a semicolon.
 std::vector<std::string> values_in(const std::string& text) {
   if (text.find(';') == std::string::npos) {
     return words_between(text, ',');
@@ -104,7 +104,7 @@ std::vector<std::string> values_in(const std::string& text) {
   return values;
 }
 
-/// The word that gives an option one of its values; nothing for a flag that is off.
+/// Returns the word that sets an option to a value; nothing for a flag that is off.
 std::optional<std::string> word_of(const VariedOption& variation, const std::string& value) {
   if (variation.is_flag) {
     return value == "on" ? std::optional(variation.option) : std::nullopt;
@@ -112,7 +112,7 @@ std::optional<std::string> word_of(const VariedOption& variation, const std::str
   return variation.option + "=" + value;
 }
 
-/// `runs` with every value of `variation` at the end of each.
+/// Returns `runs` with every value of `variation` appended to each.
 std::vector<SweepRun> varied(const std::vector<SweepRun>& runs, const VariedOption& variation) {
   std::vector<SweepRun> all;
   for (const SweepRun& run : runs) {
@@ -150,7 +150,7 @@ void check_options(const SweepSettings& settings) {
   }
 }
 
-/// What `render` makes of a combination.
+/// Returns the options of `render` for a combination.
 RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& variations) {
   try {
     return RenderLine().parse(RenderProcesses::with_outputs(run.words, "stats.json", "picture.exr"));
@@ -159,7 +159,7 @@ RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& v
   }
 }
 
-/// Whether any of these options of `render` is fixed or varied.
+/// Returns whether any of these options of `render` is fixed or varied.
 bool gives_any(const SweepSettings& settings, const std::set<std::string>& names) {
   const auto is_one = [&](const std::string& word) { return names.contains(word.substr(0, word.find('='))); };
   return std::any_of(settings.fixed.begin(), settings.fixed.end(), is_one) ||
@@ -198,7 +198,7 @@ std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {
   check_options(settings);
   std::vector<std::string> words = {"render", settings.scene};
   words.insert(words.end(), settings.fixed.begin(), settings.fixed.end());
-  // What a picture takes is what is swept, so a mesh file is shown as other scenes are, unless something is said of that.
+  // A sweep measures the cost of a picture, so a mesh file is shown as other scenes are, unless an option says otherwise.
   if (is_mesh(settings.scene) && !gives_any(settings, {"--transport"})) {
     words.emplace_back("--transport=whitted");
     if (!gives_any(settings, {"--samples", "--quality", "--error"})) {

@@ -22,7 +22,7 @@ std::string long_name_of(const OptionDescription& option);
 struct VariedOption {
   std::string option;               ///< "--page-size"
   bool is_flag = false;             ///< its values are on and off
-  std::vector<std::string> values; ///< as typed, without repetition
+  std::vector<std::string> values;  ///< as typed, without repetition
 };
 
 /// Parses "page-size:1KiB,4KiB", with or without dashes before; "background:0,0,0;1,1,1" where values have commas. Throws
@@ -34,16 +34,16 @@ struct SweepSettings {
   std::string scene;
   std::vector<std::string> fixed;             ///< words of all runs: "--runner=virtual"
   std::vector<VariedOption> variations;       ///< the last one changes fastest
-  std::vector<std::string> columns; ///< names of figures; empty: the usual ones
-  std::optional<std::filesystem::path> kept; ///< the folder for counters of runs, including those of earlier sweeps
+  std::vector<std::string> columns;           ///< names of figures; empty: the usual ones
+  std::optional<std::filesystem::path> kept;  ///< the folder for counters of runs, including those of earlier sweeps
   std::filesystem::path program = "/proc/self/exe";
 };
 
 /// One combination.
 struct SweepRun {
   std::vector<std::string> values;  ///< of the variations
-  std::vector<std::string> words; ///< a line of `render` without its outputs
-  RenderOptions options; ///< the parsed words, with defaults
+  std::vector<std::string> words;   ///< a line of `render` without its outputs
+  RenderOptions options;            ///< the parsed words, with defaults
 };
 
 /// Its cost is wall clock time, so nothing else should run beside it.

@@ -16,7 +16,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// What the values of a variation are.
+/// The type of a variation's values.
 enum class ValueKind : std::uint8_t { counts, sizes, texts };
 
 std::optional<std::uint64_t> size_in(const std::string& text) {
@@ -41,7 +41,7 @@ Cell cell_of(const VariedOption& variation, const std::string& value) {
                                     : Cell(value);
 }
 
-/// "page-size" of "--page-size".
+/// Returns "page-size" for "--page-size".
 std::string name_of(const VariedOption& variation) { return variation.option.substr(2); }
 
 bool ends_in(const std::string& name, const std::string& word) { return name == word || name.ends_with("." + word); }
@@ -74,7 +74,7 @@ Cell cell_of(const SweepResult& result, const std::string& figure) {
   return value == nullptr ? Cell() : std::visit(ValueCell(), *value);
 }
 
-/// Decimal places with which the largest of a column's numbers has four digits.
+/// Returns the decimal places that give the largest of a column's numbers four digits.
 int digits_of(const std::vector<SweepResult>& results, const std::string& figure) {
   double most = 0;
   for (const SweepResult& result : results) {
@@ -126,11 +126,11 @@ bool any(const std::vector<SweepRun>& runs, bool (*holds)(const RenderOptions&))
 
 /// One of several in a picture.
 struct SweepCurve {
-  std::string title;                                       ///< what varies as it was typed: "page-size 1KiB"
-  std::vector<std::pair<std::string, std::string>> where;  ///< by what its rows are known
+  std::string title;                                       ///< the variation as typed: "page-size 1KiB"
+  std::vector<std::pair<std::string, std::string>> where;  ///< selects its rows
 };
 
-/// `curve` for one more value of what varies.
+/// Returns `curve` restricted to one value of another variation.
 SweepCurve narrowed(SweepCurve curve, const VariedOption& variation, const std::string& value) {
   const Cell cell = cell_of(variation, value);
   const auto* const number = std::get_if<std::uint64_t>(&cell);
@@ -139,7 +139,7 @@ SweepCurve narrowed(SweepCurve curve, const VariedOption& variation, const std::
   return curve;
 }
 
-/// For all combinations of the variations but `along`; one without a title where there is none.
+/// Returns curves for all combinations of the variations except `along`; one without a title if there is no other.
 std::vector<SweepCurve> curves_of(const std::vector<VariedOption>& variations, const VariedOption* along) {
   std::vector<SweepCurve> curves(1);
   for (const VariedOption& variation : variations) {
