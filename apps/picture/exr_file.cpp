@@ -140,7 +140,6 @@ void BlockPacker::write() {
                                    encoder_.compressed_bytes));
 }
 
-/// Writes a file into memory.
 class ExrWriter {
  public:
   explicit ExrWriter(const ExrRows& picture);

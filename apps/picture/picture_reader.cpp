@@ -87,7 +87,8 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
     texture.format = head.format;
     hidden_alphas_ += head.hides_alpha ? 1 : 0;
     const std::uint64_t count = std::uint64_t{head.width} * head.height;
-    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(count, count)});  // checked by take_room()
+    texture.levels.push_back(
+        {head.width, head.height, receive_values<std::uint32_t>(count, count)});  // take_room() has checked the size
   });
   put_below_coat(texture, edges.coat);
   core::add_levels(texture);

@@ -35,7 +35,6 @@ class Files {
   virtual void take_mode(int /*file*/, const std::filesystem::path& /*like*/) {}
 };
 
-/// Returns this computer's file system.
 Files& real_files();
 
 }  // namespace dmpc::apps

@@ -16,7 +16,6 @@ class MemoryFile {
   int descriptor() const { return file_.number(); }
   /// Returns a name by which this process can open it.
   std::string path() const;
-  /// Returns its contents.
   std::string bytes() const;
 
  private:

@@ -57,7 +57,7 @@ int sync_patiently(Files& files, int file) {
   return 0;
 }
 
-/// Writes nothing to a device of Linux: /dev/full reports an error even then.
+/// Asks a device by writing nothing: on Linux /dev/full reports an error even then.
 void ask_device(const fs::path& path, const std::string& what) {
   if (!fs::is_character_file(path)) {
     return;

@@ -114,7 +114,6 @@ class OutputFile {
   void open();
   void make(const std::filesystem::path& temporary);
   int close();
-  /// Removes an unfinished file.
   void drop();
   void sync_folder() const;
   [[noreturn]] void fail(const std::string& what, int error) const;

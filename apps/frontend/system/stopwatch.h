@@ -44,7 +44,6 @@ class ProcessorStopwatch {
   double last_;
 };
 
-/// Measured times.
 struct Times {
   double wall_seconds = 0;
   double processor_seconds = 0;  ///< sum over all threads of the process

@@ -77,7 +77,6 @@ bool is_own_group(gid_t id) {
 /// Whether a sticky folder, in which everybody may write but remove only their own files, is trusted.
 enum class Sticky { keeps_apart, is_open };
 
-/// Checks one file or folder.
 class Trust {
  public:
   explicit Trust(Sticky sticky) : sticky_(sticky) {

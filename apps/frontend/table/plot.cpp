@@ -46,7 +46,6 @@ std::string text_of_cell(const Cell& cell) {
 
 bool stands_at_place(const PlotSeries& series) { return series.mark == PlotMark::bars || series.mark == PlotMark::bands; }
 
-/// Writes one plot's script.
 class Script {
  public:
   Script(const Plot& plot, const Table& table, const std::string& data_file) : plot_(plot), table_(table), data_(data_file) {

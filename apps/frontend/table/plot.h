@@ -24,7 +24,6 @@ inline constexpr std::size_t plot_color_count = 12;
 /// Colours as #rrggbb. All except black are legible on white and on black; a dark page turns black into white.
 extern const std::array<const char*, 8> plot_colors;
 
-/// One column, or some of its rows.
 struct PlotSeries {
   std::string title;   ///< in the legend
   std::string column;  ///< name of a column of numbers

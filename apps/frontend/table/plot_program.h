@@ -10,7 +10,6 @@
 
 namespace dmpc::apps {
 
-/// Result of drawing a picture.
 struct PlotOutcome {
   bool is_drawn = false;
   bool is_program_missing = false;

@@ -39,7 +39,6 @@ struct MarkdownCell {
   std::string operator()(double number) const { return fixed(number, digits); }
 };
 
-/// How one column is laid out.
 struct Layout {
   std::size_t width = 0;
   bool is_text = false;  ///< is left-aligned

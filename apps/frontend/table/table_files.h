@@ -45,7 +45,6 @@ struct PlottedNames {
 };
 PlottedNames names_of(const std::string& data_file, const std::vector<Plot>& plots);
 
-/// A table with its plots.
 struct PlottedTable {
   Table table;
   std::string data_file;
@@ -59,7 +58,6 @@ struct TableResult {
   std::function<std::vector<PlottedTable>()> plotted = {};
 };
 
-/// A command's other files.
 struct OtherFiles {
   std::vector<NamedFile> inputs = {};
   std::vector<NamedFile> outputs = {};

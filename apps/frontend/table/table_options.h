@@ -18,7 +18,6 @@ struct TableOutput {
   std::optional<std::filesystem::path> plots;   ///< a folder for gnuplot's plots and their data
 };
 
-/// A command's optional outputs beside its table.
 enum class TableExtras : std::uint8_t { none, plots, plots_and_report };
 
 /// Declares --format and -o, and --plots and --report if the command has them.

@@ -226,7 +226,6 @@ Trial trial_of(const Inspection& inspection, std::uint64_t unexplained, std::uin
   return trial;
 }
 
-/// Returns the number of failures.
 std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const Subject& subject,
                            const Inspection& inspection, const PlaceFindings& places) {
   const core::Database& database = subject.database;

@@ -23,7 +23,6 @@ struct CheckOptions {
   bool quiet = false;             ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet options, CheckOptions& check);
 
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no

@@ -14,7 +14,6 @@
 
 namespace dmpc::apps {
 
-/// One ray and the answers of both.
 struct TracedRay {
   core::Ray ray;
   Answer grid, oracle;

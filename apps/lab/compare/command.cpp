@@ -194,7 +194,6 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
   return status_after(options, passed);
 }
 
-/// Prints `comparison`.
 int report_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
   if (options.format == CompareFormat::json) {
     print_json(output, options, comparison);

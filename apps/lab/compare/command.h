@@ -29,7 +29,6 @@ struct CompareOptions {
   Sandbox sandbox = Sandbox::available;              ///< for the pictures' reader
 };
 
-/// Declares them.
 void add_options(OptionSet options, CompareOptions& compare);
 
 /// Reads both, writes the requested pictures or page, and prints to `output` the figures of PictureError, or the counters that

@@ -8,7 +8,6 @@
 
 namespace dmpc::apps {
 
-/// One measure of PictureError.
 struct Measure {
   const char* name;  ///< its name in --fail-above
   double (*of)(const PictureError& error);

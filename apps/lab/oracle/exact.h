@@ -24,7 +24,6 @@ enum class CertificateFault : std::uint8_t {
   edge        ///< the exact ray passes the triangle farther from an edge than the certificate allows
 };
 inline constexpr std::size_t certificate_fault_count = 6;
-/// A few words for reports.
 std::string_view name_of(CertificateFault fault);
 
 /// Checks `certificate`, of a hit of `ray` on `values` at `t`, against the exact answer that core/trace/certificate.h defines. An

@@ -37,7 +37,6 @@ struct FacetedStep {
   Real density = std::numeric_limits<Real>::infinity();  ///< per steradian, of scattered light
 };
 
-/// The response to light from a direction.
 template <class Real>
 struct FacetedResponse {
   core::Vec3<Real> value;  ///< response to a radiance of 1 from that direction, per steradian, including the cosine

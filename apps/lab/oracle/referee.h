@@ -32,7 +32,6 @@ enum class Verdict : std::uint8_t {
 };
 inline constexpr std::size_t verdict_count = 6;
 constexpr bool explained(Verdict verdict) { return verdict < Verdict::grid_wrong; }
-/// One word or two for tables.
 std::string_view name_of(Verdict verdict);
 
 struct Ruling {

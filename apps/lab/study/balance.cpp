@@ -19,7 +19,6 @@ namespace {
 using dataflow::Balance;
 using dataflow::CutOrder;
 
-/// A method of cutting space.
 struct Cutting {
   const char* name;
   Balance balance;

@@ -34,7 +34,6 @@ svm::RunOptions recording(std::uint32_t node_count) {
           .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
 }
 
-/// The cost of a size on the machine.
 struct TimedCache {
   std::uint32_t node_count;
   std::uint64_t total_ns, page_bytes;

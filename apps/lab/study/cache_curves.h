@@ -46,7 +46,6 @@ class CacheCurves {
 
   const std::vector<std::uint32_t>& sizes() const { return sizes_; }
   std::vector<Cell> row(std::size_t index, std::uint32_t page_count) const;
-  /// Adds a row for each size.
   void add_rows(std::uint32_t page_count, Table& table) const;
   /// Returns a note on how many pages the nodes use.
   std::string needs_note() const;

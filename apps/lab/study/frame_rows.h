@@ -13,7 +13,6 @@
 
 namespace dmpc::apps {
 
-/// Cost of one frame.
 struct FrameFigures {
   std::uint64_t film = 0;             ///< its hash
   std::uint64_t faults = 0;           ///< page faults, of all nodes
@@ -35,7 +34,6 @@ struct FramesCase {
   bool has_pages() const { return strategy == Strategy::svm; }
 };
 
-/// All frames of a path on one computer.
 struct FrameSeries {
   std::string machine;
   std::uint32_t node_count = 1;

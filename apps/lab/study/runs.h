@@ -98,7 +98,6 @@ class StudyRuns {
   /// Compares and counts a run carried out elsewhere, whose film has this hash.
   void take(std::uint64_t film_hash);
 
-  /// Returns the number of finished runs.
   std::uint32_t count() const { return count_; }
   /// Returns the hash of every run's film; nothing before the first.
   std::optional<std::uint64_t> film_hash() const { return film_hash_; }

@@ -105,7 +105,6 @@ const FilledColumns<FittingRun>& system_columns() {
   return all;
 }
 
-/// Result of a run.
 struct SystemOutcome {
   std::size_t held_bytes = 0;
   std::vector<Cell> figures;  ///< for a row that it fits

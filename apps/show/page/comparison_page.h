@@ -13,7 +13,6 @@
 
 namespace dmpc::apps::html {
 
-/// One of the two.
 struct ComparedPage {
   std::string file;  ///< as it was typed
   PlayedRun run;

@@ -50,7 +50,6 @@ const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// Returns the predicted and measured cache sizes.
 std::set<std::uint32_t> sizes_of(const ForecastView& view) {
   std::set<std::uint32_t> sizes;
   for (const TimeBand& size : view.sizes) {

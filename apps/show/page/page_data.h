@@ -25,7 +25,6 @@ class DataPart {
   bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
   DataPart at(const char* key) const;
   DataPart at(std::size_t place) const;
-  /// Returns a list's length.
   std::size_t size(std::size_t most) const;
 
   std::uint64_t whole(std::uint64_t most, std::uint64_t least = 0) const;

@@ -20,7 +20,6 @@ std::vector<std::pair<std::string, std::uint64_t>> path_parts(const nodes::PathT
 
 /// Returns a table with a row for each part, and for messages also a row for each kind.
 Table path_table(const nodes::PathTimes& path, std::span<const char* const> kind_names);
-/// Returns the path in a sentence.
 std::string path_conclusion(const nodes::PathTimes& path, std::span<const char* const> kind_names);
 
 }  // namespace dmpc::apps::html

@@ -22,7 +22,6 @@ Losses losses_of(const Account& account);
 Table memory_table(const Account& account);
 Plot memory_plot(const Account& account);
 
-/// Returns the packets of all nodes together.
 std::vector<PacketKindTraffic> packets_of(const Account& account);
 
 }  // namespace dmpc::apps::html

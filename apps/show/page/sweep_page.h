@@ -14,7 +14,6 @@
 
 namespace dmpc::apps::html {
 
-/// A table and its plots.
 struct SweepPart {
   std::string heading;  ///< heading of its section; empty: none
   const Table& table;   ///< outlives this
@@ -22,7 +21,6 @@ struct SweepPart {
   std::string conclusion = {};  ///< a sentence; empty: none
 };
 
-/// The contents of a page.
 struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs

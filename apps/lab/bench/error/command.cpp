@@ -120,7 +120,6 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
   return table;
 }
 
-/// Introduces a table for readers.
 std::string first_words(const ErrorOptions& options, std::span<const SceneResult> results) {
   const std::string summary = options.table.format == TableFormat::markdown ? summary_of(results) : "";
   constexpr std::size_t width = 120;  // as the table's notes

@@ -22,7 +22,6 @@ struct ErrorOptions {
   bool quiet = false;             ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, ErrorOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for an unsuitable

@@ -53,7 +53,6 @@ class Scenes {
     const Key key{setting.tessellation, setting.is_by_paths() ? setting.emitters : picture_.transport.emitters};
     return scenes_.contains(key) ? scenes_.at(key) : add(key);
   }
-  /// Returns the base point's.
   const Built& exact() const { return scenes_.at(exact_); }
 
  private:
@@ -88,7 +87,6 @@ class Scenes {
   std::map<Key, Built> scenes_;
 };
 
-/// One finished render.
 struct Rendered {
   Image picture;
   double seconds = 0;
@@ -103,7 +101,6 @@ Image reference_image(const ReferencePicture& reference) {
   return image;
 }
 
-/// Makes the measurements of one scene.
 class Bench {
  public:
   Bench(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result)

@@ -44,7 +44,6 @@ bool beats(const CostPoint& a, const CostPoint& b) {
   return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
 }
 
-/// Returns the least cost for each error.
 std::map<double, double> by_error(std::span<const CostPoint> points) {
   std::map<double, double> costs;
   for (const CostPoint& point : points) {

@@ -42,7 +42,6 @@ std::set<Knob> all_knobs(bool are_by_paths = false);
 /// Throws core::UsageError, which lists the known knobs, for knobs that such pictures do not have.
 void check_knobs(const std::set<Knob>& knobs, bool are_by_paths);
 
-/// All knobs of one render.
 struct Setting {
   int samples = 16;                                      ///< per pixel; with refinement, in the first pass
   double error = 0;                                      ///< core::RefinementOptions::error; 0: the same samples in all pixels

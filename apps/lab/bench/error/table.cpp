@@ -14,7 +14,6 @@ namespace {
 
 constexpr double steps = 255;
 
-/// Which measurements are on the fronts.
 struct Fronts {
   std::vector<bool> by_rays, by_seconds;
 };
@@ -31,7 +30,6 @@ Fronts fronts_of(const SceneResult& result) {
   return {pareto_front(rays, is_eligible), pareto_front(seconds, is_eligible)};
 }
 
-/// A point that has been measured.
 struct ErrorRow {
   const SceneResult& result;
   const Fronts& fronts;

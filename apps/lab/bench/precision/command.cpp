@@ -77,7 +77,6 @@ double percent_equal(const Precision& precision) {
   return 100 * (1 - static_cast<double>(precision.differing_pixels) / static_cast<double>(precision.pixels));
 }
 
-/// A scene's result, and the expected one.
 struct PrecisionRow {
   const std::string& scene;
   const Precision& precision;
@@ -174,7 +173,6 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
       {.progress = [&](std::uint64_t done, std::uint64_t rows) { progress.update(done, rows); }, .stop = interrupt.token()});
 }
 
-/// Results of all scenes.
 struct Outcome {
   std::uint64_t scenes = 0, pixels = 0, unexplained = 0, missed = 0;
   std::pair<bool, double> least{true, 100};  ///< whether it is explained, and the percentage of equal pixels

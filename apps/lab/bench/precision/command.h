@@ -26,7 +26,6 @@ struct PrecisionOptions {
   bool quiet = false;      ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, PrecisionOptions& options);
 
 /// Measures and writes as run_tabled() does. The exit status is 3 if a pixel that differs is not explained, or if fewer pixels

@@ -13,7 +13,6 @@
 
 namespace dmpc::apps {
 
-/// Result of one scene, with one sample a pixel.
 struct Precision {
   std::uint64_t pixels = 0;
   std::uint64_t primitives = 0;

@@ -30,7 +30,6 @@ struct Cutoff {
 };
 constexpr std::array traced_cutoffs{Cutoff{"cutoff 1/1024", 1.0 / 1024}, Cutoff{"cutoff 1/255", 1.0 / 255}};
 
-/// The settings of a render.
 struct Variant {
   Strategy strategy = Strategy::svm;
   Skips skips;
@@ -47,7 +46,6 @@ double error_between(const core::Film& film, const core::Film& other) {
   return std::sqrt(squares / (3.0 * pixels));
 }
 
-/// The renders of one scene.
 class AblationBench {
  public:
   AblationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,

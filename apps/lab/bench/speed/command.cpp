@@ -19,7 +19,6 @@
 namespace dmpc::apps {
 namespace {
 
-/// What has been measured so far.
 using Results = std::vector<Comparison>;
 
 bool has_figures(const Results& results) {

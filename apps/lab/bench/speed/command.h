@@ -19,7 +19,6 @@ struct SpeedOptions {
   bool quiet = false;  ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, SpeedOptions& options);
 
 /// Measures part by part and writes as run_tabled() does; the exit status does not depend on the figures. Throws core::UsageError

@@ -17,7 +17,6 @@ Color highlight_of(const PlainMaterial& material, float lobe) {
   return material.is_glossy() ? material.highlight * std::pow(std::clamp(lobe, 0.0F, 1.0F), material.shine) : Color{};
 }
 
-/// Interpolates vertex normals.
 void blend(PlainSurface& surface, const core::PatchNormals& normals, float u, float v) {
   const Vec3f blended = normals.normal[0] * (1 - u - v) + normals.normal[1] * u + normals.normal[2] * v;
   const float square = dot(blended, blended);

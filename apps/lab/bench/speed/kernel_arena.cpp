@@ -13,7 +13,6 @@ namespace {
 /// Threads take pieces of this many bundles in turn, so that no thread gets all of the picture's hard part.
 constexpr std::size_t piece_bundles = 32;
 
-/// Traces each ray, and counts the hits.
 template <core::Records R>
 std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const core::DatabaseHeader& header) {
   core::GridTracer tracer(records, header, {});
@@ -26,7 +25,6 @@ std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const cor
   return hits;
 }
 
-/// Traces bundles of rays.
 template <core::Records R>
 std::uint64_t trace_bundles(const BundleSpan& bundles, R&& records, const core::DatabaseHeader& header) {
   core::GridTracer tracer(records, header, {});

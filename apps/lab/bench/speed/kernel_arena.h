@@ -17,10 +17,8 @@ namespace dmpc::apps {
 /// The tracer: our grid over records in an array, or through a pager, with single rays or bundles; Embree with single rays.
 enum class Contender : std::uint8_t { grid, paged_grid, bundles, paged_bundles, robust, fast };
 inline constexpr std::size_t contender_count = 6;
-/// Returns the name in tables.
 const char* name_of(Contender contender);
 
-/// Result of tracing some rays.
 struct RaysTraced {
   std::uint64_t hits = 0;
   double seconds = 0;  ///< processor time of the busiest thread

@@ -18,7 +18,6 @@ constexpr const char* large_scene = "tetra-9";
 /// Many parts have these.
 const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene};
 
-/// A part's default settings.
 struct PartDefaults {
   const char* name;
   std::vector<std::string> scenes = usual_scenes;

@@ -22,7 +22,6 @@ namespace dmpc::apps {
 enum class SpeedPart : std::uint8_t { plain, paths, kernel, emulation, ablation };
 inline constexpr std::size_t speed_part_count = 5;
 
-/// Returns the name on the command line and in the table.
 const char* name_of(SpeedPart part);
 /// Returns the parts that compare speeds: all except ablation, which has to be named.
 std::set<SpeedPart> all_speed_parts();

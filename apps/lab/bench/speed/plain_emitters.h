@@ -10,7 +10,6 @@
 
 namespace dmpc::apps {
 
-/// A point on an emitter.
 struct PlainAim : EmitterAim<float> {
   core::Color radiance;
 };

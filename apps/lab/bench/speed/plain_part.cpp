@@ -30,7 +30,6 @@ namespace {
 using Kind = RunnerKind;
 using S = Strategy;
 
-/// One of the contenders that render.
 struct PlainContender {
   std::uint32_t count;                              ///< number of threads or nodes
   std::optional<Strategy> strategy = std::nullopt;  ///< nothing: the plain renderer
@@ -65,7 +64,6 @@ std::string name_of(const PlainContender& contender) {
                             : "plain on " + counted(contender.count, "thread");
 }
 
-/// Returns the options of one of our contenders.
 StrategyOptions strategy_of(const PlainContender& contender) {
   StrategyOptions options{
       .strategy = *contender.strategy, .computer = {.node_count = contender.count}, .tracer = contender.tracer};
@@ -87,7 +85,6 @@ double children_seconds() {
   return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
 }
 
-/// The renders of one scene.
 class PlainBench {
  public:
   /// `forest` is the scene as that strategy has it; nullptr if no contender needs it. The arguments outlive it.

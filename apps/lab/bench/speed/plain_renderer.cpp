@@ -41,7 +41,6 @@ double square_noise_of(const core::Film& film, std::uint32_t pixel) {
   return dot(apart, apart) / (film.scale().factor() * film.scale().factor()) / (1 / on_first + 1 / on_second) / samples;
 }
 
-/// One rendering thread.
 class Painter : public EmbreeQueries {
  public:
   using EmbreeQueries::EmbreeQueries;
@@ -83,7 +82,6 @@ class Painter : public EmbreeQueries {
   }
 };
 
-/// The state of a path.
 struct Walk {
   std::uint32_t pixel, sample;
   Vec3f origin, direction;
@@ -108,7 +106,6 @@ bool survives(const Walk& walk, float chance, int roulette_from, PlainWay& way) 
 /// Returns the weight of light found with density `own`, if another way might have found it with density `other`.
 float way_share(float own, float other) { return static_cast<float>(core::way_share(double{own}, double{other})); }
 
-/// One rendering thread, by paths.
 class Walker : public EmbreeQueries {
  public:
   explicit Walker(const PlainStage& stage)

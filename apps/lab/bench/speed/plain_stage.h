@@ -50,7 +50,6 @@ struct PlainMaterial : core::MaterialRecord {
   float inside_index() const { return refraction_index > 0 ? refraction_index : 1; }
 };
 
-/// The data of a hit for shading.
 struct PlainSurface {
   core::Vec3f point;
   core::Vec3f geometric_normal, normal;  ///< unit vectors; `normal` is the shading normal, on the ray's side

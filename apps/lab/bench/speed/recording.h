@@ -19,7 +19,6 @@ namespace dmpc::apps {
 /// directions about the surface's normal.
 enum class RayClass : std::uint8_t { primary, shadow, secondary, bounce };
 inline constexpr std::size_t ray_class_count = 4;
-/// Returns the name in tables.
 const char* name_of(RayClass ray_class);
 
 /// Some of the bundles; their owner keeps the rays.

@@ -22,7 +22,6 @@ constexpr int grid_failed_status = 1;
 
 constexpr double per_billion = 1e9;
 
-/// A kernel's counts in a test.
 struct KernelRow {
   const std::string& test;
   StabilityKernel kernel;

@@ -23,7 +23,6 @@ struct StabilityOptions {
   bool quiet = false;  ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, StabilityOptions& options);
 
 /// Measures and writes as run_tabled() does. The exit status is also 1 if one of our kernels failed, whatever Embree did. Throws

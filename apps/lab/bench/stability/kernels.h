@@ -63,7 +63,6 @@ constexpr bool is_embree(StabilityKernel kernel) {
 constexpr bool is_of_voxels(StabilityKernel kernel) {
   return kernel == StabilityKernel::voxels || kernel == StabilityKernel::voxels_bundle;
 }
-/// Returns a few words for tables.
 std::string_view name_of(StabilityKernel kernel);
 
 /// By kernel. For `any_hit` only found() has a meaning.

@@ -17,7 +17,6 @@ struct StabilityRow {
   KernelCounts counts{};
 };
 
-/// Result of a case, for all kernels together.
 struct StabilityTrial {
   std::string row, name;
   StabilityCounts counts{};

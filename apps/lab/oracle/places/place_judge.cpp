@@ -57,7 +57,6 @@ struct Spot {
   double slack = 0;  ///< distance within which neighbouring rays hit the same surface
 };
 
-/// First hits of the faces of a scene.
 class FirstHits {
  public:
   FirstHits(const core::Scene& faces, const core::View& view, const Resolution& size)

@@ -36,7 +36,6 @@ struct ReferenceBody {
   bool has_colors() const { return first_color != flat; }
 };
 
-/// The point that a ray hits.
 struct ReferenceSurface {
   core::Vec3d point;               ///< on the body, however t was rounded
   core::Vec3d normal;              ///< the body's own, of unit length: a triangle's by its winding, a curved body's outwards
@@ -59,7 +58,6 @@ std::optional<double> distance_across(const ReferenceBody& body, const Reference
 /// Returns the surface where `ray` meets `body` at `t`, which distance_to() returned.
 ReferenceSurface surface_at(const ReferenceBody& body, const ReferenceRay& ray, double t);
 
-/// Returns a box that encloses the body.
 core::Box bounds_of(const ReferenceBody& body);
 
 }  // namespace dmpc::apps

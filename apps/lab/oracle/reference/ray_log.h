@@ -40,7 +40,6 @@ struct RayLog {
   const LoggedRay* find(std::uint64_t path) const;
 };
 
-/// The product's log.
 struct ProductLog : RayLog {
   std::vector<ReferenceRay> shots;  ///< in world coordinates, one for each of `rays`
 

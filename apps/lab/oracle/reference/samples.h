@@ -25,7 +25,6 @@ class SamplePattern {
     return {columns, rows, seed, Kind::stratified};
   }
 
-  /// Returns the number of samples of each pixel.
   std::uint32_t count() const { return columns_ * rows_; }
   SamplePosition position(std::uint32_t pixel, std::uint32_t sample) const {
     if (kind_ == Kind::stratified) {

@@ -44,7 +44,6 @@ struct Distance {
     direction = std::max(direction, other.direction);
     weight = std::max(weight, other.weight);
   }
-  /// Returns the largest quotient.
   double over(const Distance& other) const {
     return std::max({start / other.start, direction / other.direction, weight / other.weight});
   }

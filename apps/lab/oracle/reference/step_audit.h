@@ -12,7 +12,6 @@
 
 namespace dmpc::apps {
 
-/// Result of auditing a pixel.
 struct Audit {
   /// For each ray of the log: why rounding let the product's answer differ from exact geometry, where it did.
   std::vector<std::optional<Verdict>> doubts;

@@ -66,7 +66,6 @@ bool brings_nothing(const ReferenceRay& shadow) { return core::Color(shadow.weig
 
 }  // namespace
 
-/// A hit that is being shaded.
 struct ReferenceTracer::Touch {
   const ReferenceRay& ray;
   std::uint32_t body;

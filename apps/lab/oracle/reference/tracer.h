@@ -20,13 +20,11 @@ class RayWatcher {
  public:
   virtual ~RayWatcher() = default;
 
-  /// A ray is about to be traced.
   virtual void shoot(ReferenceRay&) {}
   /// A ray other than a shadow ray met `body` here.
   virtual void touch(const ReferenceRay&, const ReferenceBody&, ReferenceSurface&) {}
   /// A texture is about to be looked up with this footprint.
   virtual void look_up(ReferenceFootprint&) {}
-  /// A ray was traced.
   virtual void end(const ReferenceRay&, const ReferenceHit&) {}
 };
 

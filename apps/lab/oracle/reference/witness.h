@@ -11,7 +11,6 @@
 
 namespace dmpc::apps {
 
-/// A renderer's answer for a ray.
 struct ClaimedAnswer {
   bool hit = false;
   std::uint32_t body = core::no_primitive;  ///< a hit's body; an occluder may go unnamed

@@ -17,7 +17,6 @@ namespace dmpc::apps {
 /// Turns "dmpc: there is no room\n" into "there is no room".
 std::string sentence_of(std::string complaint);
 
-/// Result of such a process.
 struct RenderEnd {
   std::optional<std::vector<Figure>> figures;       ///< of its --stats; nothing if there was not enough memory
   std::string misfit;                               ///< the reason if there are no figures, without a full stop

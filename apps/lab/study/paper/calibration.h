@@ -26,7 +26,6 @@ struct FitTimes {
 /// look-up. Returns nothing if dearer look-ups took no longer, or if no price were low enough.
 std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibration_cell_count>& printed);
 
-/// Returns the machine with fitted prices.
 nodes::Machine fitted(nodes::Machine machine, const Fit& fit);
 
 /// Returns both figures, as in the preset and as the printed times require, from the three runs that they depend on and no

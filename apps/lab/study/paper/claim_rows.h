@@ -11,13 +11,11 @@
 
 namespace dmpc::apps {
 
-/// Verdicts on a claim.
 inline constexpr const char *held = "held", *not_held = "not held", *tie = "a tie", *not_judged = "not judged";
 
 /// Times that differ by no more than this share count as equal.
 inline constexpr double tie_share = 0.01;
 
-/// Rows of claims.
 class Claims {
  public:
   /// Prices are fitted to the article's resolution, so pictures of another resolution do not judge its claims.

@@ -24,7 +24,6 @@ struct PaperStudyOptions {
   bool quiet = false;                           ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet options, PaperStudyOptions& paper);
 
 /// Renders some hundred pictures in virtual time, and two hundred and fifty more for the sensitivity. Returns the exit status.

@@ -15,10 +15,8 @@ inline constexpr double shared_kilobytes = 3.2 * 1024;
 /// Pixels a side of its pictures.
 inline constexpr std::uint32_t paper_resolution = 512;
 
-/// The node counts of Table 3.
 inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 16, 32, 64};
 
-/// A cell of Table 3.
 struct PaperPlace {
   std::size_t scene = 0, column = 0;  ///< indices in paper_scenes and paper_node_counts
 

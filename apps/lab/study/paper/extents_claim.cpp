@@ -19,7 +19,6 @@ Ratios ratios_of(const PaperResult& in_space, const PaperResult& in_extents) {
           in_extents.seconds() / in_space.seconds()};
 }
 
-/// Over all scenes.
 struct Range {
   double least = std::numeric_limits<double>::infinity(), most = 0;
 

@@ -9,7 +9,6 @@
 namespace dmpc::apps {
 namespace {
 
-/// One kind of a scene's runs.
 struct Kind {
   const char* name;
   const std::array<Catalogue::ByNodeCount, missing_rows.size()>* runs;  ///< nothing: those of Table 3

@@ -53,7 +53,6 @@ Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::
 
 constexpr const char* title = "The tables of 1994, regenerated";
 
-/// Returns the text before the tables.
 std::vector<std::string> introduction(const PaperReport& report) {
   const std::string side = std::to_string(report.resolution), fitted_side = std::to_string(paper_resolution);
   std::vector<std::string> paragraphs = {

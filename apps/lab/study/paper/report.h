@@ -14,7 +14,6 @@
 
 namespace dmpc::apps {
 
-/// A table with the name of its files.
 struct NamedTable {
   std::string name;
   Table table;
@@ -41,7 +40,6 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
 /// temporary file can be written.
 std::string page_of(const PaperReport& report, std::ostream& complaints);
 
-/// A plot of one of its tables.
 struct PaperPlot {
   std::string table;  ///< name of the table's files: "table_3"
   Plot plot;

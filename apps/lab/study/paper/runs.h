@@ -23,7 +23,6 @@
 
 namespace dmpc::apps {
 
-/// One picture on one machine.
 struct PaperRun {
   std::string scene;  ///< a built-in scene's name
   std::uint32_t node_count = 1;
@@ -49,7 +48,6 @@ struct PaperRun {
   bool has_inner_light = false;
 };
 
-/// Result of a run.
 struct PaperResult {
   std::uint64_t total_ns = 0;
   TimeParts parts;  ///< summed over the nodes

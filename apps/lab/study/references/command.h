@@ -22,7 +22,6 @@ struct ReferencesOptions {
   bool quiet = false;  ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, ReferencesOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for references that

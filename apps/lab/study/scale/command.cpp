@@ -58,7 +58,6 @@ void add_family(const std::string& family, bool& has_families, ScaleSettings& se
   settings.families.push_back(family);
 }
 
-/// Declares options for the subject.
 void add_subject(OptionSet& set, ScaleSettings& settings) {
   set.add_arguments(
       "FAMILY", [&settings, given = false](const std::string& text) mutable { add_family(text, given, settings); },
@@ -76,7 +75,6 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
       "Who renders: svm with --cache, svm with a quarter of the database in each cache (not in part nodes), dataflow");
 }
 
-/// Declares options for the computer.
 void add_computer(OptionSet& set, ScaleSettings& settings) {
   constexpr std::uint32_t most = nodes::node_count_max;
   set.add_text(

@@ -16,7 +16,6 @@ struct ScaleOptions {
   bool quiet = false;  ///< no progress
 };
 
-/// Declares them.
 void add_options(OptionSet set, ScaleOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for unknown scenes

@@ -12,7 +12,6 @@
 
 namespace dmpc::apps {
 
-/// Result of a run.
 struct ScaleResult {
   ScaleRun run;
   std::optional<ScaleFigures> figures;

@@ -16,7 +16,6 @@ namespace dmpc::apps {
 
 /// What grows: the scene, or the computer.
 enum class ScalePart : std::uint8_t { sizes, nodes };
-/// Returns the name on the command line and in the table.
 const char* name_of(ScalePart part);
 
 /// The method of rendering: svm with a cache of a given size on each node, svm with the default cache of `render` (a quarter of

@@ -12,7 +12,6 @@
 
 namespace dmpc::apps {
 
-/// Result of a run.
 struct SweepResult {
   SweepRun run;
   std::optional<std::vector<Figure>> figures;  ///< of its --stats; nothing if there was not enough memory

@@ -39,7 +39,6 @@ struct SweepSettings {
   std::filesystem::path program = "/proc/self/exe";
 };
 
-/// One combination.
 struct SweepRun {
   std::vector<std::string> values;  ///< of the variations
   std::vector<std::string> words;   ///< a line of `render` without its outputs
