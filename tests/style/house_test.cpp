@@ -143,8 +143,8 @@ bool calls(const Lines& lines, const std::string& layer, const std::string& room
 
 /// Words of programs in a line, alone or in a name: in `ray_setup`, not in `array`.
 Faults programs_words(const std::string& line) {
-  static const std::regex words(
-      "(?:^|[^A-Za-z])((?:page|ray|pixel|triangle|film|picture|scene|shading|voxel|bvh)s?)(?![A-Za-z])", std::regex::icase);
+  static const std::regex words("(?:^|[^A-Za-z])((?:page|ray|pixel|triangle|film|picture|scene|shading|voxel|bvh)s?)(?![A-Za-z])",
+                                std::regex::icase);
   return found_in(line, words);
 }
 

@@ -14,8 +14,18 @@
 namespace dmpc::apps {
 
 /// What a node is doing.
-enum class SpanName : std::uint8_t { trace, shade, install_page, pack_rays, unpack_rays, overhead, serve_page, send, take_packet };
-inline constexpr std::array<const char*, 9> span_names = {"trace",   "shade",      "install page", "pack rays",  "unpack rays",
+enum class SpanName : std::uint8_t {
+  trace,
+  shade,
+  install_page,
+  pack_rays,
+  unpack_rays,
+  overhead,
+  serve_page,
+  send,
+  take_packet
+};
+inline constexpr std::array<const char*, 9> span_names = {"trace",    "shade",      "install page", "pack rays",  "unpack rays",
                                                           "overhead", "serve page", "send packets", "take packet"};
 
 /// A recorded trace and the meaning of its numbers. A view.

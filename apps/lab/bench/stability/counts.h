@@ -10,10 +10,10 @@ namespace dmpc::apps {
 
 /// Counts of one kernel in one test. A ray fails in at most one way.
 struct StabilityCounts {
-  std::uint64_t tried = 0;       ///< rays, or points
-  std::uint64_t leaks = 0;       ///< missed what rounding cannot make it miss
-  std::uint64_t wrong_hits = 0;  ///< hit what rounding cannot make it hit, or what lies behind something that rounding cannot
-                                 ///< make it miss
+  std::uint64_t tried = 0;           ///< rays, or points
+  std::uint64_t leaks = 0;           ///< missed what rounding cannot make it miss
+  std::uint64_t wrong_hits = 0;      ///< hit what rounding cannot make it hit, or what lies behind something that rounding cannot
+                                     ///< make it miss
   std::uint64_t double_claims = 0;   ///< a hit claimed by more than one owner of space
   std::uint64_t unexplained = 0;     ///< bits other than the grid's, or a distance farther off than rounding explains
   std::uint64_t explained = 0;       ///< an answer other than the grid's, within rounding: no failure
