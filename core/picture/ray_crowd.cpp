@@ -18,12 +18,16 @@ bool can_send_two(const MaterialRecord& material) {
   return material.has_extension() || (material.specular > 0.0F && material.transmittance > 0.0F);
 }
 
-bool can_send_two(const Database& database) {
+bool can_send_one(const MaterialRecord& material) {
+  return material.has_extension() || material.specular > 0.0F || material.transmittance > 0.0F;
+}
+
+bool is_for_any(const Database& database, bool (*is_meant)(const MaterialRecord&)) {
   const DatabaseHeader& header = database.header();
   const LocalRecords records(database.bytes());
   for (std::uint32_t i = 0; i < header.material_count;
        ++i) {  // extensions come last, and a material is tested before its extension
-    if (can_send_two(read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord)))))) {
+    if (is_meant(read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord)))))) {
       return true;
     }
   }
@@ -37,7 +41,7 @@ std::uint64_t rays_in(const Operations& operations) {
 }  // namespace
 
 std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& settings) {
-  if (settings.shade.depth_max <= crowd_depth || !can_send_two(database)) {
+  if (settings.shade.depth_max <= crowd_depth || !is_for_any(database, can_send_two)) {
     return 0;
   }
   RenderSettings all = settings;
@@ -58,5 +62,7 @@ std::uint8_t find_one_child_depth(const Database& database, const RenderSettings
   }
   return 0;
 }
+
+bool has_reflection_or_transmission(const Database& database) { return is_for_any(database, can_send_one); }
 
 }  // namespace dmpc::core

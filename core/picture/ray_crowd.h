@@ -1,4 +1,4 @@
-// Whether a picture's hits send too many rays to finish, and from which depth they are to send fewer.
+// Whether a picture's hits send rays, and if they are too many to finish, from which depth they are to send fewer.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,8 @@ inline constexpr std::uint8_t crowd_depth = 9;
 /// finds the same. Renders pixels only where a material both mirrors and transmits and rays go deeper than that, and shoots at
 /// most a million rays. Reads database.bytes(). Thread safety: pure.
 std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& settings);
+
+/// Whether a material of the scene may reflect or transmit rays. Reads database.bytes(). Thread safety: pure.
+bool has_reflection_or_transmission(const Database& database);
 
 }  // namespace dmpc::core

@@ -130,6 +130,9 @@ bool is_bsdf_sampled(const DatabaseHeader& header) { return header.has_emission 
 }  // namespace
 
 int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
+  if (!options.transport.is_by_paths() && !options.sends_rays_on) {
+    return 1;
+  }
   const bool looks_for_light = options.transport.is_by_paths() && is_bsdf_sampled(header);
   return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
 }
