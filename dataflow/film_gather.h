@@ -62,9 +62,8 @@ class FilmGather {
   FilmEntry* entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
   void append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
 
-  /// The number of entries that are searched. Packets of single rays have fewer, so there all are.
+  /// The number of entries that are searched.
   static constexpr std::uint32_t newest_entries = 32;
-  static_assert(newest_entries >= film_packet_entries);
 
   nodes::Node* node_;
   nodes::NodeId host_;

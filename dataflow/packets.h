@@ -52,6 +52,7 @@
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
+#include "nodes/pictures/host.h"
 
 namespace dmpc::dataflow {
 
@@ -114,7 +115,7 @@ inline constexpr nodes::Channel control_channel = 2;
 inline constexpr nodes::Channel unit_channel = 3;
 static_assert(unit_channel < nodes::channel_count);
 
-/// The length of a packet of film for single rays, and the default of one of rays on a modelled machine; on threads it is more.
+/// The default length of a packet of rays on a modelled machine; on threads it is more.
 inline constexpr std::size_t packet_bytes = 1_KiB;
 /// No packet is longer.
 inline constexpr std::size_t packet_bytes_max = 64_KiB;
@@ -275,8 +276,8 @@ constexpr std::size_t film_packet_bytes(std::size_t entry_count) { return sizeof
 constexpr std::uint32_t film_entries_in(std::size_t bytes) {
   return static_cast<std::uint32_t>((bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
 }
-/// The minimum capacity of a packet of film.
-inline constexpr std::uint32_t film_packet_entries = film_entries_in(packet_bytes);
+/// The capacity of a packet of film.
+inline constexpr std::uint32_t film_packet_entries = film_entries_in(pictures::film_packet_bytes_max);
 
 struct FilmAcknowledgement {
   std::uint32_t count = 0;  ///< entries received

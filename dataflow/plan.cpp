@@ -45,8 +45,6 @@ constexpr std::uint32_t default_queue_packets = 512;
 constexpr std::uint32_t default_bundle_queue_packets = 256;
 /// Where slots are shared, memory matters, and packets are few: with 1,024 nodes they are seldom full.
 constexpr std::uint32_t default_shared_queue_packets = 128;
-/// The number of film packets that a node's share of the pixels would fill: light is sent while the picture is rendered.
-constexpr std::uint64_t film_packets_a_node = 16;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 /// The maximum number of small packets about units in a node's mailbox.
@@ -95,7 +93,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
                          + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
           .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
-          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(plan.film_entries()))};
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
 }
 
 /// Fewer credits than the mailboxes have slots for, and a slot for delayed packets.
@@ -283,16 +281,6 @@ Gather::Capacity Plan::gather() const {
           .host_credits = host_credits,
           .queue_packets = queue_packets,
           .tested_objects = tested_objects()};
-}
-
-std::uint32_t Plan::film_entries() const {
-  if (rays_a_task == 1) {
-    return film_packet_entries;
-  }
-  const std::uint64_t pixels = std::uint64_t{request.width} * request.height;
-  const std::uint64_t share = pixels / (film_packets_a_node * node_count());
-  const std::uint32_t most = std::max(film_entries_in(packet_bytes()), film_packet_entries);
-  return share < most ? std::max(static_cast<std::uint32_t>(share), film_packet_entries) : most;
 }
 
 std::uint32_t Plan::dealing_credits() const { return request.is_assigned() ? assigned_packets : 0; }

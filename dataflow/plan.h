@@ -83,11 +83,8 @@ struct Plan {
   /// The size of a full packet of rays.
   std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
 
-  /// Entries of a full packet of film. With bundles it is as long as one of rays, since each packet separates the pixels of a
-  /// bundle, whose later light then takes entries of its own; but a node sends some before the end, also of a small picture.
-  std::uint32_t film_entries() const;
   /// The capacities of a node's film gather, which may get `at_once` deposits at a time.
-  FilmGather::Capacity film(std::uint32_t at_once) const { return {node_count(), film_credits, film_entries(), at_once}; }
+  FilmGather::Capacity film(std::uint32_t at_once) const { return {node_count(), film_credits, film_packet_entries, at_once}; }
 
   bool is_moving() const { return request.is_moving(); }
   /// The number of units, if regions move.

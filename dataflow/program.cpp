@@ -593,7 +593,7 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
       Bytes{core::MemoryUse::constants, sizeof(Constants)} + Bytes{core::MemoryUse::constants, share.proxy_bytes} +
       (plan.is_moving() ? MovingUnits::layout(plan, index) : NoUnits::layout(plan, index)) +
       Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_assigned()) + Arrivals<NoUnits>::layout(plan) +
-      Gather::layout(plan.gather()) + FilmGather::layout(plan.film_entries());
+      Gather::layout(plan.gather()) + FilmGather::layout(film_packet_entries);
   if (plan.rays_a_task > 1) {
     memory += BundleTask::layout(plan.request.waiting_hits_max, plan.request.has_instances);
   } else {

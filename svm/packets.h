@@ -109,7 +109,6 @@ constexpr std::size_t film_packet_bytes(std::size_t entries, std::uint32_t plane
   return std::max(film_entry_offset(entries, planes), nodes::small_payload_bytes + 8);
 }
 static_assert(film_packet_bytes(1, 2) == film_entry_offset(1, 2), "with two planes no packet is filled up");
-static_assert(film_packet_bytes(1, 2) <= page_size_min_bytes, "a film packet holds an entry, whatever the page size");
 
 /// The entry at `place` of such a packet.
 inline FilmEntry film_entry_in(std::span<const std::byte> packet, std::size_t place, std::uint32_t planes) {

@@ -28,8 +28,6 @@ constexpr core::Field strategy_field = field_of<&PlanRequest::strategy>(),
                       memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
 constexpr std::uint32_t auto_cache_pages_min = 64;
-/// Longer film packets would save nothing worth the memory of their mailbox slots.
-constexpr std::size_t film_packet_max_bytes = 4096;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
@@ -70,8 +68,8 @@ std::uint32_t film_planes_of(const PlanRequest& request) {
 }
 
 std::uint32_t film_entries_of(const PlanRequest& request) {
-  const std::size_t packet_bytes = std::min(request.page_size_bytes, film_packet_max_bytes);
-  return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / film_entry_bytes(film_planes_of(request)));
+  return static_cast<std::uint32_t>((pictures::film_packet_bytes_max - sizeof(FilmHeader)) /
+                                    film_entry_bytes(film_planes_of(request)));
 }
 
 /// The capacity that a node's mailbox needs for any order of sends; the mailbox itself adds the slot that receives.

@@ -15,6 +15,10 @@
 
 namespace dmpc::pictures {
 
+/// The length of a full packet of film, which is the same for all strategies, so that no other option decides how often the host
+/// receives one. Longer packets would save nothing worth the memory of their mailbox slots.
+inline constexpr std::size_t film_packet_bytes_max = 4096;
+
 /// The host's program without the packets: it takes light, and calls observers and the saving of pictures.
 class Host : public nodes::Program {
  public:
