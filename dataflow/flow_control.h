@@ -10,10 +10,10 @@
 // (3) Hence a node with anything to do will do it, its backlog empties, and its credits are returned, batched while it is busy,
 //     all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that it buffers goes
 //     on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
-// (4) New primary rays start only when nothing received is left and, unless backpressure (backpressure.h) is off, few packets are
-//     queued here and no other node asks to throttle. No work is taken up while a packet waits: one work() adds at most one ray
-//     to a gather, which had a free slot. The packets that the host forwards take the credits of (host, target), with slots of
-//     their own.
+// (4) New primary rays start only when nothing received is left and backpressure (admits_primaries()) allows it. A node that
+//     holds its primary rays back has queued packets, so by (3) it goes on. No work is taken up while a packet waits: one work()
+//     adds at most one ray to a gather, which had a free slot. The packets that the host forwards take the credits of (host,
+//     target), with slots of their own.
 // (5) With few nodes, every sender has its own credits, which return to it. With many, an owner's slots are shared: a sender asks
 //     for one as soon as it has a ray for that owner, and has no second request or unused credit there. A granted credit is for
 //     rays that are there, so it is used when their packet is full or its node has nothing else to do, by (3); if they have gone
@@ -32,22 +32,19 @@ namespace dmpc::dataflow {
 
 /// The state of a node, for the choice of the next task.
 struct NodeState {
-  bool must_announce = false;      ///< the queue got long or short, and the other nodes have not been informed yet
-  bool packet_waits = false;       ///< a packet is closed and has found neither credit nor a slot in the queue
-  bool is_tracing = false;         ///< a ray is being traced, or a hit has children to be made
-  bool has_backlog = false;        ///< received rays
-  bool has_primaries = false;      ///< own primary rays that have not started
-  bool admits_primaries = false;   ///< few packets are queued, and no other node asks to throttle primary rays
-  bool can_flush = false;          ///< an open packet has rays and may leave
-  bool has_gathered = false;       ///< rays in open or queued packets
-  bool is_unacknowledged = false;  ///< an announcement is to be revoked or acknowledged
-  bool is_unanswered = false;      ///< some owner has been asked for a slot and has not granted it yet
-  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is in progress (units/migration.h)
+  bool packet_waits = false;      ///< a packet is closed and has found neither credit nor a slot in the queue
+  bool is_tracing = false;        ///< a ray is being traced, or a hit has children to be made
+  bool has_backlog = false;       ///< received rays
+  bool has_primaries = false;     ///< own primary rays that have not started
+  bool admits_primaries = false;  ///< by backpressure
+  bool can_flush = false;         ///< an open packet has rays and may leave
+  bool has_gathered = false;      ///< rays in open or queued packets
+  bool is_unanswered = false;     ///< some owner has been asked for a slot and has not granted it yet
+  bool is_moving_units = false;   ///< a unit is to be asked for, or a transfer is in progress (units/migration.h)
 };
 
 /// In order of priority.
 enum class Task : std::uint8_t {
-  announce,       ///< ask the other nodes to throttle their primary rays, or no longer
   send_waiting,   ///< try the waiting packet again, and nothing else
   go_on,          ///< with the current ray or hit: depth first
   take_received,  ///< the deepest ray of the backlog
@@ -56,11 +53,18 @@ enum class Task : std::uint8_t {
   rest    ///< return all credits owed, pass on the token if passive, wait for a packet
 };
 
+/// The number of rays that the host may buffer before nodes hold their primary rays back: some 80 MB.
+inline constexpr std::uint32_t host_rays_wanted_max = 1U << 19U;
+
+/// Backpressure: whether a node starts primary rays with `queued` packets in its queue of `capacity`, when the host, by its last
+/// answer, buffers `host_rays` rays. Only a node whose queue is nearly full holds back, and only while the host has enough: a hot
+/// spot of the picture delays nobody else, and the host's memory stays bounded where primary rays are far more than all queues.
+constexpr bool admits_primaries(std::uint32_t queued, std::uint32_t capacity, std::uint64_t host_rays) {
+  return capacity == 0 || queued < capacity - capacity / 16 || host_rays < host_rays_wanted_max;
+}
+
 /// The next quantum's task.
 constexpr Task next_task(const NodeState& state) {
-  if (state.must_announce) {
-    return Task::announce;
-  }
   if (state.packet_waits) {
     return Task::send_waiting;
   }
@@ -79,8 +83,8 @@ constexpr Task next_task(const NodeState& state) {
 /// Passive in the sense of termination detection: it will not send a ray packet unless it receives one. A node that rests with
 /// rays that wait for a credit, or for permission to start, is not.
 constexpr bool is_passive(const NodeState& state) {
-  return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged &&
-         !state.is_unanswered && !state.is_moving_units;
+  return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unanswered &&
+         !state.is_moving_units;
 }
 
 /// The destination of a packet of rays.
@@ -136,7 +140,7 @@ constexpr std::uint32_t slots_freed(std::uint32_t packets, std::uint32_t rays, s
 /// Whether the host forwards a packet of the `kept` rays that it buffers for one owner: only into a free slot.
 constexpr bool forwards(std::uint64_t kept, bool has_owner_credit) { return kept > 0 && has_owner_credit; }
 
-/// The host is passive in the sense of termination detection while it buffers no ray, and has revoked what it relayed.
-constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) { return kept == 0 && is_relay_settled; }
+/// The host is passive in the sense of termination detection while it buffers no ray.
+constexpr bool host_is_passive(std::uint64_t kept) { return kept == 0; }
 
 }  // namespace dmpc::dataflow

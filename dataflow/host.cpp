@@ -22,7 +22,6 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
                          plan.request.pixel_order()),
       kept_(plan.node_count(), plan.tested_objects()),
       termination_(Termination::initiator({plan.node_count()})),
-      relay_(termination_.place().child_count, Backpressure::relay_capacity),
       packet_(packet_layout(plan).in(node.memory())),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
@@ -70,11 +69,6 @@ void HostProgram::receive(const nodes::Packet& packet) {
       return take_film(packet);
     case Kind::token:
       return termination_.take(packet.as<Token>());
-    case Kind::throttle:
-      relay_.take(packet.as<Throttle>().holds != 0);
-      return send_control(*node_, packet.source, Kind::throttle_acknowledgement, ThrottleAcknowledgement{});
-    case Kind::throttle_acknowledgement:
-      return relay_.acknowledged();
     case Kind::done:
       return take_done(packet.as<Done>());
     case Kind::primaries_taken:
@@ -91,7 +85,6 @@ bool HostProgram::work() {
     return true;  // so that idleness is not taken for termination before the runner has seen the stop
   }
   assign_all();
-  relay_throttle();
   for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
     while (can_forward(owner)) {
       forward(owner);
@@ -120,14 +113,7 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
     kept_.put(header.owner, ray_in(packet.payload, i, tested_objects_));
   }
   counters_.rays_in += header.count;
-  send_control(*node_, packet.source, Kind::credits, Credits{1});
-}
-
-/// Informs all nodes when the first of them asks to throttle primary rays, and when none asks any more.
-void HostProgram::relay_throttle() {
-  if (relay_.is_due(relay_.holders())) {
-    notify_children(*node_, termination_.place(), Kind::throttle, Throttle{relay_.announce(relay_.holders()) ? 1U : 0U});
-  }
+  send_control(*node_, packet.source, Kind::overflow_taken, OverflowTaken{static_cast<std::uint32_t>(kept_.size())});
 }
 
 bool HostProgram::can_forward(std::uint32_t owner) const {
@@ -162,7 +148,7 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   send_control(*node_, packet.source, Kind::film_acknowledgement, FilmAcknowledgement{header.count});
   report_progress(pixels_with_light());
   if (!pending_primaries_.is_empty() && !pending_primaries_.holds_back() && is_due()) {
-    pending_primaries_.throttle();
+    pending_primaries_.hold_back();
   }
 }
 
@@ -194,7 +180,7 @@ void HostProgram::end_pass() {
   begin_again();
 }
 
-/// Only throttled rays are left: the pixels that have begun are done.
+/// Only rays held back are left: the pixels that have begun are done.
 void HostProgram::go_on_dealing() {
   keep(pending_primaries_.begun());
   pending_primaries_.release();
@@ -224,9 +210,7 @@ void HostProgram::assign(std::uint32_t index) {
 }
 
 /// As termination detection defines it: has no ray to send, and no announcement to withdraw.
-bool HostProgram::is_passive() const {
-  return host_is_passive(kept_.size(), relay_.is_settled()) && pending_primaries_.is_empty();
-}
+bool HostProgram::is_passive() const { return host_is_passive(kept_.size()) && pending_primaries_.is_empty(); }
 
 std::string HostProgram::describe() const {
   return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light()) + " of " +

@@ -10,7 +10,6 @@
 
 #include "core/picture/film/film.h"
 #include "core/picture/film/partial_picture.h"
-#include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
@@ -40,11 +39,11 @@ struct HostCounters {
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
 
-/// Depends on nobody: film, overflow and throttling are taken and acknowledged at once. When the end of a pass is detected and
+/// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is detected and
 /// its film complete, it assigns the primary rays of the next, if there is one, packet by packet as nodes have free slots. If the
-/// plan says so it assigns those of the first pass, too. If then the picture is to be saved, it throttles rays until no other is
-/// left anywhere, by the same detection: then the pixels that have begun are done. A pass that could not be assigned completely
-/// never ends: the host then waits for the runner to end the run.
+/// plan says so it assigns those of the first pass, too. If then the picture is to be saved, it holds primary rays back until no
+/// other is left anywhere, by the same detection: then the pixels that have begun are done. A pass that could not be assigned
+/// completely never ends: the host then waits for the runner to end the run.
 class HostProgram final : public pictures::Host {
  public:
   /// As pictures::Host. `assign` finds the owners of primary rays that are assigned after the start; it is kept only if the plan
@@ -71,7 +70,6 @@ class HostProgram final : public pictures::Host {
   void take_film(const nodes::Packet& packet);
   void take_overflow(const nodes::Packet& packet);
   void take_done(const Done& done);
-  void relay_throttle();
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
   static nodes::Room<std::byte> packet_layout(const Plan& plan) { return {nodes::Category::queues, plan.packet_bytes()}; }
@@ -87,7 +85,6 @@ class HostProgram final : public pictures::Host {
   PendingPrimaries pending_primaries_;
   BufferedRays kept_;
   Termination termination_;
-  Backpressure relay_;           ///< for announcements of nodes to the host alone
   std::span<std::byte> packet_;  ///< buffer in which a packet is put together
   std::uint32_t node_count_;
   std::uint32_t ray_batch_;

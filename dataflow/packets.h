@@ -3,14 +3,11 @@
 //   kind                   from -> to            channel   size   its slot in the target's mailbox is reserved by
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
+//   overflow_taken         host -> node          control   small  the packet of overflow whose credit it gives back
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
 //   credits                receiver -> sender    control   small  the ray packets whose credits it gives back, or the request
 //   ask                    node -> owner         control   small  itself: the next waits for the grant
 //   unused                 node -> owner         rays      bulk   the credit that it gives back
-//   hold                   node -> each node     control   small  itself: the next waits for the answers
-//                          node -> host, and     control   small  itself, likewise, where places are shared
-//                          parent -> child
-//   throttle_acknowledgement   who is told -> teller control   small  the announcement that it answers
 //   film                   node -> host          film      bulk   the sender's film credits
 //   film_acknowledgement   host -> node          control   small  the film packet
 //   token                  parent <-> child      control   small  the token before: calls and what is told take turns
@@ -61,10 +58,9 @@ using core::operator""_KiB;
 enum class Kind : nodes::PacketKind {
   rays,
   overflow,
+  overflow_taken,
   forwarded,
   credits,
-  throttle,
-  throttle_acknowledgement,
   film,
   film_acknowledgement,
   token,
@@ -84,12 +80,11 @@ enum class Kind : nodes::PacketKind {
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
 static_assert(number_of(Kind::unit_moved) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 22> kind_names = {"rays",
+inline constexpr std::array<const char*, 21> kind_names = {"rays",
                                                            "overflow",
+                                                           "overflow_taken",
                                                            "forwarded",
                                                            "credits",
-                                                           "throttle",
-                                                           "throttle_acknowledgement",
                                                            "film",
                                                            "film_acknowledgement",
                                                            "token",
@@ -236,6 +231,11 @@ struct Credits {
   std::uint32_t count = 0;
 };
 
+/// The host has taken a packet of rays that overflowed.
+struct OverflowTaken {
+  std::uint32_t host_rays = 0;  ///< that it buffers now, for all nodes (flow_control.h)
+};
+
 /// Asks an owner for one of its shared slots; the answer is a credit.
 using Ask = Word;
 
@@ -244,13 +244,6 @@ struct Unused {
   std::array<std::byte, nodes::small_payload_bytes + 8> padding{};
 };
 static_assert(sizeof(Unused) > nodes::small_payload_bytes && sizeof(Unused) <= ray_packet_bytes(1));
-
-/// A node's request to all others (backpressure.h).
-struct Throttle {
-  std::uint32_t holds = 0;  ///< 1: start no primary rays for the time being; 0: this node no longer asks for it
-};
-
-using ThrottleAcknowledgement = Word;
 
 /// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes. Or for each of several
 /// background pixels.
@@ -354,7 +347,7 @@ using Stop = Word;
 
 using nodes::is_small_packet;
 static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
-static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Throttle> && is_small_packet<ThrottleAcknowledgement>);
+static_assert(is_small_packet<PrimariesTaken> && is_small_packet<OverflowTaken>);
 static_assert(is_small_packet<UnitAsk> && is_small_packet<UnitRefusal> && is_small_packet<UnitAcknowledgement>);
 static_assert(is_small_packet<UnitMoved>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);

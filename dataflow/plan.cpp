@@ -66,9 +66,6 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + (plan.shares_slots() ? others : 0)  // requests for slots: one from each other node
                          + (plan.shares_slots() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
                          + plan.host_credits                                     // the same from the host
-                         + (plan.shares_slots() ? 1 : others)  // Throttle: one from each other node, or from the parent alone
-                         + (plan.shares_slots() ? 1 + tree.place_of(nodes::NodeId{0}).child_count : others)
-                         // throttle acknowledgements: of this node, and of what it relays
                          + plan.film_credits                   // acknowledgements: one for each film packet of this node's
                          + tree.packets_max(nodes::NodeId{0})  // tokens or done: nobody has more children than the first
                          + 1                                   // Finish
@@ -85,11 +82,9 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   const TerminationTree tree{plan.node_count()};
-  return {.small_slots = plan.node_count() * plan.host_credits                                 // credits back for forwarded rays
-                         + tree.packets_max(nodes::NodeId{plan.node_count()})                  // tokens, or Done, of its children
-                         + plan.node_count() * plan.dealing_credits()                          // credits back for primary rays
-                         + (plan.shares_slots() ? plan.node_count() : 0)                       // Hold: one from each node
-                         + (plan.shares_slots() ? tree.place_of(plan.host()).child_count : 0)  // acknowledgements of the host's
+  return {.small_slots = plan.node_count() * plan.host_credits                 // credits back for forwarded rays
+                         + tree.packets_max(nodes::NodeId{plan.node_count()})  // tokens, or Done, of its children
+                         + plan.node_count() * plan.dealing_credits()          // credits back for primary rays
                          + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
           .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,

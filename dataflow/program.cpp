@@ -18,7 +18,6 @@
 #include "dataflow/rays/primaries.h"
 #include "dataflow/rays/ray_task.h"
 #include "dataflow/termination.h"
-#include "dataflow/throttling.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -98,7 +97,7 @@ class RayProgram final : public NodeProgram {
         task_(make_task<RaysTask>(node, plan)),
         gather_(node, plan.gather()),
         film_(node, plan.film(deposits_at_once<RaysTask>(assign.header))),
-        throttling_(node, plan),
+        queue_capacity_(plan.request.rays.without_backpressure ? 0 : plan.queue_packets),
         termination_(Termination::member(node.id(), {plan.node_count()})) {
     core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
     core::expect(plan.request.has_instances == (assign.header.has_instances != 0),
@@ -112,15 +111,14 @@ class RayProgram final : public NodeProgram {
         return receive_rays(packet);
       case Kind::credits:
         return take_credits(packet.source, packet.as<Credits>().count);
+      case Kind::overflow_taken:
+        host_rays_ = packet.as<OverflowTaken>().host_rays;
+        return take_credits(host_, 1);
       case Kind::ask:
         return arrivals_.take_ask(packet.source);
       case Kind::unused:
         termination_.ray_packet_received();
         return arrivals_.take_unused();
-      case Kind::throttle:
-        return throttling_.take(packet.source, packet.as<Throttle>());
-      case Kind::throttle_acknowledgement:
-        return throttling_.acknowledged(packet.source);
       case Kind::film_acknowledgement:
         return film_.acknowledged();
       case Kind::token:
@@ -185,11 +183,10 @@ class RayProgram final : public NodeProgram {
            " under way, " + std::to_string(gather_.size()) + " rays gathered" +
            (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
            (arrivals_.slots().asking() > 0 ? std::to_string(arrivals_.slots().asking()) + " nodes wait for a place here, " : "") +
-           (gather_.is_unanswered() ? "waits for places, " : "") +
-           (throttling_.admits_primaries(0) ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
-           " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
-           std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
-           (termination_.is_black() ? ", black" : ", white") +
+           (gather_.is_unanswered() ? "waits for places, " : "") + (admits_primaries() ? "" : "holds primary rays back, ") +
+           std::to_string(film_.gathered()) + " film entries" + (film_.waits() ? " (waiting)" : "") +
+           ", ray packets sent - received " + std::to_string(termination_.balance()) +
+           (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black" : ", white") +
            (termination_.awaited() > 0 ? ", waits for " + std::to_string(termination_.awaited()) + " below it to tell" : "") +
            (stopped_     ? ", stopped"
             : done_      ? ", done"
@@ -205,7 +202,6 @@ class RayProgram final : public NodeProgram {
                           .movement = units_.counters(),
                           .backlog_high_water = arrivals_.backlog().high_water()},
                          gather_.pairs()};
-    report.rays.holds = throttling_.count();
     if constexpr (RaysTask::rays_max == 1) {
       report.rays.tests_avoided = task_.tests_avoided();
     }
@@ -228,6 +224,7 @@ class RayProgram final : public NodeProgram {
   };
   bool packet_waits() const { return gather_.waits() || film_.waits(); }
   bool has_primaries() const { return !primaries_.empty() || units_.primaries_left() > 0; }
+  bool admits_primaries() const { return dataflow::admits_primaries(gather_.queued(), queue_capacity_, host_rays_); }
 
   /// A packet with rays has come: this pass has not ended, or the next one has begun.
   void wake() {
@@ -256,15 +253,13 @@ class RayProgram final : public NodeProgram {
 
   NodeState state() const {
     const bool has_work = !task_.is_idle() || !arrivals_.backlog().empty(), has_primaries = this->has_primaries();
-    return {.must_announce = throttling_.is_due(gather_.queued()),
-            .packet_waits = packet_waits(),
+    return {.packet_waits = packet_waits(),
             .is_tracing = !task_.is_idle(),
             .has_backlog = !arrivals_.backlog().empty(),
             .has_primaries = has_primaries,
-            .admits_primaries = throttling_.admits_primaries(gather_.queued()),
+            .admits_primaries = admits_primaries(),
             .can_flush = !has_work && gather_.can_flush(),  // checks every owner
             .has_gathered = !gather_.empty(),
-            .is_unacknowledged = !throttling_.is_settled(),
             .is_unanswered = gather_.is_unanswered(),
             .is_moving_units = !units_.is_settled() || (!has_work && !has_primaries && units_.wants_to_ask())};
   }
@@ -293,8 +288,6 @@ class RayProgram final : public NodeProgram {
 
   void perform(Task task) {
     switch (task) {
-      case Task::announce:
-        return throttling_.announce(gather_.queued());
       case Task::send_waiting:
         return send_waiting();
       case Task::go_on:
@@ -572,7 +565,8 @@ class RayProgram final : public NodeProgram {
   RaysTask task_;
   Gather gather_;
   FilmGather film_;
-  Throttling throttling_;
+  std::uint32_t queue_capacity_;  ///< packets, for backpressure; 0: none
+  std::uint32_t host_rays_ = 0;   ///< buffered by the host, by its last answer
   Termination termination_;
   DoneBelow below_;
   core::Operations operations_;

@@ -4,9 +4,10 @@
 // until it ends or leaves the region; then rays go out one by one, as long as none of them has made a packet wait: the others
 // stay in the bundle. The reasons for progress and bounded queues are given there; the sums are in plan.cpp.
 //
-// Primary rays are started by credit: while a packet of this node waits for one, or another node's queue is long, none is. A node
-// that throttles its primary rays has no other work. It is not passive, so it keeps the token; but like a resting node it keeps
-// nobody's credit. So when all nodes have come to rest or throttle, all credits are returned, and one of the nodes goes on.
+// Primary rays are started by credit: while a packet of this node waits for one, or its queue is nearly full (flow_control.h),
+// none is. A node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like a
+// resting node it keeps nobody's credit. So when all nodes have come to rest or hold back, all credits are returned, and one of
+// them goes on.
 //
 // Which node shades a hit: the owner of the cell in which the traversal proves it the nearest. If that owner has found the same
 // (t, primitive) itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows
@@ -46,7 +47,6 @@ struct RayCounters {
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
   std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested on other nodes (RayOptions::tested_objects)
-  std::uint64_t holds = 0;          ///< times that it asked the others to throttle primary rays
 
   std::uint64_t received() const { return std::accumulate(in.begin(), in.end(), std::uint64_t{0}); }
   std::uint64_t sent() const { return std::accumulate(out.begin(), out.end(), std::uint64_t{0}); }

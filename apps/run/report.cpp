@@ -40,7 +40,7 @@ WaitKinds dataflow_waits() {
           .data_kinds = bits_of({Kind::rays, Kind::forwarded}),
           .work_kinds = bits_of({Kind::primaries, Kind::unit_refusal, Kind::unit_page, Kind::unit_primaries}),
           .token_kinds = bits_of({Kind::token}),
-          .credit_kinds = bits_of({Kind::credits, Kind::ask, Kind::unused, Kind::throttle, Kind::throttle_acknowledgement}),
+          .credit_kinds = bits_of({Kind::credits, Kind::overflow_taken, Kind::ask, Kind::unused}),
           .film_kinds = bits_of({Kind::film_acknowledgement}),
           .end_kinds = bits_of({Kind::finish, Kind::done, Kind::stop})};
 }

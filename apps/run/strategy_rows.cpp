@@ -98,8 +98,7 @@ std::vector<PageRow> rows_of_pixels() {
   using svm::PixelShares, svm::WorkDonor;
   return {
       {.name = "--in-flight",
-       .takes =
-           number<&PageOptions::in_flight>(1, svm::in_flight_max,
+       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max,
                                            "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to "
                                            "256"),
        .help = "Pixels that a node works on at once; on threads the rays of 16 are traced in a bundle, those of fewer one by one",
@@ -229,8 +228,7 @@ std::vector<RayRow> rows_of_rays() {
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return plan.tested_objects(); }},
       {.name = "--no-backpressure",
        .takes = flag<&RayOptions::without_backpressure>(),
-       .help =
-           "Start primary rays however many packets wait, as in 1994; what does not fit in a full queue goes through the host",
+       .help = "Start primary rays even if a node's queue is full and the host buffers half a million rays, as in 1994",
        .why = rays_stay,
        .key = "backpressure",
        .reported = [](const dataflow::Plan& plan) -> OptionValue { return !plan.request.rays.without_backpressure; }},

@@ -15,8 +15,8 @@
 namespace dmpc::dataflow {
 
 /// A pixel has begun when one of its rays was assigned. Rays of a pixel may be assigned to several nodes, so at any time some
-/// pixels have begun of which other rays are here. throttle() leaves only these to be assigned: when they are, and no ray is left
-/// anywhere, the pixels that have begun are done, all others untouched. Belongs to the host.
+/// pixels have begun of which other rays are here. hold_back() leaves only these to be assigned: when they are, and no ray is
+/// left anywhere, the pixels that have begun are done, all others untouched. Belongs to the host.
 class PendingPrimaries {
  public:
   /// `run_rays_max`: the maximum number of rays in an assigned run, which bounds a node's memory for them; at least 1.
@@ -26,7 +26,7 @@ class PendingPrimaries {
   }
 
   /// Takes the rays of a pass, ascending for each node, of pixels that are not among `done`. Requires is_empty(), and that it is
-  /// not throttled.
+  /// not held back.
   void begin_pass(std::vector<std::vector<PrimaryRun>> runs, const core::SampleRange& samples, const core::PixelMask& done) {
     core::expect(is_empty() && !holds_back_ && runs.size() == runs_.size(), "a pass begins when the one before is assigned");
     runs_ = std::move(runs);
@@ -62,9 +62,9 @@ class PendingPrimaries {
   }
 
   /// From now on only rays of pixels that have begun may be assigned, unless there are no others. Requires that it is not
-  /// throttled.
-  void throttle() {
-    core::expect(!holds_back_, "rays are throttled once");
+  /// held back.
+  void hold_back() {
+    core::expect(!holds_back_, "rays are held back once");
     for (std::size_t node = 0; node < runs_.size(); ++node) {
       const Runs runs = std::exchange(runs_[node], {});
       for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
@@ -85,7 +85,7 @@ class PendingPrimaries {
   bool holds_back() const { return holds_back_; }
   /// All rays may be assigned again. Requires is_empty().
   void release() {
-    core::expect(is_empty() && holds_back_, "what was throttled follows what has begun");
+    core::expect(is_empty() && holds_back_, "what was held back follows what has begun");
     holds_back_ = false;
     std::swap(runs_, held_back_);
   }

@@ -146,14 +146,14 @@ Bsp Bsp::without_units() const {
 Bsp Bsp::by_unit() const {
   Bsp units = *this;
   units.node_count_ = region_count_;
-  std::vector<bool> is_throttling(node_count_, false);
+  std::vector<bool> is_used(node_count_, false);
   for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
-    is_throttling[owner_[unit]] = is_throttling[owner_[unit]] || !is_empty(unit);
+    is_used[owner_[unit]] = is_used[owner_[unit]] || !is_empty(unit);
   }
   units.empty_ = {};
   for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
     units.owner_[unit] = static_cast<std::uint16_t>(unit);
-    if (!is_throttling[owner_[unit]]) {
+    if (!is_used[owner_[unit]]) {
       units.mark_empty(unit);
     }
   }

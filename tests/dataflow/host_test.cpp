@@ -78,7 +78,8 @@ TEST_CASE("the host gives the credit of an overflow back at once and forwards it
   host.overflow(0, 1, {10, 11});
   host.program.work();
   const Parcel credits = host.single.take();
-  CHECK(Kind{credits.kind} == Kind::credits);
+  CHECK(Kind{credits.kind} == Kind::overflow_taken);
+  CHECK(credits.packet().as<dataflow::OverflowTaken>().host_rays == 2);
   CHECK(credits.target == NodeId{0});
   const Parcel forwarded = host.single.take();
   CHECK(Kind{forwarded.kind} == Kind::forwarded);
@@ -163,46 +164,6 @@ TEST_CASE("while the host keeps a ray it keeps the token") {
     CHECK(Kind{parcel.kind} != Kind::token);
   }
   CHECK(host.program.describe().find("1 rays kept") != std::string::npos);
-}
-
-TEST_CASE("the host tells all nodes when the first asks them to hold primary rays back, and when the last has taken it back") {
-  LoneHost host;
-  const auto hears = [&](std::uint32_t sender, std::uint32_t holds) {
-    host.receive(sender, Kind::throttle, dataflow::Throttle{holds});
-    const Parcel answer = host.single.take();
-    CHECK(Kind{answer.kind} == Kind::throttle_acknowledgement);
-    CHECK(answer.target == NodeId{sender});
-    host.program.work();
-  };
-  const auto tells = [&](std::uint32_t holds) {
-    for (const std::uint32_t node : {0U, 1U}) {
-      const Parcel reported = host.single.take();
-      REQUIRE(Kind{reported.kind} == Kind::throttle);
-      CHECK(reported.target == NodeId{node});
-      CHECK(reported.packet().as<dataflow::Throttle>().holds == holds);
-      host.receive(node, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
-    }
-    CHECK(host.single.post.parcels.empty());
-  };
-  host.pass_token_round(1);  // rays are under way, so another round is called
-  host.single.take();
-  host.single.take();
-  hears(1, 1);
-  tells(1);
-  hears(0, 1);
-  hears(1, 0);
-  CHECK(host.single.post.parcels.empty());
-  hears(0, 0);
-  tells(0);
-}
-
-TEST_CASE("the host hands no token on while what it has relayed is not taken back and acknowledged") {
-  LoneHost host;
-  host.receive(1, Kind::throttle, dataflow::Throttle{1});
-  host.program.work();
-  for (const Parcel& parcel : host.single.post.parcels) {
-    CHECK(Kind{parcel.kind} != Kind::token);
-  }
 }
 
 TEST_CASE("light from several nodes is added to the film and acknowledged") {

@@ -73,16 +73,15 @@ TEST_CASE("as many rays as are said to fit so many bytes do, and one more does n
     CHECK(dataflow::ray_packet_bytes(rays + 1) > bytes);
   }
   CHECK(dataflow::ray_batch_max <= std::numeric_limits<decltype(dataflow::RayPacketHeader::count)>::max());
-  CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries) <= dataflow::packet_bytes);
-  CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries + 1) > dataflow::packet_bytes);
+  CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries) <= 4096);
+  CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries + 1) > 4096);
 }
 
 TEST_CASE("packets of rays and film are bulk, however short, and those of control are small") {
   CHECK(dataflow::ray_packet_bytes(1) > nodes::small_payload_bytes);
   CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries) > nodes::small_payload_bytes);
   CHECK(dataflow::is_small_packet<dataflow::Credits>);
-  CHECK(dataflow::is_small_packet<dataflow::Throttle>);
-  CHECK(dataflow::is_small_packet<dataflow::ThrottleAcknowledgement>);
+  CHECK(dataflow::is_small_packet<dataflow::OverflowTaken>);
   CHECK(dataflow::is_small_packet<dataflow::Token>);
   CHECK(dataflow::is_small_packet<dataflow::Finish>);
   CHECK(dataflow::is_small_packet<dataflow::FilmAcknowledgement>);

@@ -67,22 +67,6 @@ TEST_CASE("where places are shared packets of bundles are no longer than those o
   CHECK(make_plan(request).ray_batch == 34);
   request.rays.ray_batch = 40;
   CHECK(make_plan(request).ray_batch == 40);
-  request.rays.ray_batch = 1;
-  CHECK(make_plan(request).film_entries() == dataflow::film_packet_entries);
-}
-
-TEST_CASE("a small picture's packets of film are short where rays walk in bundles, so that many nodes send some before the end") {
-  const auto entries = [](std::uint32_t nodes, std::uint32_t side) {
-    PlanRequest request = request_with(nodes, 100_KiB);
-    request.bundles = true;
-    request.width = request.height = side;
-    return make_plan(request).film_entries();
-  };
-  CHECK(entries(64, 512) == 127);
-  CHECK(entries(64, 256) == 64);
-  CHECK(entries(64, 64) == dataflow::film_packet_entries);
-  CHECK(entries(2, 64) == 127);
-  CHECK(entries(64, 65536) == 127);
 }
 
 TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node room for 16 rays and their hits") {
@@ -96,8 +80,6 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     CHECK(plan.rays_a_task == 16);
     CHECK(plan.ray_batch == 34);
     CHECK(dataflow::ray_packet_bytes(34) <= 4_KiB);
-    CHECK(plan.film_entries() == std::clamp(256 / nodes, dataflow::film_packet_entries, 127U));
-    CHECK(alone.film_entries() == dataflow::film_packet_entries);
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
@@ -278,7 +260,7 @@ TEST_CASE("among more than 128 nodes senders share 64 places, unless credits of 
   CHECK(make_plan(request).ray_slots == 5);
 }
 
-TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.5 MB at most, not 3.9 as with a credit a pair") {
+TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.5 MB at most, not 3.8 as with a credit a pair") {
   PlanRequest request = request_with(1024, 1000);
   const auto bytes = [&] {
     const nodes::MemoryPlan plan = make_plan(request).node_memory(0);
@@ -288,7 +270,7 @@ TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.5 MB at most
   CHECK(bytes() <= 500'000);
   request.rays.ray_credits = 1;
   request.rays.queue_packets = 512;
-  CHECK(bytes() > 3'900'000);
+  CHECK(bytes() > 3'800'000);
 }
 
 TEST_CASE("where places are shared each further node takes 142 bytes of every other") {

@@ -157,10 +157,13 @@ TEST_CASE("a node refuses what is not sent to nodes, and rays that are not its o
 }
 
 TEST_CASE("a node that holds its primary rays back gives back credits but keeps the token") {
-  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 1}});
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 2}});
   LoneProgram node(stage, 0, stage.distribution.primaries[0]);
   node.work_to_rest();  // a ray has left for node 1, which does not answer
-  CHECK(node.program.describe().find("0 primary rays") != 0);
+  const dataflow::OverflowTaken taken{dataflow::host_rays_wanted_max};
+  node.program.receive({NodeId{2}, dataflow::number_of(Kind::overflow_taken), std::as_bytes(std::span(&taken, 1))});
+  node.work_to_rest();
+  CHECK(node.program.describe().find("holds primary rays back") != std::string::npos);
   const std::size_t sent = node.single.post.parcels.size();
   CHECK(sent > 0);
   const dataflow::Token token;
@@ -174,71 +177,25 @@ TEST_CASE("a node that holds its primary rays back gives back credits but keeps 
   CHECK(node.single.post.parcels.size() > sent);
 }
 
-TEST_CASE("a node that is asked to hold its primary rays back acknowledges, and starts none until it is no longer asked") {
-  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+TEST_CASE("a node holds its primary rays back while its queue is full and the host says that it buffers enough") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 2}});
   LoneProgram node(stage, 0, stage.distribution.primaries[0]);
-  const auto throttle = [&](std::uint32_t holds) {
-    const dataflow::Throttle packet{holds};
-    node.program.receive({NodeId{1}, dataflow::number_of(Kind::throttle), std::as_bytes(std::span(&packet, 1))});
-    CHECK(Kind{node.single.post.parcels.back().kind} == Kind::throttle_acknowledgement);
-  };
-  throttle(1);
-  node.work_to_rest();
-  CHECK(node.single.post.parcels.size() == 1);
-  CHECK(node.program.report().operations.rays == core::Operations().rays);
-  throttle(0);
-  node.work_to_rest();
-  CHECK(node.program.report().operations.rays[0] > 0);
-}
-
-TEST_CASE("a node whose queue gets long asks the others to hold their primary rays back") {
-  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 1}});
-  LoneProgram node(stage, 1, stage.distribution.primaries[1]);
-  node.work_to_rest();  // nobody answers
-  std::uint32_t asked = 0;
-  for (const Parcel& parcel : node.single.post.parcels) {
-    asked += Kind{parcel.kind} == Kind::throttle ? parcel.packet().as<dataflow::Throttle>().holds : 0;
-  }
-  CHECK(asked == 2);
-  CHECK(node.program.report().rays.holds == 1);
-  CHECK(node.program.report().gather.queue_high_water == 1);
-}
-
-TEST_CASE("where places are shared a node whose queue gets long tells the host alone") {
-  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_slots = 1, .queue_packets = 1}});
-  LoneProgram node(stage, 1, stage.distribution.primaries[1]);
-  node.work_to_rest();  // nobody answers
-  std::uint32_t asked = 0;
-  for (const Parcel& parcel : node.single.post.parcels) {
-    if (Kind{parcel.kind} == Kind::throttle) {
-      CHECK(parcel.target == NodeId{3});
-      asked += parcel.packet().as<dataflow::Throttle>().holds;
-    }
-  }
-  CHECK(asked == 1);
-  CHECK(node.program.report().rays.holds == 1);
-}
-
-TEST_CASE("what the host relays a node tells those below it, and answers when they have answered") {
-  const Stage stage(tests::mirrors_and_glass(), 6, 16, {.rays = {.ray_slots = 1}});
-  LoneProgram node(stage, 0);
   const auto receive = [&](std::uint32_t sender, Kind kind, const auto& packet) {
     node.program.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&packet, 1))});
   };
-  receive(6, Kind::throttle, dataflow::Throttle{1});
-  for (const std::uint32_t below : {4U, 5U}) {
-    const Parcel reported = node.single.take();
-    CHECK(Kind{reported.kind} == Kind::throttle);
-    CHECK(reported.target == NodeId{below});
-    CHECK(reported.packet().as<dataflow::Throttle>().holds == 1);
-  }
-  receive(5, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
-  CHECK(node.single.post.parcels.empty());
-  receive(4, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{});
-  const Parcel answer = node.single.take();
-  CHECK(Kind{answer.kind} == Kind::throttle_acknowledgement);
-  CHECK(answer.target == NodeId{6});
-  CHECK_THROWS_AS(receive(4, Kind::throttle_acknowledgement, dataflow::ThrottleAcknowledgement{}), core::InternalError);
+  const auto started = [&] {
+    node.work_to_rest();
+    return node.program.report().operations.rays[0];
+  };
+  const std::uint64_t first = started();  // nobody answers, so it waits for a credit of the host's
+  receive(2, Kind::overflow_taken, dataflow::OverflowTaken{dataflow::host_rays_wanted_max});
+  const std::uint64_t second = started();
+  receive(2, Kind::overflow_taken, dataflow::OverflowTaken{dataflow::host_rays_wanted_max});
+  CHECK(started() == second);
+  CHECK(node.program.describe().find("holds primary rays back") != std::string::npos);
+  receive(1, Kind::credits, dataflow::Credits{1});  // a packet leaves the queue
+  CHECK(started() > second);
+  CHECK(second >= first);
 }
 
 TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {
@@ -330,8 +287,8 @@ TEST_CASE("a bundle whose packet waits keeps its other rays, and goes on with th
     CAPTURE(turn);
     const auto before = overflowed();
     CHECK(node.program.describe().find("(a packet waits for room)") != std::string::npos);
-    const dataflow::Credits credits{1};
-    node.program.receive({stage.plan.host(), dataflow::number_of(Kind::credits), std::as_bytes(std::span(&credits, 1))});
+    const dataflow::OverflowTaken taken{1};
+    node.program.receive({stage.plan.host(), dataflow::number_of(Kind::overflow_taken), std::as_bytes(std::span(&taken, 1))});
     node.work_to_rest();
     CHECK(overflowed() == before + 1);
   }

@@ -12,7 +12,6 @@
 #include <string>
 #include <utility>
 
-#include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/termination.h"
 #include "tests/dataflow/peers_model.h"
@@ -22,7 +21,6 @@ namespace dmpc::tests {
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct ProtocolRules {
   using Termination = dataflow::Termination;
-  using Backpressure = dataflow::Backpressure;
   static constexpr dataflow::Task next_task(const dataflow::NodeState& state) { return dataflow::next_task(state); }
   static constexpr bool is_passive(const dataflow::NodeState& state) { return dataflow::is_passive(state); }
   static constexpr dataflow::Way way_of(bool owner, bool queue, bool host) { return dataflow::way_of(owner, queue, host); }
@@ -33,8 +31,10 @@ struct ProtocolRules {
   static constexpr bool must_close(std::uint32_t open, std::uint32_t open_max) { return dataflow::must_close(open, open_max); }
   static constexpr bool asks(bool rays, bool credit, bool asked) { return dataflow::asks(rays, credit, asked); }
   static constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return dataflow::may_ask(asked, asks_max); }
-  static constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) {
-    return dataflow::host_is_passive(kept, is_relay_settled);
+  static constexpr bool host_is_passive(std::uint64_t kept) { return dataflow::host_is_passive(kept); }
+  /// With a host that buffers as many rays as it may.
+  static constexpr bool admits_primaries(std::uint32_t queued, std::uint32_t capacity) {
+    return dataflow::admits_primaries(queued, capacity, dataflow::host_rays_wanted_max);
   }
   static constexpr bool declines(bool rays, bool credit) { return dataflow::declines(rays, credit); }
   static constexpr bool grants(std::uint32_t free, bool is_asked) { return dataflow::grants(free, is_asked); }
@@ -56,18 +56,17 @@ struct ProtocolSettings {
   bool counts_overflow = true;  ///< ray packets by way of the host count as ray packets
   bool host_returns_credit = true;
   bool token_waits_for_rest = true;  ///< a busy member keeps the token
-  bool acknowledges_last = true;     ///< what is relayed, when those below have been told
   bool asks_again = true;            ///< asks owners that were not asked before, when another has answered
 };
 
 template <class Rules>
 class ProtocolModel {
  public:
-  enum class Kind : std::uint8_t { rays, overflow, credits, hold, throttle_acknowledgement, token, finish, ask, unused };
+  enum class Kind : std::uint8_t { rays, overflow, credits, token, finish, ask, unused };
 
   struct Message {
     Kind kind{};
-    std::uint8_t count = 0;   ///< rays or credits; for a token: whether it is black; for a hold: whether it holds
+    std::uint8_t count = 0;   ///< rays or credits; for a token: whether it is black
     std::uint8_t owner = 0;   ///< for overflowed rays
     std::int8_t balance = 0;  ///< for a token
   };
@@ -76,7 +75,6 @@ class ProtocolModel {
   using Queue = std::array<std::uint8_t, 2>;
   struct Member {
     typename Rules::Termination termination;
-    typename Rules::Backpressure backpressure{0, 0};
     std::uint8_t primaries = 0;
     std::uint8_t children = 0;                         ///< children of the current hits, still to be made
     std::array<std::uint8_t, model_peers> backlog{};   ///< rays by sender; of the host: rays kept, by owner
@@ -90,7 +88,6 @@ class ProtocolModel {
     std::array<std::uint8_t, model_nodes - 1> asking{};  ///< who waits for a place here, the longest first: index + 1
     std::uint8_t free_slots = 0;                         ///< shared ones
     std::uint8_t withheld = 0;                           ///< shared ones in which packets have arrived
-    std::uint8_t holds_below = 0;                        ///< members that have been told what to throttle, and not answered
     bool is_finished = false;
   };
   struct State {
@@ -152,7 +149,6 @@ class ProtocolModel {
       hold(state.alive == 0, "termination is detected only when no ray is left");
       hold(ray_packets_in(state) == 0, "termination is detected only when no ray packet is under way");
       hold(asked_in(state) == 0, "termination is detected only when no place is asked for");
-      hold(announcements_in(state) == 0, "termination is detected only when nothing is announced");
     }
     check_credits(state);
     if (settings_.shared_slots > 0) {
@@ -180,9 +176,7 @@ class ProtocolModel {
   Member member(std::size_t peer) const {
     const bool is_host = peer == model_host;
     Member m{.termination = is_host ? Rules::Termination::initiator(model_tree)
-                                    : Rules::Termination::member(nodes::NodeId{narrow(peer)}, model_tree),
-             .backpressure{reported_by(peer), is_host ? dataflow::Backpressure::relay_capacity : settings_.queue_packets,
-                           settings_.has_backpressure}};
+                                    : Rules::Termination::member(nodes::NodeId{narrow(peer)}, model_tree)};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
       m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : credits_each(peer);
@@ -191,11 +185,6 @@ class ProtocolModel {
     return m;
   }
 
-  /// To how many a peer says what they are to throttle.
-  std::uint32_t reported_by(std::size_t peer) const {
-    return peer == model_host ? place_of(peer).child_count : settings_.shared_slots > 0 ? 1 : narrow(model_nodes - 1);
-  }
-  static dataflow::TreePlace place_of(std::size_t peer) { return model_tree.place_of(nodes::NodeId{narrow(peer)}); }
   /// That a peer has for a node without asking.
   std::uint8_t credits_each(std::size_t peer) const { return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each; }
   /// Nodes' places are shared, the host's are its own.
@@ -207,7 +196,6 @@ class ProtocolModel {
                           m.termination.holds_token(),
                           m.termination.is_called(),
                           m.termination.is_terminated(),
-                          m.backpressure.is_announced(),
                           m.is_finished,
                           token.is_black != 0};
     char bits = 0;
@@ -220,9 +208,6 @@ class ProtocolModel {
               static_cast<char>(m.termination.awaited()),
               static_cast<char>(m.primaries),
               static_cast<char>(m.children),
-              static_cast<char>(m.backpressure.missing()),
-              static_cast<char>(m.backpressure.holders()),
-              static_cast<char>(m.holds_below),
               static_cast<char>(m.waiting),
               static_cast<char>(m.waiting_owner),
               static_cast<char>(m.free_slots),
@@ -284,12 +269,6 @@ class ProtocolModel {
         count += asked;
       }
     }
-    return count;
-  }
-
-  static std::uint32_t announcements_in(const State& state) {
-    std::uint32_t count = 0;
-    for_each_message(state.channel, [&](const Message& message) { count += message.kind == Kind::hold ? 1U : 0U; });
     return count;
   }
 
@@ -366,9 +345,9 @@ class ProtocolModel {
   }
 
   static const char* verb(Kind kind) {
-    constexpr std::array<const char*, 9> verbs{"receives rays",    "receives overflow",    "receives credits",
-                                               "is asked to hold", "is acknowledged",      "receives the token",
-                                               "receives the end", "is asked for a place", "is given back a place"};
+    constexpr std::array<const char*, 7> verbs{"receives rays",        "receives overflow", "receives credits",
+                                               "receives the token",   "receives the end",  "is asked for a place",
+                                               "is given back a place"};
     return verbs[static_cast<std::size_t>(kind)];
   }
 
@@ -405,48 +384,12 @@ class ProtocolModel {
         ++m.free_slots;
         grant_slots(state, to);
         break;
-      case Kind::hold:
-        m.backpressure.take(message.count != 0);
-        relay_or_acknowledge(state, to, from, message);
-        break;
-      case Kind::throttle_acknowledgement:
-        if (is_relayed() && to != model_host && from != model_host) {
-          reported_below(state, to);
-        } else {
-          m.backpressure.acknowledged();
-        }
-        break;
       case Kind::token:
         m.termination.take({.balance = message.balance, .is_black = message.count});
         break;
       case Kind::finish:
         m.is_finished = true;
         break;
-    }
-  }
-
-  // ---- What is to be throttled ----------------------------------------------------------------------------------------------
-
-  bool is_relayed() const { return settings_.shared_slots > 0; }
-
-  void relay_or_acknowledge(State& state, std::size_t peer, std::size_t teller, const Message& hold) const {
-    const std::uint32_t below = is_relayed() && peer != model_host ? place_of(peer).child_count : 0;
-    state.member[peer].holds_below = narrow(below);
-    if (below == 0 || !settings_.acknowledges_last) {
-      send(state, peer, teller, {.kind = Kind::throttle_acknowledgement});
-    }
-    report_below(state, peer, below, hold.count);
-  }
-  void report_below(State& state, std::size_t peer, std::uint32_t below, std::uint8_t holds) const {
-    for (std::uint32_t i = 0; i < below; ++i) {
-      const std::size_t child = place_of(peer).first_child + i;
-      send(state, peer, child, {Kind::hold, holds});
-      hold(count_in(state.channel[peer][child], Kind::hold, false) <= 1, "an announcement has its place in the mailbox");
-    }
-  }
-  void reported_below(State& state, std::size_t peer) const {
-    if (--state.member[peer].holds_below == 0 && settings_.acknowledges_last) {
-      send(state, peer, index_of(place_of(peer).parent), {.kind = Kind::throttle_acknowledgement});
     }
   }
 
@@ -528,19 +471,17 @@ class ProtocolModel {
 
   static bool may_leave(const Member& m, std::size_t owner) { return m.gathered[owner] > 0 && m.credits[owner] > 0; }
 
-  static dataflow::NodeState state_of(const Member& m) {
+  dataflow::NodeState state_of(const Member& m) const {
     const auto any = [](const auto& counts) {
       return std::any_of(counts.begin(), counts.end(), [](std::uint8_t count) { return count > 0; });
     };
-    return {.must_announce = m.backpressure.is_due(queued_in(m)),
-            .packet_waits = m.waiting > 0,
+    return {.packet_waits = m.waiting > 0,
             .is_tracing = m.children > 0,
             .has_backlog = any(m.backlog),
             .has_primaries = m.primaries > 0,
-            .admits_primaries = m.backpressure.admits_primaries(queued_in(m)),
+            .admits_primaries = !settings_.has_backpressure || Rules::admits_primaries(queued_in(m), settings_.queue_packets),
             .can_flush = may_leave(m, 0) || may_leave(m, 1) || may_leave(m, 2),
             .has_gathered = any(m.gathered) || queued_in(m) > 0,
-            .is_unacknowledged = !m.backpressure.is_settled(),
             .is_unanswered = any(m.asked)};
   }
 
@@ -552,8 +493,6 @@ class ProtocolModel {
       hand_on(state, node, visit);
     }
     switch (task) {
-      case Task::announce:
-        return announce(state, node, visit);
       case Task::send_waiting:
         return send_waiting(state, node, visit);
       case Task::go_on:
@@ -567,21 +506,6 @@ class ProtocolModel {
       case Task::rest:
         return rest(state, node, visit);
     }
-  }
-
-  template <class Visit>
-  void announce(State state, std::size_t node, Visit visit) const {
-    Member& m = state.member[node];
-    const std::uint8_t holds = m.backpressure.announce(queued_in(m)) ? 1 : 0;
-    if (is_relayed()) {
-      send(state, node, model_host, {Kind::hold, holds});
-    }
-    for (std::size_t other = 0; !is_relayed() && other < model_nodes; ++other) {
-      if (other != node) {
-        send(state, node, other, {Kind::hold, holds});
-      }
-    }
-    visit(Action{"asks to hold", narrow(node), narrow(node), holds}, state);
   }
 
   template <class Visit>
@@ -762,9 +686,6 @@ class ProtocolModel {
     if (host.termination.is_terminated()) {
       return finish(state, visit);
     }
-    if (host.backpressure.is_due(host.backpressure.holders())) {
-      return relay(state, visit);
-    }
     std::uint64_t kept = 0;
     for (std::size_t owner = 0; owner < model_nodes; ++owner) {
       kept += host.backlog[owner];
@@ -772,17 +693,9 @@ class ProtocolModel {
         forward(state, owner, visit);
       }
     }
-    if (Rules::host_is_passive(kept, host.backpressure.is_settled()) || !settings_.token_waits_for_rest) {
+    if (Rules::host_is_passive(kept) || !settings_.token_waits_for_rest) {
       hand_on(state, model_host, visit);
     }
-  }
-
-  template <class Visit>
-  void relay(State state, Visit visit) const {
-    auto& relay = state.member[model_host].backpressure;
-    const std::uint8_t holds = relay.announce(relay.holders()) ? 1 : 0;
-    report_below(state, model_host, place_of(model_host).child_count, holds);
-    visit(Action{"asks all to hold", narrow(model_host), narrow(model_host), holds}, state);
   }
 
   template <class Visit>

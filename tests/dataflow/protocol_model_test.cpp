@@ -65,24 +65,13 @@ struct WorkingOn : ProtocolRules {
 
 struct PassiveWithQueue : ProtocolRules {
   static bool is_passive(dataflow::NodeState state) {
-    state.has_gathered = state.is_unacknowledged = false;
+    state.has_gathered = false;
     return dataflow::is_passive(state);
   }
 };
 
-struct ThrottlingForEver : ProtocolRules {
-  struct Backpressure : dataflow::Backpressure {
-    using dataflow::Backpressure::Backpressure;
-    bool is_due(std::uint32_t queued) const { return !is_announced() && dataflow::Backpressure::is_due(queued); }
-  };
-};
-
-/// As in queues that hold more than the model's: with a packet of its own in the queue a node starts primary rays.
-struct FewQueued : ProtocolRules {
-  struct Backpressure : dataflow::Backpressure {
-    using dataflow::Backpressure::Backpressure;
-    bool admits_primaries(std::uint32_t queued) const { return queued <= 1 && holders() == 0; }
-  };
+struct HoldingBackForEver : ProtocolRules {
+  static bool admits_primaries(std::uint32_t, std::uint32_t) { return false; }
 };
 
 struct Colorless : ProtocolRules {
@@ -141,10 +130,6 @@ struct AskingOn : ProtocolRules {
   static bool may_ask(std::uint32_t, std::uint32_t) { return true; }
 };
 
-struct PassiveRelay : ProtocolRules {
-  static bool host_is_passive(std::uint64_t kept, bool) { return dataflow::host_is_passive(kept, true); }
-};
-
 struct PassiveUnanswered : ProtocolRules {
   static bool is_passive(dataflow::NodeState state) {
     state.is_unanswered = false;
@@ -184,11 +169,6 @@ TEST_CASE("packets that wait in a queue leave in every order of events" * doctes
   check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .queue_packets = 2, .owners = 2}, 10'000);
 }
 
-TEST_CASE("primary rays that start beside few packets in the queue end in every order of events") {
-  check_all_orders<FewQueued>({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 1, .owners = 2}, 1'000);
-  check_all_orders<FewQueued>({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 2, .owners = 2}, 1'000);
-}
-
 TEST_CASE("primary rays that start whatever waits end in every order of events") {
   check_all_orders({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 1, .has_backpressure = false, .owners = 2},
                    1'000);
@@ -199,8 +179,8 @@ TEST_CASE("places that are shared and asked for become free again in every order
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_slots = 1}, 10'000);
   check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_slots = 1}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_slots = 2, .owners = 2}, 10'000);
-  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1}, 10'000);
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1, .owners = 2}, 10'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1}, 5'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_slots = 1, .owners = 2}, 5'000);
 }
 
 TEST_CASE("nodes that fill one packet at a time go on in every order of events" * doctest::test_suite("slow")) {
@@ -246,8 +226,8 @@ TEST_CASE("a node that takes queued rays for nothing lets the end be announced t
                                 "only when no ray is left");
 }
 
-TEST_CASE("a node that never takes back what it asked of the others keeps their primary rays from starting") {
-  check_found<ThrottlingForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
+TEST_CASE("a node that holds its primary rays back whatever its queue never ends") {
+  check_found<HoldingBackForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
 }
 
 TEST_CASE("a node that fills on has no packet for the next ray") {
@@ -279,17 +259,6 @@ TEST_CASE("a node that asks more owners than may answer has no room for their gr
 TEST_CASE("a node that forgets whom it has not asked waits for ever") {
   check_found({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 2, .shared_slots = 1, .asks_max = 1, .asks_again = false},
               "deadlock");
-}
-
-TEST_CASE("a node that acknowledges before those below it have been told has no room for the next announcement") {
-  check_found(
-      {.primaries = {1, 0, 0}, .children = 3, .queue_packets = 1, .shared_slots = 1, .owners = 2, .acknowledges_last = false},
-      "an announcement has its place");
-}
-
-TEST_CASE("a host that takes what it relays for nothing lets the end be announced too early") {
-  check_found<PassiveRelay>({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 1, .shared_slots = 1, .owners = 2},
-                            "only when nothing is announced");
 }
 
 TEST_CASE("a node that takes an unanswered request for nothing lets the end be announced too early" *

@@ -102,21 +102,6 @@ TEST_CASE("the same ray by way of the host is one message, too") {
   CHECK(report.host_rays.rays_buffered_max == 1);
 }
 
-TEST_CASE(
-    "without backpressure no node holds others back, and a modelled machine's short queues overflow more, to the same film") {
-  const Subject subject(tests::built_in("rings-2"), {48, 48});
-  RunOptions options{.computer = {.node_count = 8, .machine = nodes::Machine{}},
-                     .rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 16}};
-  const Report checked = run(subject, options);
-  options.rays.without_backpressure = true;
-  const Report unchecked = run(subject, options);
-  CHECK(checked.rays().holds > 0);
-  CHECK(unchecked.rays().holds == 0);
-  CHECK(unchecked.gathers().packets_overflowed > checked.gathers().packets_overflowed);
-  CHECK(unchecked.film.hash() == subject.outcome().film_hash);
-  CHECK(checked.film.hash() == subject.outcome().film_hash);
-}
-
 TEST_CASE("a node whose region no ray enters sleeps but for the token, and sends no ray and no light") {
   const Subject subject = lone_ray();
   const Report report = run_asking(subject, cut_across_x(subject, 4));

@@ -62,11 +62,11 @@ TEST_CASE("a pass says which samples its rays are of") {
   CHECK(pending_primaries.take(0).samples == core::SampleRange{2, 2});
 }
 
-TEST_CASE("when rays are throttled, pixels that have begun are assigned to the end and no other is begun") {
+TEST_CASE("when rays are held back, pixels that have begun are assigned to the end and no other is begun") {
   PendingPrimaries pending_primaries(2, 3);
   pending_primaries.begin_pass({{{0, 80 * 3}}, {{240, 30}}}, {0, 3}, PixelMask(90));
   pending_primaries.take(0);  // 60 pixels
-  pending_primaries.throttle();
+  pending_primaries.hold_back();
   CHECK(pending_primaries.holds_back());
   CHECK(pending_primaries.is_empty());
   CHECK(pending_primaries.begun().count() == 60);
@@ -84,7 +84,7 @@ TEST_CASE("where places are in squares, the pixels that have begun are those of 
     const std::uint32_t x = pixel % 20, y = pixel / 20;
     CHECK(pending_primaries.begun().has(pixel) == (y < 4 && x < (y < 3 ? 16 : 12)));
   }
-  pending_primaries.throttle();
+  pending_primaries.hold_back();
   CHECK(pending_primaries.begun().count() == 60);
   pending_primaries.release();
   CHECK(rays_for(pending_primaries, 0).front() == 60);
@@ -94,18 +94,18 @@ TEST_CASE("the other rays of a pixel that one node has begun are assigned to ano
   PendingPrimaries pending_primaries(2, 1);
   pending_primaries.begin_pass({{{0, 1}, {2, 1}, {4, 1}}, {{1, 1}, {3, 1}, {5, 4}}}, {0, 2}, PixelMask(70));
   pending_primaries.take(0);  // a sample of each of the pixels 0, 1 and 2
-  pending_primaries.throttle();
+  pending_primaries.hold_back();
   CHECK(rays_for(pending_primaries, 1) == Rays{1, 3, 5});
   CHECK(pending_primaries.is_empty());
   pending_primaries.release();
   CHECK(rays_for(pending_primaries, 1) == Rays{6, 7, 8});
 }
 
-TEST_CASE("where all pixels have begun nothing is throttled") {
+TEST_CASE("where all pixels have begun nothing is held back") {
   PendingPrimaries pending_primaries(2, no_bound);
   pending_primaries.begin_pass({{{0, 1}}, {{1, 1}}}, {0, 2}, PixelMask(1));
   pending_primaries.take(0);
-  pending_primaries.throttle();
+  pending_primaries.hold_back();
   CHECK_FALSE(pending_primaries.holds_back());
   CHECK(rays_for(pending_primaries, 1) == Rays{1});
 }
@@ -116,11 +116,11 @@ TEST_CASE("pixels that were done before have begun") {
   done.add(1);
   pending_primaries.begin_pass({{{0, 1}, {2, 1}}}, {0, 1}, done);
   CHECK(pending_primaries.begun() == done);
-  pending_primaries.throttle();
+  pending_primaries.hold_back();
   CHECK(pending_primaries.holds_back());
 }
 
-TEST_CASE("a node without rays is assigned none, and what is throttled is not released twice") {
+TEST_CASE("a node without rays is assigned none, and what is held back is not released twice") {
   PendingPrimaries pending_primaries(1, no_bound);
   CHECK_THROWS_AS(pending_primaries.take(0), core::InternalError);
   CHECK_THROWS_AS(pending_primaries.release(), core::InternalError);
