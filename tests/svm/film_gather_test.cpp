@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include "core/base/expect.h"
@@ -27,7 +28,7 @@ std::vector<svm::FilmEntry> entries_of(const Parcel& parcel, std::uint32_t plane
   return entries;
 }
 
-/// Node 1 of two on threads, with pages of 512 B: with one sample a pixel 15 entries to a packet.
+/// Node 1 of two on threads, with pages of 512 B, which do not matter: with one sample a pixel 127 entries to a packet of 4 KiB.
 struct ThreadsGather {
   explicit ThreadsGather(std::uint32_t samples)
       : plan(svm::make_plan({.page_count = 4,
@@ -53,14 +54,14 @@ struct ThreadsGather {
   svm::FilmGather film;
 };
 
-/// Node 1 of two on a modelled machine, with pages of 512 B: 9 pixels to a packet.
+/// Node 1 of two on a modelled machine, with pages of 512 B: 73 pixels to a packet.
 struct SmallGather {
   explicit SmallGather(std::uint32_t in_flight)
       : plan(svm::make_plan({.page_count = 4,
                              .page_size_bytes = 512,
                              .computer = {.node_count = 2, .machine = nodes::Machine()},
                              .pages = {.in_flight = in_flight},
-                             .width = 100,
+                             .width = 1000,
                              .height = 1})),
         lone(plan, 1),
         film(lone.node, plan.film()) {}
@@ -76,7 +77,7 @@ struct SmallGather {
     std::vector<std::vector<std::uint32_t>> sent;
     for (const Parcel& parcel : lone.post.parcels) {
       CHECK(parcel.target == nodes::NodeId{2});
-      CHECK(parcel.payload.size() <= 512);
+      CHECK(parcel.payload.size() <= 4096);
       sent.emplace_back();
       for (const svm::FilmEntry& entry : entries_of(parcel, 2)) {
         CHECK(entry.sums.plane[0].channel[0] == entry.pixel * 3);
@@ -94,14 +95,20 @@ struct SmallGather {
 
 using Packets = std::vector<std::vector<std::uint32_t>>;
 
+std::vector<std::uint32_t> pixels(std::uint32_t first, std::uint32_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
 }  // namespace
 
 TEST_CASE("pixels leave when a packet is full") {
   SmallGather small(4);
-  small.add(0, 8);
+  small.add(0, 72);
   CHECK(small.packets() == Packets{});
-  small.add(8, 3);
-  CHECK(small.packets() == Packets{{0, 1, 2, 3, 4, 5, 6, 7, 8}});
+  small.add(72, 3);
+  CHECK(small.packets() == Packets{pixels(0, 73)});
   CHECK(small.film.gathered() == 2);
 }
 
@@ -119,30 +126,30 @@ TEST_CASE("a flush sends what is there, and nothing when nothing is there") {
 
 TEST_CASE("a third packet waits for an acknowledgement, and no pixel may start once the room is spoken for") {
   SmallGather small(4);
-  small.add(0, 18);
+  small.add(0, 146);
   CHECK(small.packets().size() == 2);
-  small.add(18, 10);
+  small.add(146, 74);
   small.film.flush();
   CHECK(small.packets() == Packets{});
   CHECK(small.film.has_room_for(3));
   CHECK_FALSE(small.film.has_room_for(4));
   small.film.acknowledged();
-  CHECK(small.packets() == Packets{{18, 19, 20, 21, 22, 23, 24, 25, 26}});
+  CHECK(small.packets() == Packets{pixels(146, 73)});
   CHECK(small.film.gathered() == 1);
 }
 
 TEST_CASE("the room holds a packet and the pixels in flight, and one more is an error") {
   SmallGather small(4);
-  small.add(0, 18 + 13);
+  small.add(0, 146 + 77);
   CHECK_FALSE(small.film.has_room_for(1));
-  CHECK_THROWS_AS(small.add(31, 1), core::InternalError);
+  CHECK_THROWS_AS(small.add(146 + 77, 1), core::InternalError);
 }
 
 TEST_CASE("with one sample a pixel an entry has light on one plane, with more on two, on a modelled machine always") {
   CHECK(ThreadsGather(1).plan.film_planes == 1);
-  CHECK(ThreadsGather(1).plan.film_entries == 15);
+  CHECK(ThreadsGather(1).plan.film_entries == 127);
   CHECK(ThreadsGather(2).plan.film_planes == 2);
-  CHECK(ThreadsGather(2).plan.film_entries == 9);
+  CHECK(ThreadsGather(2).plan.film_entries == 73);
   CHECK(SmallGather(1).plan.film_planes == 2);
   ThreadsGather small(1);
   core::PixelSums sums;
@@ -161,11 +168,11 @@ TEST_CASE("a packet of one short entry is filled up, so that it takes the place 
 }
 
 TEST_CASE("pixels of the same light that follow each other are one entry: none, one run, a full packet of them, one more") {
-  for (const std::uint32_t runs : {0U, 1U, 15U, 16U}) {
+  for (const std::uint32_t runs : {0U, 1U, 127U, 128U}) {
     CAPTURE(runs);
     ThreadsGather small(1);
     small.add_runs(runs);
-    CHECK(small.lone.post.parcels.size() == runs / 15);
+    CHECK(small.lone.post.parcels.size() == runs / 127);
     small.film.flush();
     std::uint32_t seen = 0;
     for (const Parcel& parcel : small.lone.post.parcels) {

@@ -238,7 +238,7 @@ TEST_CASE("a mailbox has room for everything that may be under way to it") {
   CHECK(plan.node_mailbox.bulk_payload_bytes == 1024 + 8);
   CHECK(plan.host_mailbox.small_slots == 5);
   CHECK(plan.host_mailbox.bulk_slots == 5 * 128);
-  CHECK(plan.host_mailbox.bulk_payload_bytes <= 1024);
+  CHECK(plan.host_mailbox.bulk_payload_bytes <= 4096);
 }
 
 TEST_CASE("film credits are few where nodes are many, and on a modelled machine, and fewer packets wait at a node") {
