@@ -11,7 +11,7 @@ namespace dmpc::svm {
 namespace {
 
 /// While a task waits for a page, the node continues with others.
-constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
+constexpr std::uint32_t default_tasks = modelled_in_flight, default_bundles = 4;
 /// Between ranks a page takes several times as long, by way of two communicating threads.
 constexpr std::uint32_t default_bundles_on_ranks = 16;
 /// The approximate number of small slots that a home has for page requests; 16 KiB.
@@ -35,7 +35,10 @@ class SvmStrategy final : public Strategy {
   /// The default; where memory is bounded, frames are worth more than further tasks.
   std::uint32_t usual_tasks(const PlanRequest& request) const override {
     const bool may_be_more = do_pages_travel(request) && request.computer.ranks != nullptr && !request.computer.node_memory_bytes;
-    return !request.bundles ? default_tasks : may_be_more ? default_bundles_on_ranks : default_bundles;
+    return !request.bundles           ? default_tasks
+           : request.computer.machine ? modelled_in_flight / bundle_pixels
+           : may_be_more              ? default_bundles_on_ranks
+                                      : default_bundles;
   }
 
   std::uint32_t foreign_pages_max(const PlanRequest& request) const override {

@@ -20,14 +20,6 @@ namespace dmpc::apps {
 
 namespace {
 
-/// As in the 1994 paper, a modelled node has one pixel, or bundle, in flight and waits for its page; forest has many queries.
-std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
-  if (!options.computer.machine || options.strategy == Strategy::forest || options.pages.in_flight) {
-    return options.pages.in_flight;
-  }
-  return options.pages.bundles_on_machines ? svm::bundle_pixels : 1;
-}
-
 svm::Report run_with_embree(const core::Database& database, const core::RenderSettings& settings, const svm::RunOptions& run,
                             std::stop_token stop) {
   const EmbreeScene scene(database.primitives(), EmbreeMode::robust);
@@ -72,7 +64,6 @@ ReadyRun ready_with_pages(const svm::Strategy& strategy, const StrategyOptions& 
                           const core::Continuation& continuation) {
   const bool by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
-  run.pages.in_flight = in_flight(options);
   run.tracer_is_own = by_embree;
   const auto frames = std::make_shared<std::optional<svm::Frames>>();
   const bool are_several = options.has_several_frames;

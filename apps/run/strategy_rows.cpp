@@ -98,9 +98,8 @@ std::vector<PageRow> rows_of_pixels() {
   using svm::PixelShares, svm::WorkDonor;
   return {
       {.name = "--in-flight",
-       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max,
-                                           "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to "
-                                           "256"),
+       .takes = number<&PageOptions::in_flight>(
+           1, svm::in_flight_max, "64, replicated 16, forest 16 to 256, runner virtual 16, replicated 1, mpi up to 256"),
        .help = "Pixels that a node works on at once; on threads the rays of 16 are traced in a bundle, those of fewer one by one",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",

@@ -39,6 +39,9 @@ class ForestStrategy final : public Strategy {
         "=extents and ", core::field_of<&core::BuildOptions::record_order>(), "=spatial");
   }
   std::uint32_t usual_tasks(const PlanRequest& request) const override {
+    if (request.computer.machine) {
+      return modelled_in_flight;
+    }
     const std::uint64_t workers = std::max(request.worker_count(), 1U);
     const std::uint64_t quarter = std::uint64_t{request.width} * request.height / (4 * workers);
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(quarter, forest_in_flight_least, forest_in_flight_most));

@@ -11,9 +11,9 @@
 
 namespace dmpc::svm {
 
-/// The default number of pixels in flight on a node: a quarter of its share of the picture, within these. A node whose pixel
-/// waits for an answer goes on with others, and the more there are, the fuller are packets of questions; but pixels in flight
-/// cannot be given to an idle node (svm/RESULTS.md).
+/// The default number of pixels in flight on a node's thread: a quarter of its share of the picture, within these. A node whose
+/// pixel waits for an answer goes on with others, and the more there are, the fuller are packets of questions; but pixels in
+/// flight cannot be given to an idle node (svm/RESULTS.md).
 inline constexpr std::uint32_t forest_in_flight_least = 16, forest_in_flight_most = 256;
 
 /// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays hit there.

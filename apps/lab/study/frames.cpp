@@ -273,7 +273,7 @@ std::vector<std::string> FramesStudy::notes(const std::string&) const {
   }
   const std::vector<std::string> rest = {
       counted(frame_count, "frame") + ", " + path + "; means over frames 2 to " + std::to_string(frame_count) +
-          ". Pages: 1 pixel in flight; questions: " + in_flight_text(Strategy::forest) + ".",
+          ". Pages and questions: " + in_flight_text(Strategy::svm) + " in flight.",
       "Cold: by nodes that begin with the frame; warm: by nodes that have rendered those before it, and keep caches, or "
       "regions. Of rays cold ones have regions by the frame's own subsampled picture, warm ones those of frame 1. Questions "
       "leave nothing behind.",

@@ -10,7 +10,7 @@
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
-#include "svm/forest/strategy.h"
+#include "svm/page_options.h"
 
 namespace dmpc::apps {
 namespace {
@@ -154,9 +154,7 @@ std::string machine_text(const nodes::Machine& machine) {
 }
 
 std::string in_flight_text(Strategy strategy) {
-  return strategy != Strategy::forest ? "1 pixel"
-                                      : "a quarter of a node's share, " + std::to_string(svm::forest_in_flight_least) + " to " +
-                                            counted(svm::forest_in_flight_most, "pixel");
+  return counted(strategy == Strategy::replicated ? 1U : svm::modelled_in_flight, "pixel");
 }
 
 void StudyRuns::compare(const core::Film& film) { compare_hash(film.hash()); }

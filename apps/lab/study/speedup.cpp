@@ -63,10 +63,8 @@ std::string cache_text(const StrategyOptions& run) {
 }
 
 std::string pages_text(const StrategyOptions& run) {
-  svm::PageOptions pages = run.pages;
-  const std::string in_flight = pages.in_flight ? counted(*pages.in_flight, "pixel") : in_flight_text(run.strategy);
-  pages.in_flight = pages.in_flight.value_or(1);
-  const std::uint32_t item_side = svm::work_item_side_of(pages, run.strategy != Strategy::forest);
+  const std::string in_flight = run.pages.in_flight ? counted(*run.pages.in_flight, "pixel") : in_flight_text(run.strategy);
+  const std::uint32_t item_side = svm::work_item_side_of(run.pages, run.pages.bundles_on_machines);
   const std::string side = std::to_string(item_side);
   return (run.strategy == Strategy::svm ? cache_text(run) + ", " : "") + in_flight + " in flight, " +
          (item_side == 0 ? "no work given away" : "work items of " + side + "x" + side);
