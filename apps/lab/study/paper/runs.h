@@ -119,7 +119,7 @@ inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes
 /// Indices of runs, one for each of paper_scenes.
 using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
 
-/// The runs to which the prices of voxel_machine() are fitted: the smallest and the largest machine of Mountain and of Rings4.
+/// The runs to which the prices of ipsc2-1994 are fitted: the smallest and the largest machine of Mountain and of Rings4.
 inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
 
 /// A scene of the article's Figures 8 to 10, on 32 nodes.

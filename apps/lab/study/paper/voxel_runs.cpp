@@ -1,7 +1,6 @@
-#include "apps/lab/study/paper/runs.h"
-
+#include "apps/frontend/machine/machines.h"
 #include "apps/lab/study/paper/catalogue.h"
-#include "apps/lab/study/paper/voxel_machine.h"
+#include "apps/lab/study/paper/runs.h"
 
 namespace dmpc::apps {
 namespace {
@@ -53,8 +52,9 @@ void add_voxel_loads(Catalogue& catalogue, const PaperRun& like) {
 }  // namespace
 
 void add_voxel_runs(Catalogue& catalogue) {
-  const PaperRun like{
-      .machine = voxel_machine(fitted_voxel_prices), .structure = core::Structure::voxels, .resolution = catalogue.resolution};
+  const PaperRun like{.machine = find_machine_preset("ipsc2-1994")->machine,
+                      .structure = core::Structure::voxels,
+                      .resolution = catalogue.resolution};
   VoxelRuns& voxels = catalogue.voxels;
   for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
     const std::size_t base = paper_scenes[scene].base();

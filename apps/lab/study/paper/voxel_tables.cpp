@@ -107,9 +107,7 @@ void note_ties(Table& table) {
       "hits, in the proportions that one core of today has: a step of 7.5 ns, a reference and its polygon as a record read and "
       "a test, 14.7 and 3.7 ns; 55 ns a ray, 167 ns a hit. Each reference that is read has its polygon tested, so no count can "
       "tell them apart.");
-  table.add_note(
-      "The machine is the study's own: what pages and messages cost is the preset ipsc2's, whose prices of operations are those "
-      "of dmpc's grid.");
+  table.add_note("The machine is ipsc2-1994; what pages and messages cost is as on ipsc2.");
 }
 
 }  // namespace
