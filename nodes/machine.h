@@ -37,6 +37,8 @@ struct Machine {
   bool has_contention = true;                         ///< a link carries one message at a time
   /// A node sends one message at a time and receives one at a time, on all of its links. No effect without contention.
   bool has_memory_port = false;
+  /// The data structures whose walk cost_ps was measured with or fitted to, a bit each by the program's numbers; 0: not said.
+  std::uint32_t prices_for = 0;
 
   /// The cost of a message of `bytes`, header included.
   const MessageCost& cost_of_message(std::uint64_t bytes) const {
@@ -52,8 +54,8 @@ struct Machine {
   }
   /// The price of the operations done from `before` to `after`.
   std::uint64_t price_ps(const Charges& before, const Charges& after) const { return price_ps(after) - price_ps(before); }
-  /// A hash of everything that affects a run: every figure and switch and the topology, but not the name. The same on every
-  /// computer.
+  /// A hash of everything that affects a run: every figure and switch and the topology, but not the name or the structures. The
+  /// same on every computer.
   std::uint64_t digest() const;
 };
 

@@ -3,6 +3,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/stopwatch.h"
 #include "apps/render/picture_notes.h"
 #include "apps/render/stages.h"
@@ -149,6 +150,9 @@ void plan(RenderCall& call, PlannedPicture& picture) {
   picture.built.facts.seconds.prepare = stopwatch.lap();
   if (!call.asked.quiet) {
     call.report_once(notes);
+    if (const auto& machine = call.asked.computer.machine) {
+      call.report_once({price_note(*machine, picture.built.subject.database.structure())});
+    }
   }
 }
 

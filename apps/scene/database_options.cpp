@@ -9,9 +9,7 @@ namespace dmpc::apps {
 
 const char* name_of(core::RecordOrder order) { return order == core::RecordOrder::scattered ? "scattered" : "spatial"; }
 
-const char* name_of(core::Structure structure) {
-  return structure == core::Structure::extents ? "extents" : structure == core::Structure::voxels ? "voxels" : "grid";
-}
+const char* name_of(core::Structure structure) { return core::structure_names[static_cast<std::size_t>(structure)].data(); }
 
 const std::vector<DatabaseRow>& database_rows() {
   using core::BuildOptions, core::RecordOrder, core::Structure;

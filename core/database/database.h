@@ -110,6 +110,7 @@ struct RecordCounts {
 class Database {
  public:
   const DatabaseHeader& header() const { return header_; }
+  Structure structure() const { return structure_; }
   std::size_t page_size() const { return page_size_; }
   std::size_t page_count() const { return page_count_; }
   /// page_count() * page_size() bytes (overread_bytes more are readable); empty after forget_records().
@@ -169,6 +170,7 @@ class Database {
  private:
   friend class DatabaseBuilder;
   DatabaseHeader header_;
+  Structure structure_ = Structure::grid;
   std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0, open_page_count_ = 0;
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;

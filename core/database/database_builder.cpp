@@ -48,6 +48,7 @@ DatabaseBuilder::DatabaseBuilder(Input input)
   expect(!options_.keeps_instances || (options_.structure == Structure::extents && options_.record_order == RecordOrder::spatial),
          "instances are kept in one tree of extents, in spatial order");
   result_.page_size_ = page_size;
+  result_.structure_ = options_.structure;
 }
 
 std::optional<Database> DatabaseBuilder::build() {

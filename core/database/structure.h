@@ -1,9 +1,11 @@
 // The layout of a database: how records are found, and where they lie in pages.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/record/record.h"
@@ -15,6 +17,7 @@ enum class Structure : std::uint8_t {
   extents,  ///< one macro cell, so one tree of boxes over all; its subtrees, as large as a page holds, lie in one page each
   voxels,   ///< small cells, each with a list of the primitives in it, without boxes
 };
+inline constexpr std::array<std::string_view, 3> structure_names = {"grid", "extents", "voxels"};
 
 enum class RecordOrder : std::uint8_t {
   spatial,    ///< neighbours in space share pages

@@ -57,7 +57,7 @@ const std::map<std::string, Names> words_of_core = {
     {"svm/pages",
      {"core/record/record.h", "core/record/records.h", "core/trace/charge.h", "core/trace/operations.h",
       "core/trace/task_state.h", "core/picture/memory_use.h"}},
-    {"apps/frontend", {"core/trace/charge.h", "core/trace/work.h"}},
+    {"apps/frontend", {"core/database/structure.h", "core/trace/charge.h", "core/trace/work.h"}},
     {"apps/computer", {"core/trace/charge.h"}},
 };
 

@@ -24,7 +24,8 @@ void add_options(OptionSet options, MachineOptions& machine) {
       "has_contention, and is off in all machines here, since there is no published figure. Sources say where a figure comes\n"
       "from and how certain it is: high, medium or low. Quoted figures are commonly given, but their measurements were not\n"
       "looked up; fitted ones were chosen so that the model gives a printed time; assumed ones have no source. Sources may be\n"
-      "left out.");
+      "left out, and so may prices_for, the structures that operation_ps was measured with or fitted to: who renders on another\n"
+      "one is told so.");
 }
 
 int machine_command(const MachineOptions& options, std::ostream& output) {

@@ -12,6 +12,7 @@
 #include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/database/structure.h"
 #include "core/trace/charge.h"
 #include "nodes/topology.h"
 
@@ -182,6 +183,21 @@ std::uint32_t uplinks_of(const Fields& fields) {
   return static_cast<std::uint32_t>(uplinks);
 }
 
+/// A file need not say which structures its prices are for.
+std::uint32_t prices_for(const Fields& fields) {
+  const auto& names = core::structure_names;
+  const Json given = fields.json().value("prices_for", Json::array());
+  std::uint32_t bits = 0;
+  for (const Json& one : given.is_array() ? given : Json::array({nullptr})) {
+    const auto found = std::find(names.begin(), names.end(), one.is_string() ? one.get<std::string>() : "");
+    if (found == names.end()) {
+      fields.refuse("prices_for", "expected a list of " + joined(names, ", "), given);
+    }
+    bits |= 1U << static_cast<unsigned>(found - names.begin());
+  }
+  return bits;
+}
+
 /// A port is something to contend for.
 bool has_memory_port(const Fields& fields) {
   const bool has_port = fields.flag("has_memory_port");
@@ -213,7 +229,8 @@ MachineDescription description_of(const Fields& fields) {
                       .service_ns = fields.number("service_ns", time_ns_max),
                       .cost_ps = operations_of(fields),
                       .has_contention = fields.flag("has_contention"),
-                      .has_memory_port = has_memory_port(fields)},
+                      .has_memory_port = has_memory_port(fields),
+                      .prices_for = prices_for(fields)},
           .sources = sources_of(fields)};
 }
 
@@ -302,7 +319,8 @@ Json machine_json(const nodes::Machine& machine) {
           {"service_ns", machine.service_ns},
           {"operation_ps", operations_json(machine)},
           {"has_contention", machine.has_contention},
-          {"has_memory_port", machine.has_memory_port}};
+          {"has_memory_port", machine.has_memory_port},
+          {"prices_for", priced_structures(machine)}};
 }
 
 std::string machine_text(const MachineDescription& description) {
@@ -323,7 +341,7 @@ MachineDescription parse_machine(std::string_view text, const std::string& file)
   return description_of(Fields(json, file + ": ",
                                {"name", "topology", "uplinks", "switching", "short_bytes_max", "short_message", "long_message",
                                 "hop_ns", "service_ns", "operation_ps", "has_contention", "has_memory_port"},
-                               {"format", "sources"}));
+                               {"format", "prices_for", "sources"}));
 }
 
 MachineDescription load_machine(const std::string& name_or_file) {

@@ -23,15 +23,16 @@ namespace dmpc::apps {
 ///   has_contention     whether a link carries one message at a time
 ///   has_memory_port    whether a node sends one message at a time and receives one at a time, over whatever links; goes with
 ///                      has_contention only
+///   prices_for         the structures, of grid, extents and voxels, that operation_ps was measured with or fitted to
 nlohmann::ordered_json machine_json(const nodes::Machine& machine);
 
 /// machine_json() and "sources", an object of texts by sourced_keys; indented, with a line end.
 std::string machine_text(const MachineDescription& description);
 
-/// Reads what machine_text() writes. "sources" may be missing, any other key may not. Throws core::InputError, naming `file`, the
-/// place or key and what was expected, for anything else: no JSON, unknown, missing and repeated keys, wrong types, numbers that
-/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms), memory ports without contention, uplinks
-/// without switches.
+/// Reads what machine_text() writes. "prices_for" and "sources" may be missing, any other key may not. Throws core::InputError,
+/// naming `file`, the place or key and what was expected, for anything else: no JSON, unknown, missing and repeated keys, wrong
+/// types, numbers that are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms), memory ports without
+/// contention, uplinks without switches.
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
 /// The preset with this name, or the machine in the file of that name, 1 MiB at most. Throws core::InputError if there is

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/database/structure.h"
 #include "nodes/charge.h"
 #include "nodes/machine.h"
 
@@ -26,7 +27,7 @@ struct MachineDescription {
   std::string title = {};  ///< a description in one line; empty for a user's machine
 };
 
-/// ipsc2, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.
+/// ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.
 const std::vector<MachineDescription>& machine_presets();
 /// Null if no preset has this name. Thread-safe.
 const MachineDescription* find_machine_preset(std::string_view name);
@@ -36,6 +37,13 @@ std::string machine_preset_names();
 /// The machine's name and what is special about its links, if anything is: "ipsc2", "ipsc2 without contention" or "ipsc2 with
 /// memory ports". Thread-safe.
 std::string name_with_links(const nodes::Machine& machine);
+
+/// The bit of a structure in nodes::Machine::prices_for.
+constexpr std::uint32_t price_bit(core::Structure structure) { return 1U << static_cast<unsigned>(structure); }
+/// The names of those bits; none if the machine does not say it.
+std::vector<std::string_view> priced_structures(const nodes::Machine& machine);
+/// A sentence that the machine's prices are for other structures than this one; empty if they are not, or not said to be.
+std::string price_note(const nodes::Machine& machine, core::Structure structure);
 
 /// What the operations cost on a processor that takes `slowdown` times as long as the core on which core/trace/work.cpp's
 /// prices were measured, in picoseconds by core::Charge. Thread-safe.

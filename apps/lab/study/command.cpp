@@ -185,6 +185,7 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal()}, interrupt);
   const auto write = [&](bool is_whole, Attempts& attempts) {
+    runs.add_price_notes(table);
     table.add_note(film_note(runs));
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (is_whole) {

@@ -257,6 +257,8 @@ void FramesStudy::measure(StudyRuns& runs, Table& table) const {
   const FrameRuns as_asked(*this, runs.database(), runs.settings(), runs), in_tree(*this, tree.database, tree.settings, runs);
   SeriesRows rows(has_each_frame, runs, table);
   for (const nodes::Machine& machine : machines) {
+    runs.note_prices(machine, runs.database());
+    runs.note_prices(machine, tree.database);
     for (const std::uint32_t node_count : node_counts) {
       measure_on(machine, node_count, as_asked, in_tree, rows);
     }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/lab/crowd/side_by_side.h"
@@ -82,7 +81,6 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
 /// misfit: later failures are errors.
 std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
                                                   const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
-  core::expect(run.options.computer.machine.has_value(), "runs side by side have no threads");
   StudyOutcome outcome;
   ReadyRun ready;
   try {
@@ -111,6 +109,10 @@ void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Ta
 void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& take) {
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
+  for (const StudyRun& run : runs) {
+    core::expect(run.options.computer.machine.has_value(), "runs side by side have no threads");
+    note_prices(*run.options.computer.machine, *run.database);
+  }
   std::vector<std::string> misfits;
   const auto measure = [&](std::size_t index) {
     const auto update = [&progress, index](std::uint32_t done, std::uint32_t) { progress.update(index, done); };
@@ -131,6 +133,14 @@ void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& tak
   });
   if (!runs.empty() && misfits.size() == runs.size()) {
     throw NothingFits(misfits.front());
+  }
+}
+
+void StudyRuns::add_price_notes(Table& table) const {
+  for (const std::string& note : price_notes_) {
+    if (!note.empty()) {
+      table.add_note(note + ".");
+    }
   }
 }
 

@@ -6,10 +6,12 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/interrupt.h"
 #include "apps/frontend/table/table.h"
 #include "apps/run/report.h"
@@ -86,6 +88,13 @@ class StudyRuns {
   /// Runs side by side over the study's database.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
+  /// Takes down a note if the machine's prices are for other structures than the database's.
+  void note_prices(const nodes::Machine& machine, const core::Database& database) {
+    price_notes_.insert(price_note(machine, database.structure()));
+  }
+  /// Adds those notes, each once.
+  void add_price_notes(Table& table) const;
+
   /// The scene that the study renders.
   const core::Database& database() const { return database_; }
   const core::RenderSettings& settings() const { return settings_; }
@@ -118,6 +127,7 @@ class StudyRuns {
   std::size_t expected_ = 0;  ///< 0: unknown
   std::uint32_t count_ = 0;
   std::optional<std::uint64_t> film_hash_;
+  std::set<std::string> price_notes_;
 };
 
 }  // namespace dmpc::apps

@@ -123,7 +123,7 @@ TEST_CASE("bash knows all of dmpc's commands and options") {
   CHECK(desk.by_bash("dmpc render tea") == "teapot-12");
   CHECK(desk.by_bash("dmpc render --up = -") == "-x -y -z");  // a value that has a sign
   CHECK(desk.by_bash("dmpc study paper -o ") == "stable");
-  CHECK(desk.by_bash("dmpc machine ips") == "ipsc2 ipsc860");
+  CHECK(desk.by_bash("dmpc machine ips") == "ipsc2 ipsc2-1994 ipsc860");
 }
 
 }  // namespace dmpc::apps::completion_test

@@ -307,6 +307,20 @@ TEST_CASE("what dataflow reduces to fit the memory is said before") {
   CHECK(contains(result.errors, " to fit 330KiB"));
 }
 
+TEST_CASE("a machine whose prices are for another structure than the picture's is said, once") {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& machine, const std::string& structure) {
+    const Said result = run_dmpc({"render", "balls-1", "--runner=virtual", "--nodes=2", "--resolution=8x8",
+                                  "--machine=" + machine, "--structure=" + structure, "-o", folder / "a.png"});
+    CHECK(result.status == 0);
+    return count(result.errors, " has prices for other structures (");
+  };
+  CHECK(said("ipsc2", "grid") == 0);
+  CHECK(said("ipsc2", "voxels") == 1);
+  CHECK(said("ipsc2-1994", "voxels") == 0);
+  CHECK(said("ipsc2-1994", "extents") == 1);
+}
+
 TEST_CASE("wrong usage ends with status 2 and a hint") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"paint"}, {"render"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {

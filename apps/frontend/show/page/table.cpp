@@ -111,12 +111,18 @@ std::string cell_text(const Cell& cell, const Column& column, const ColumnStyle&
   return std::holds_alternative<std::uint64_t>(cell) ? grouped(std::get<std::uint64_t>(cell)) : grouped(*number, style.digits);
 }
 
+/// Longer texts are broken into lines.
+constexpr std::size_t long_text_bytes = 60;
+
 std::string rows_of(const Table& table, const std::vector<ColumnStyle>& styles) {
   std::string text;
   for (const std::vector<Cell>& row : table.rows()) {
     text += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      text += (std::holds_alternative<std::string>(row[i]) ? "<td class=\"text\">" : "<td>") +
+      const auto* const words = std::get_if<std::string>(&row[i]);
+      text += (words == nullptr                  ? std::string("<td>")
+               : words->size() > long_text_bytes ? "<td class=\"text long\">"
+                                                 : "<td class=\"text\">") +
               cell_text(row[i], table.columns()[i], styles[i]) + "</td>";
     }
     text += "</tr>\n";

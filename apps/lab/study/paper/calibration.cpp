@@ -37,7 +37,7 @@ void add_fit(Table& table, const nodes::Machine& preset, const FitTimes& found) 
 
 }  // namespace
 
-std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibration_cell_count>& printed) {
+std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibrated_places.size()>& printed) {
   if (found.two_with_dearer_lookups <= found.two) {
     return std::nullopt;
   }
@@ -55,13 +55,12 @@ nodes::Machine fitted(nodes::Machine machine, const Fit& fit) {
 }
 
 Table calibration(const Catalogue& catalogue, const PaperResults& results) {
-  Table table("Calibration: Mountain on one node and on two",
+  Table table("Calibration of ipsc2 on dmpc's grid: Mountain on one node and on two",
               {{"figure"}, {"in the preset", "ns", 1}, {"fitted", "ns", 1}, {"change", "%", 2}});
-  const std::size_t one = catalogue.timed[calibration_row][0];
-  const auto &found = results[one], &two = results[catalogue.timed[calibration_row][1]],
-             &dearer = results[catalogue.dearer_cache];
+  const RunsByNodeCount& timed = catalogue.grid.timed[calibrated_places[0].scene];
+  const auto &found = results[timed[0]], &two = results[timed[1]], &dearer = results[catalogue.dearer_cache];
   if (found && two && dearer) {
-    add_fit(table, catalogue.runs[one].machine,
+    add_fit(table, catalogue.runs[timed[0]].machine,
             {.one = found->seconds(), .two = two->seconds(), .two_with_dearer_lookups = dearer->seconds()});
   } else {
     note_missing_rows(table, 2);

@@ -24,7 +24,7 @@ struct FitTimes {
 /// Returns the factors that turn `found` into the `printed` seconds on one node and on two. The time on one node is assumed
 /// proportional to the prices of operations (it has no look-ups of cached pages), that on two linear in the price of such a
 /// look-up. Returns nothing if dearer look-ups took no longer, or if no price were low enough.
-std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibration_cell_count>& printed);
+std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibrated_places.size()>& printed);
 
 nodes::Machine fitted(nodes::Machine machine, const Fit& fit);
 

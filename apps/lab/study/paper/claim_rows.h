@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/frontend/table/table.h"
+#include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/lab/study/paper/runs.h"
 
@@ -19,12 +20,16 @@ inline constexpr double tie_share = 0.01;
 class Claims {
  public:
   /// Prices are fitted to the article's resolution, so pictures of another resolution do not judge its claims.
-  Claims(const std::string& title, std::uint32_t resolution)
-      : is_judged_(resolution == paper_resolution), table_(title, {{"claim"}, {"verdict"}, {"found"}}) {}
+  explicit Claims(std::uint32_t resolution)
+      : is_judged_(resolution == paper_resolution),
+        table_("What the text claims", {{"claim"}, {"verdict"}, {"found"}, {"why"}}) {}
 
-  void add(const std::string& claim, bool is_held, const std::string& found) { add(claim, is_held ? held : not_held, found); }
-  void add(const std::string& claim, const char* verdict, const std::string& found) {
-    table_.add_row({claim, is_judged_ ? verdict : not_judged, found});
+  /// `why`: of a claim that is not held, as far as it is known.
+  void add(const std::string& claim, bool is_held, const std::string& found, const std::string& why = {}) {
+    add(claim, is_held ? held : not_held, found, why);
+  }
+  void add(const std::string& claim, const char* verdict, const std::string& found, const std::string& why = {}) {
+    table_.add_row({claim, is_judged_ ? verdict : not_judged, found, verdict == held ? std::string() : why});
   }
   Table table() && { return std::move(table_); }
 
@@ -34,8 +39,7 @@ class Claims {
 };
 
 /// Adds the claim that trees of extents need less memory but more time than a subdivision of space; these are the runs on one
-/// node with the whole scene. `remark` follows the figures.
-void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents,
-                   const std::string& remark);
+/// node with the whole scene.
+void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents);
 
 }  // namespace dmpc::apps

@@ -36,34 +36,23 @@ Table claims_with_note(const Catalogue& catalogue, const PaperResults& results) 
   return table;
 }
 
-/// Returns all tables except the sensitivity.
+/// Returns all tables except the sensitivity: the article's structure first, dmpc's grid behind.
 std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
                                   const std::vector<PaperSubject>& subjects) {
-  return {{"voxel_table_2", voxel_table_2(catalogue, results, subjects)},
-          {"voxel_table_3", voxel_table_3(catalogue, results)},
-          {"voxel_prices", voxel_prices(catalogue, results)},
-          {"voxel_pairs", voxel_pairs(catalogue, results)},
-          {"voxel_caches", voxel_caches(catalogue, results)},
-          {"voxel_loads", voxel_loads(catalogue, results)},
-          {"voxel_claims", voxel_claims(catalogue, results)},
-          {"table_2", table_2(catalogue, results, subjects)},
-          {"table_3", table_3(catalogue, results)},
-          {"calibration", calibration(catalogue, results)},
-          {"law", beside_model(catalogue, results)},
-          {"against_model", against_model(catalogue, results)},
-          {"memories", memories(catalogue, results)},
-          {"losses", losses(catalogue, results)},
-          {"algorithms", algorithms(catalogue, results)},
-          {"ray_ways", ray_ways(catalogue, results)},
-          {"work_items", work_items(catalogue, results)},
-          {"page_sizes", page_sizes(catalogue, results)},
-          {"caches", caches(catalogue, results)},
-          {"claims", claims_with_note(catalogue, results)}};
+  return {{"summary", summary_table(catalogue, results)},     {"claims", claims_with_note(catalogue, results)},
+          {"table_2", table_2(catalogue, results, subjects)}, {"table_3", table_3(catalogue, results)},
+          {"algorithms", algorithms(catalogue, results)},     {"caches", caches(catalogue, results)},
+          {"region_loads", region_loads(catalogue, results)}, {"ray_ways", ray_ways(catalogue, results)},
+          {"work_items", work_items(catalogue, results)},     {"losses", losses(catalogue, results)},
+          {"voxel_prices", voxel_prices(catalogue, results)}, {"voxel_pairs", voxel_pairs(catalogue, results)},
+          {"law", against_model(catalogue, results)},         {"grid_table_3", grid_table_3(catalogue, results)},
+          {"calibration", calibration(catalogue, results)}};
 }
 
 PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperResults& results,
                       const std::vector<PaperSubject>& subjects) {
   PaperReport report{.tables = tables_of(catalogue, results, subjects),
+                     .summary = summary_texts(catalogue, results),
                      .resolution = catalogue.resolution,
                      .is_complete = has_first(results, results.size())};
   if (!varied.empty()) {
@@ -122,13 +111,15 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
   options.add_number("--resolution", paper.resolution, 8, 4096, "512, the article's", "Pixels a side of every picture");
   options.add_flag("--sensitivity", paper.has_sensitivity,
                    "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
-  options.add_path("-o,--output", "FOLDER", paper.output,
-                   "Where report.md goes, with each table as CSV and JSON and pictures by gnuplot");
+  options.add_path(
+      "-o,--output", "FOLDER", paper.output,
+      "Where the report goes, as a page and as Markdown, with each table as CSV and JSON, pictures by gnuplot, hashes, "
+      "and all of it as paper.zip");
   add_report_option(options, paper.report, "with the tables and their plots");
   options.add_quiet(paper.quiet);
   options.set_examples(
       "Examples:\n"
-      "  dmpc study paper -o paper              the article's pictures: some minutes\n"
+      "  dmpc study paper -o paper              the article's pictures: ten minutes of processor time\n"
       "  dmpc study paper --sensitivity -o paper\n"
       "  dmpc study paper --resolution=64       to see what it prints, not what is true");
 }

@@ -99,13 +99,6 @@ std::string on_calibration(const Table& table) {
                                 texts_of(table, *sizes.of_most)[0] + ").";
 }
 
-std::string on_model(const Table& table) {
-  const Sizes ours = sizes_of(table, "our difference"), model = sizes_of(table, "the law's difference");
-  return ours.count == 0 || model.count == 0 ? ""
-                                             : "Over these cells we are " + points_text(ours.mean()) +
-                                                   " off in the mean, the law " + points_text(model.mean()) + ".";
-}
-
 std::string on_errors(const Table& table) {
   if (table.rows().empty()) {
     return "";
@@ -118,27 +111,6 @@ std::string on_errors(const Table& table) {
   return "Over " + texts_of(table, table.rows()[0])[0] + " " + (*ours < *model ? "we are" : "the law is") +
          " nearer: " + points_text(std::min(*ours, *model)) + " off in the mean, against " +
          points_text(std::max(*ours, *model)) + ".";
-}
-
-/// The columns after the printed one are ways to choose memories.
-std::string on_memories(const Table& table) {
-  std::map<double, std::string> by_error;
-  for (std::size_t column = 3; column < table.columns().size(); ++column) {
-    const std::string& name = table.columns()[column].name;
-    Sizes errors;
-    for (const Row& row : table.rows()) {
-      const auto printed = number_in(table, row, "printed"), ours = number_in(table, row, name);
-      if (printed && ours) {
-        errors.add(*ours - *printed, row);
-      }
-    }
-    if (errors.count > 0) {
-      by_error.emplace(errors.mean(), name);
-    }
-  }
-  return by_error.empty() ? ""
-                          : "Nearest to what is printed is \"" + by_error.begin()->second + "\", " +
-                                points_text(by_error.begin()->first) + " off in the mean.";
 }
 
 std::string on_losses(const Table& table) {
@@ -204,17 +176,6 @@ std::string on_work_items(const Table& table) {
   return "The picture takes from " + of(*least) + " to " + of(*most) + ".";
 }
 
-std::string on_page_sizes(const Table& table) {
-  if (table.rows().empty()) {
-    return "";
-  }
-  const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
-  const auto best = std::min_element(table.rows().begin(), table.rows().end(),
-                                     [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
-  return "The picture comes soonest, in " + fixed(seconds(*best), 0) + " s, with pages of " +
-         fixed(number_in(table, *best, "page").value_or(0), 0) + " bytes in " + texts_of(table, *best)[0] + ".";
-}
-
 std::string on_claims(const Table& table) {
   std::map<std::string, std::size_t> verdicts;
   for (const Row& row : table.rows()) {
@@ -245,15 +206,6 @@ std::string on_pairs(const Table& table) {
                                  fixed(errors.most, 1) + " % by those fitted to " + texts_of(table, *errors.of_most)[0] + ".";
 }
 
-std::string on_voxel_caches(const Table& table) {
-  std::string text;
-  for (const Row* row : rows_of_most(table, "page traffic a node")) {
-    text = "Most pages travel with caches of " + texts_of(table, *row)[1] + " pages (" + texts_of(table, *row)[0] +
-           "), where the efficiency is " + fixed(number_in(table, *row, "efficiency").value_or(0), 1) + " %.";
-  }
-  return text;
-}
-
 std::string on_loads(const Table& table) {
   const Sizes loads = sizes_of(table, "average load");
   return loads.count == 0
@@ -267,26 +219,20 @@ struct Conclusion {
   std::string (*on)(const Table& table);
 };
 
-constexpr std::array<Conclusion, 21> conclusions = {{{"voxel_table_2", on_table_2},
-                                                     {"voxel_table_3", on_table_3},
-                                                     {"voxel_prices", on_calibration},
-                                                     {"voxel_pairs", on_pairs},
-                                                     {"voxel_caches", on_voxel_caches},
-                                                     {"voxel_loads", on_loads},
-                                                     {"voxel_claims", on_claims},
+constexpr std::array<Conclusion, 15> conclusions = {{{"claims", on_claims},
                                                      {"table_2", on_table_2},
                                                      {"table_3", on_table_3},
-                                                     {"calibration", on_calibration},
-                                                     {"law", on_model},
-                                                     {"against_model", on_errors},
-                                                     {"memories", on_memories},
-                                                     {"losses", on_losses},
                                                      {"algorithms", on_algorithms},
+                                                     {"caches", on_caches},
+                                                     {"region_loads", on_loads},
                                                      {"ray_ways", on_ray_ways},
                                                      {"work_items", on_work_items},
-                                                     {"page_sizes", on_page_sizes},
-                                                     {"caches", on_caches},
-                                                     {"claims", on_claims},
+                                                     {"losses", on_losses},
+                                                     {"voxel_prices", on_calibration},
+                                                     {"voxel_pairs", on_pairs},
+                                                     {"law", on_errors},
+                                                     {"grid_table_3", on_table_3},
+                                                     {"calibration", on_calibration},
                                                      {"sensitivity", on_sensitivity}}};
 
 }  // namespace

@@ -36,8 +36,7 @@ const char* verdict_of(bool is_smaller, double least_time) {
 
 }  // namespace
 
-void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents,
-                   const std::string& remark) {
+void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents) {
   Range memory, time;
   for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
     const auto &space = results[in_space[scene]], &extents = results[in_extents[scene]];
@@ -50,7 +49,8 @@ void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene&
   }
   rows.add("A tree of extents needs less memory than a subdivision of space, but more time",
            verdict_of(memory.most < 1, time.least),
-           "memory " + memory.text() + ", time " + time.text() + " of those in space, on one node" + remark);
+           "memory " + memory.text() + ", time " + time.text() + " of those in space, on one node",
+           "our tree looks at eight boxes for the price of one record, and ipsc2-1994 has no prices for it");
 }
 
 }  // namespace dmpc::apps

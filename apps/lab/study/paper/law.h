@@ -25,11 +25,8 @@ inline constexpr std::size_t model_cell_count = 2;
 /// Fits the printed times of the scene's two smallest machines; returns nothing if it has only one.
 std::optional<PaperModel> model_of(const PaperScene& scene);
 
-/// Returns the printed value of Table 3, our prediction and the baseline model's: a row for each cell that we predict and whose
-/// runs have ended. A scene with one printed cell, which leaves nothing to predict, has a row that says so.
-Table beside_model(const Catalogue& catalogue, const PaperResults& results);
-/// Returns the errors of both against the printed values: over all those cells, over those to which neither was fitted, and on
-/// the largest machine.
+/// Returns the errors of our efficiencies and the baseline model's against the printed ones: over all cells that we predict, over
+/// those to which neither was fitted, and on the largest machine.
 Table against_model(const Catalogue& catalogue, const PaperResults& results);
 
 }  // namespace dmpc::apps

@@ -14,19 +14,27 @@ const PlotAxis nodes_axis{.label = "nodes", .scale = PlotScale::powers_of_2, .le
 const PlotAxis cache_axis{
     .label = "cache of a node (% of the database)", .scale = PlotScale::powers_of_10, .least = 0.002, .most = 100};
 
-PaperPlot plot_of_table_3() {
-  Plot plot{.name = "table_3",
-            .title = "Table 3: efficiency on the iPSC/2, printed and found",
-            .places = {"nodes"},
-            .x = nodes_axis,
-            .y = {.label = "efficiency (%)", .most = 102},
+PaperPlot plot_of_table_2() {
+  Plot plot{.name = "table_2",
+            .title = "Table 2: pages for a pixel, printed and found",
+            .places = {"scene"},
+            .x = {},
+            .y = {.label = "pages for a pixel", .least = 0},
             .series = {}};
+  plot.series = {{"printed", "pages a pixel printed", {}, PlotMark::bars, 0}, {"found", "pages a pixel", {}, PlotMark::bars, 1}};
+  return {"table_2", std::move(plot)};
+}
+
+/// Printed values are points, ours are a line of the same colour. `has_bases`: a scene with one printed cell is drawn, too.
+PaperPlot plot_of_table_3(const std::string& name, const std::string& title, const PlotAxis& y, const std::string& printed,
+                          const std::string& found, bool has_bases) {
+  Plot plot{.name = name, .title = title, .places = {"nodes"}, .x = nodes_axis, .y = y, .series = {}};
   for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
     const PaperScene& paper = paper_scenes[scene];
-    if (paper.base() + 1 < paper_node_counts.size()) {  // else it is 100 % by definition
-      const std::string title = paper.title;
-      plot.series.push_back({title + ", printed", "efficiency printed", {{"scene", title}}, PlotMark::points, scene});
-      plot.series.push_back({title + ", found", "efficiency", {{"scene", title}}, PlotMark::line, scene});
+    if (has_bases || paper.base() + 1 < paper_node_counts.size()) {
+      const std::string of_scene = paper.title;
+      plot.series.push_back({of_scene + ", printed", printed, {{"scene", of_scene}}, PlotMark::points, scene});
+      plot.series.push_back({of_scene + ", found", found, {{"scene", of_scene}}, PlotMark::line, scene});
     }
   }
   return {"table_3", std::move(plot)};
@@ -50,10 +58,17 @@ PaperPlot plot_of_algorithms() {
 PaperPlot plot_of_caches(const std::string& name, const std::string& title, const PlotAxis& y, const std::string& column) {
   Plot plot{.name = name, .title = title, .places = {"of the database"}, .x = cache_axis, .y = y, .series = {}};
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
-    const std::string name_of_scene = cache_scenes[scene].row().scene;
-    plot.series.push_back({name_of_scene, column, {{"scene", name_of_scene}}, PlotMark::line, scene});
+    const std::string of_scene = cache_scenes[scene].row().title;
+    plot.series.push_back({of_scene, column, {{"scene", of_scene}}, PlotMark::line, scene});
   }
   return {"caches", std::move(plot)};
+}
+
+PaperPlot plot_of_traffic() {
+  PaperPlot traffic = plot_of_caches("traffic", "Figure 10: pages that a node receives and sends, 32 nodes",
+                                     percent_axis("of 0.9 MB/s"), "traffic both ways");
+  traffic.plot.series.push_back({"Rings4, printed", "printed", {{"scene", "Rings4"}}, PlotMark::points, 0});
+  return traffic;
 }
 
 PaperPlot plot_of_losses() {
@@ -103,14 +118,17 @@ PaperPlot plot_of_sensitivity() {
 
 std::vector<PaperPlot> paper_plots() {
   return {
-      plot_of_table_3(),
-      plot_of_losses(),
+      plot_of_table_2(),
+      plot_of_table_3("table_3_seconds", "Table 3: seconds on the iPSC/2, printed and found",
+                      {.label = "time", .scale = PlotScale::powers_of_10}, "printed", "found", true),
+      plot_of_table_3("table_3", "Table 3: efficiency on the iPSC/2, printed and found", {.label = "efficiency (%)", .most = 102},
+                      "efficiency printed", "efficiency", false),
       plot_of_algorithms(),
       plot_of_caches("caches", "Figure 8: efficiency by the size of the cache, 32 nodes", percent_axis("efficiency"),
                      "efficiency"),
       plot_of_caches("misses", "Figure 9: look-ups that miss, 32 nodes", {.label = "miss ratio (%)", .least = 0}, "miss ratio"),
-      plot_of_caches("traffic", "Figure 10: pages received by a node, 32 nodes",
-                     {.label = "page traffic a node (bytes/s)", .least = 0}, "page traffic a node"),
+      plot_of_traffic(),
+      plot_of_losses(),
       plot_of_sensitivity()};
 }
 

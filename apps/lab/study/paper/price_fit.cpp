@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/frontend/machine/machines.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps {
@@ -118,6 +119,12 @@ VoxelPrices unit_price(std::size_t index) {
 }
 
 }  // namespace
+
+nodes::Machine voxel_machine(const VoxelPrices& prices) {
+  nodes::Machine machine = find_machine_preset("ipsc2-1994")->machine;
+  set_prices(machine, prices);
+  return machine;
+}
 
 double RayTime::milliseconds(const VoxelPrices& prices) const {
   double sum = rest;

@@ -5,10 +5,13 @@
 #include <optional>
 #include <span>
 
+#include "apps/frontend/machine/voxel_prices.h"
 #include "apps/lab/study/paper/runs.h"
-#include "apps/lab/study/paper/voxel_machine.h"
 
 namespace dmpc::apps {
+
+/// Returns the preset ipsc2-1994 with these prices in place of the fitted ones.
+nodes::Machine voxel_machine(const VoxelPrices& prices);
 
 /// The time of a ray in a run with travelling pages, in node-milliseconds, as a function of the prices.
 struct RayTime {

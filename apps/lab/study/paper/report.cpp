@@ -1,15 +1,20 @@
 #include "apps/lab/study/paper/report.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "apps/frontend/line/folded_text.h"
 #include "apps/frontend/show/page/origin.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/table/plot_program.h"
+#include "apps/lab/study/paper/archive.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/show/page/sweep_page.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -51,18 +56,47 @@ Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::
   return pictures;
 }
 
+constexpr const char *page_name = "index.html", *hashes_name = "SHA256SUMS", *archive_name = "paper.zip";
+
+/// Adds hashes of the files that are there, and all of them as one file.
+void write_archive(const PaperReport& report, const std::filesystem::path& folder, std::vector<std::string>& complaints) {
+  std::vector<std::string> names;
+  for (const OutputName& file : report_files(report, folder, "")) {
+    const std::string name = file.file.path.filename();
+    if (name != hashes_name && name != archive_name && std::filesystem::is_regular_file(folder / name)) {
+      names.push_back(name);
+    }
+  }
+  try {
+    write_file(folder / hashes_name, hashes_of(folder, names));
+    names.emplace_back(hashes_name);
+  } catch (const core::InputError& error) {
+    complaints.push_back("the files have no hashes: " + std::string(error.what()));
+  }
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const std::string& name : names) {
+    std::ifstream file(folder / name, std::ios::binary);
+    files.emplace_back("paper/" + name, std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  write_file(folder / archive_name, zip_of(files));
+}
+
 constexpr const char* title = "The tables of 1994, regenerated";
 
 std::vector<std::string> introduction(const PaperReport& report) {
   const std::string side = std::to_string(report.resolution), fitted_side = std::to_string(paper_resolution);
   std::vector<std::string> paragraphs = {
       "D. Badouel, K. Bouatouch, T. Priol, \"Distributing Data and Control for Ray Tracing in Parallel\", on the modelled iPSC/2 "
-      "(`dmpc machine ipsc2`), pictures of " +
-      side + "x" + side + " pixels."};
+      "(`dmpc machine ipsc2-1994`) and the article's own structure, a plain grid of voxels, pictures of " +
+      side + "x" + side +
+      " pixels. As in 1994 a node has one pixel in flight, travelling rays have no backpressure, and nothing is skipped that "
+      "later "
+      "programs skip."};
   if (report.resolution != paper_resolution) {
     paragraphs.push_back("The machine's prices are fitted to pictures of " + fitted_side + "x" + fitted_side +
                          " pixels: those of another size show how the study works, and no more.");
   }
+  paragraphs.insert(paragraphs.end(), report.summary.begin(), report.summary.end());
   if (!report.is_complete) {
     paragraphs.push_back("Unfinished: rows are missing.");
   }
@@ -114,7 +148,9 @@ std::vector<OutputName> report_files(const PaperReport& report, const std::files
       add(plot.name + ".svg");
     }
   }
-  add("report.md");
+  for (const char* const name : {"report.md", page_name, hashes_name, archive_name}) {
+    add(name);
+  }
   return files;
 }
 
@@ -123,6 +159,9 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
   write_tables(report.tables, folder, attempts);
   const Pictures pictures = draw_all(report.tables, folder, attempts, complaints);
   attempts.make([&] { write_file(folder / "report.md", text_with(report, pictures, complaints)); });
+  std::ostringstream said_above;
+  attempts.make([&] { write_file(folder / page_name, page_of(report, said_above)); });
+  attempts.make([&] { write_archive(report, folder, complaints); });
   return complaints;
 }
 

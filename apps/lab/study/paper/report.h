@@ -21,8 +21,9 @@ struct NamedTable {
 
 struct PaperReport {
   std::vector<NamedTable> tables;
-  std::uint32_t resolution = 0;  ///< pixels a side of the pictures on which the tables are based
-  bool is_complete = true;       ///< no row is missing
+  std::vector<std::string> summary = {};  ///< paragraphs
+  std::uint32_t resolution = 0;           ///< pixels a side of the pictures on which the tables are based
+  bool is_complete = true;                ///< no row is missing
 };
 
 /// Returns the report in Markdown, without pictures.
@@ -32,8 +33,9 @@ std::string text_of(const PaperReport& report);
 std::vector<OutputName> report_files(const PaperReport& report, const std::filesystem::path& folder, const std::string& option);
 
 /// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
-/// the text with links to the pictures as report.md. Returns sentences about pictures that could not be drawn, which report.md
-/// has, too. Each file is one attempt.
+/// the text with links to the pictures as report.md, the page as index.html, the hashes of all these as SHA256SUMS, and all of it
+/// as paper.zip. Returns sentences about pictures that could not be drawn, which report.md
+/// has, too, and about missing hashes. Each file is one attempt.
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
 
 /// Returns the report as a page. Pictures that could not be drawn are reported to `complaints`. Throws core::InputError if no

@@ -129,13 +129,9 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   for (const PaperRun& run : runs) {
     if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
       const PictureOptions picture = picture_of(run);
-      subjects.push_back({run.scene, run.resolution, run.record_order, run.page_size_bytes, run.has_inner_light, run.structure,
-                          run.lacks_later_skips,
-                          build_subject(load_scene(picture), picture,
-                                        {.build = {.page_size_bytes = run.page_size_bytes,
-                                                   .record_order = run.record_order,
-                                                   .structure = run.structure,
-                                                   .voxels = core::article_voxels}})});
+      subjects.push_back(
+          {run.scene, run.resolution, run.has_inner_light, run.structure, run.lacks_later_skips,
+           build_subject(load_scene(picture), picture, {.build = {.structure = run.structure, .voxels = core::article_voxels}})});
     }
   }
   return subjects;

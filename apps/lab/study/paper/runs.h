@@ -41,8 +41,6 @@ struct PaperRun {
   dataflow::RayOptions rays = {};             ///< dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
-  core::RecordOrder record_order = core::RecordOrder::spatial;
-  std::size_t page_size_bytes = 1024;
   /// One light in the middle of the scene, which is Rings4, replaces its own lights, which are outside. Rays then also visit
   /// regions on their way in which they hit nothing.
   bool has_inner_light = false;
@@ -78,8 +76,6 @@ struct PaperResult {
 struct PaperSubject {
   std::string scene;
   std::uint32_t resolution = 0;
-  core::RecordOrder record_order = core::RecordOrder::spatial;
-  std::size_t page_size_bytes = 1024;
   bool has_inner_light = false;
   core::Structure structure = core::Structure::grid;
   bool lacks_later_skips = false;
@@ -87,9 +83,8 @@ struct PaperSubject {
 
   /// Returns whether this is the run's scene.
   bool is_of(const PaperRun& run) const {
-    return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
-           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light && structure == run.structure &&
-           lacks_later_skips == run.lacks_later_skips;
+    return scene == run.scene && resolution == run.resolution && has_inner_light == run.has_inner_light &&
+           structure == run.structure && lacks_later_skips == run.lacks_later_skips;
   }
 };
 /// Loads the scenes that the runs need. The largest takes about a second.
@@ -107,48 +102,5 @@ using PaperResults = std::vector<std::optional<PaperResult>>;
 void carry_out(
     std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
     const std::function<void()>& reported = [] {});
-
-struct Catalogue;
-
-/// Indices of runs, one for each of paper_node_counts.
-using RunsByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
-
-/// Pages of a node's shared memory: its own and its cache.
-inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes);
-
-/// Indices of runs, one for each of paper_scenes.
-using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
-
-/// The runs to which the prices of voxel_machine() are fitted: the smallest and the largest machine of Mountain and of Rings4.
-inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
-
-/// A scene of the article's Figures 8 to 10, on 32 nodes.
-struct VoxelCaches {
-  std::size_t scene = 0;                 ///< index in paper_scenes
-  std::array<std::uint32_t, 6> pages{};  ///< of 1 KB
-};
-/// The sizes of cache_scenes with which a picture does not take minutes: with smaller caches most look-ups of another node's page
-/// miss.
-inline constexpr std::array<VoxelCaches, 2> voxel_caches_tried = {
-    {{2, {102, 204, 408, 811, 1621, 3242}}, {3, {51, 102, 204, 408, 1448, 2895}}}};
-
-/// Numbers of nodes for which regions of Rings3 are cut.
-inline constexpr std::array<std::uint32_t, 3> loaded_node_counts = {16, 32, 64};
-
-/// Indices of runs, by scene.
-struct VoxelRuns {
-  RunsByScene counted{};                                                       ///< Table 2
-  RunsByScene extents{};                                                       ///< the same on a tree of extents
-  std::array<RunsByNodeCount, paper_scenes.size()> timed{};                    ///< Table 3
-  RunsByScene one_worker{};                                                    ///< on the smallest printed machine
-  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{};  ///< by size; the runs on one node are `counted`
-  /// Travelling rays on Rings3, by loaded_node_counts: regions from a subsampled picture, cut in alternating directions, and of
-  /// equal size; and one node.
-  std::array<std::size_t, loaded_node_counts.size()> subsampled{}, equal_size{};
-  std::size_t one_region = 0;
-};
-
-/// Adds the runs on voxels to the catalogue.
-void add_voxel_runs(Catalogue& catalogue);
 
 }  // namespace dmpc::apps

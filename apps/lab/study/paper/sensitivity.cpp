@@ -107,8 +107,7 @@ struct Watched {
   Differences differences;
 };
 
-std::optional<Watched> watched(const PaperResults& results,
-                               const std::array<Catalogue::ByNodeCount, paper_scenes.size()>& timed) {
+std::optional<Watched> watched(const PaperResults& results, const std::array<RunsByNodeCount, paper_scenes.size()>& timed) {
   Watched watched;
   for (std::size_t i = 0; i < watched_cells.size(); ++i) {
     const auto [scene, column] = watched_cells[i];
@@ -170,11 +169,11 @@ std::vector<Variation> variations_of(const Machine& machine) {
 
 std::vector<VariedRuns> add_variations(Catalogue& catalogue) {
   std::vector<VariedRuns> varied;
-  const Machine machine = catalogue.runs[catalogue.timed[calibration_row][0]].machine;
+  const Machine machine = catalogue.runs[catalogue.grid.timed[0][0]].machine;
   for (const Variation& variation : variations_of(machine)) {
     VariedRuns& runs = varied.emplace_back(VariedRuns{variation});
     const auto add = [&](std::size_t scene, std::size_t column) {
-      PaperRun run = catalogue.runs[catalogue.timed[scene][column]];
+      PaperRun run = catalogue.runs[catalogue.grid.timed[scene][column]];
       run.machine = variation.machine;
       runs.timed[scene][column] = catalogue.add(run);
     };
@@ -191,8 +190,8 @@ std::vector<VariedRuns> add_variations(Catalogue& catalogue) {
 }
 
 Table sensitivity(const Catalogue& catalogue, const PaperResults& results, const std::vector<VariedRuns>& varied) {
-  Table table("Sensitivity: what a figure of the machine does to efficiencies of Table 3", sensitivity_columns());
-  const std::optional<Watched> before = watched(results, catalogue.timed);
+  Table table("Sensitivity: what a figure of ipsc2 does to efficiencies of Table 3 on dmpc's grid", sensitivity_columns());
+  const std::optional<Watched> before = watched(results, catalogue.grid.timed);
   if (before) {
     for (const VariedRuns& runs : varied) {
       if (const auto after = watched(results, runs.timed)) {

@@ -30,7 +30,7 @@ inline constexpr std::array<PaperPlace, 5> watched_cells = {{{1, 1}, {1, 6}, {2,
 /// The runs of one variation, by scene and column: those of the watched cells and of their bases.
 struct VariedRuns {
   Variation variation;
-  std::array<Catalogue::ByNodeCount, paper_scenes.size()> timed{};
+  std::array<RunsByNodeCount, paper_scenes.size()> timed{};
 };
 
 /// Adds the runs of all variations of Table 3's machine, one variation after the other, to the catalogue.

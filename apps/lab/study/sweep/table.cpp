@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/line/parsed_number.h"
 #include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/machine_file.h"
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
@@ -109,10 +111,20 @@ std::string title_of(const SweepSettings& settings) {
 
 void add_notes(const SweepSettings& settings, const std::vector<SweepResult>& results, Table& table) {
   std::size_t kept = 0;
+  std::set<std::string> of_prices;
   for (const SweepResult& result : results) {
     kept += result.is_kept ? 1 : 0;
+    const RenderOptions& options = result.run.options;
+    if (options.runner.kind == RunnerKind::virtual_time) {
+      of_prices.insert(price_note(load_machine(options.runner.machine_name).machine, options.database.build.structure));
+    }
     if (!result.figures) {
       table.add_note("No room with " + text_of(settings.variations, result.run) + ": " + result.misfit + ".");
+    }
+  }
+  for (const std::string& note : of_prices) {
+    if (!note.empty()) {
+      table.add_note(note + ".");
     }
   }
   if (kept > 0) {

@@ -69,6 +69,7 @@ TEST_CASE("what is printed of a machine reads back as the same") {
     CHECK(again.machine.long_message.receive_ns == preset.machine.long_message.receive_ns);
     CHECK(again.machine.cost_ps == preset.machine.cost_ps);
     CHECK(again.machine.digest() == preset.machine.digest());
+    CHECK(again.machine.prices_for == preset.machine.prices_for);
   }
 }
 
@@ -77,6 +78,22 @@ TEST_CASE("a machine file is of a format that it may leave out, and of no other"
   CHECK(machine_complaint_with("\"format\": 2,", "").empty());
   CHECK(machine_complaint_with("\"format\": 2,", "\"format\": 3,") ==
         "m.json: format: expected 2, for files of this dmpc, got 3");
+}
+
+TEST_CASE("a machine file says for which structures its prices are, or does not") {
+  const std::string key = "\"prices_for\": [\n    \"grid\",\n    \"extents\"\n  ]";
+  const auto prices_for = [&](const std::string& given) {
+    return parse_machine(with(plain_text(), key, given), "m.json").machine.prices_for;
+  };
+  CHECK(prices_for("\"prices_for\": [\"voxels\"]") == price_bit(core::Structure::voxels));
+  CHECK(prices_for("\"prices_for\": [\"voxels\", \"grid\"]") ==
+        (price_bit(core::Structure::voxels) | price_bit(core::Structure::grid)));
+  CHECK(prices_for("\"prices_for\": []") == 0);
+  CHECK(parse_machine(with(plain_text(), key + ",", ""), "m.json").machine.prices_for == 0);
+  for (const std::string given : {"[\"octree\"]", "[1]", "\"voxels\"", "null", "{}"}) {
+    CHECK(contains(machine_complaint_with(key, "\"prices_for\": " + given),
+                   "m.json: prices_for: expected a list of grid, extents, voxels, got "));
+  }
 }
 
 TEST_CASE("a machine file from before questions had a price has them charged as a ray, half at either end") {
@@ -201,7 +218,7 @@ TEST_CASE("every key but the format, the sources and the newest price must be th
     auto rest = whole;
     rest.erase(key);
     CHECK(machine_complaint(rest.dump()) ==
-          (key == "sources" || key == "format" ? "" : "m.json: " + key + ": this key is missing"));
+          (key == "sources" || key == "format" || key == "prices_for" ? "" : "m.json: " + key + ": this key is missing"));
     for (const auto& [inner, unused] : value.items()) {
       if (value.is_object()) {
         rest = whole;
@@ -235,7 +252,7 @@ TEST_CASE("what is neither a machine nor a file that can be read is named with t
        {std::string(), std::string("ipsc3"), (folder / "missing.json").string(), folder.path().string()}) {
     CAPTURE(name);
     const std::string message =
-        name + ": this is neither a machine (ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr) nor a file ";
+        name + ": this is neither a machine (ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit, hdr) nor a file ";
     CHECK_THROWS_WITH_AS(load_machine(name), doctest::Contains(message.c_str()), core::InputError);
   }
   write_text(folder / "large", std::string((1U << 20U) + 1, ' '));

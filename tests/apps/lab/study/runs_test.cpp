@@ -159,6 +159,25 @@ TEST_CASE("what had to be reduced for a run to fit is noted") {
   CHECK(notes[0].find("in-flight reduced from 4000 to ") != std::string::npos);
 }
 
+TEST_CASE("a machine with prices for another structure than the scene's is noted once") {
+  StudySubject subject("balls-1", 8);
+  const auto take = [](std::size_t, const apps::StudyOutcome&) {};
+  const auto notes = [&] {
+    apps::Table table("", {});
+    subject.runs.add_price_notes(table);
+    return table.notes();
+  };
+  std::vector<apps::StrategyOptions> runs = {modelled(apps::Strategy::svm, 2), modelled(apps::Strategy::svm, 3)};
+  subject.runs.run_side_by_side(runs, take);
+  CHECK(notes().empty());
+  for (apps::StrategyOptions& run : runs) {
+    choose_machine(run, apps::find_machine_preset("ipsc2-1994")->machine);
+  }
+  subject.runs.run_side_by_side(runs, take);
+  REQUIRE(notes().size() == 1);
+  CHECK(notes()[0].starts_with("ipsc2-1994 has prices for other structures (voxels) than grid"));
+}
+
 TEST_CASE("runs with threads are not run side by side, and no runs are none") {
   StudySubject subject("balls-1");
   const std::vector<apps::StrategyOptions> on_threads(1);

@@ -48,6 +48,14 @@ TEST_CASE("a head has no underscores, and many columns have less room") {
   CHECK(contains(table_element(Table("Many", columns), false), "<table class=\"dense\">"));
 }
 
+TEST_CASE("long texts, and no others, are broken into lines") {
+  Table table("Claims", {{"claim"}, {"found"}});
+  table.add_row({std::string(61, 'x'), std::string(60, 'y')});
+  const std::string text = table_element(table, false);
+  CHECK(contains(text, "<td class=\"text long\">x"));
+  CHECK(contains(text, "<td class=\"text\">y"));
+}
+
 TEST_CASE("the words of a table are its title, columns, texts and notes") {
   Table table("Title", {{"column"}});
   table.add_row({"cell"});

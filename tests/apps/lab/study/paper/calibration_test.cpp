@@ -44,12 +44,12 @@ PaperResults calibrated_results(const Catalogue& catalogue) {
 
 }  // namespace
 
-TEST_CASE("only Mountain on one node and on two is calibrated") {
+TEST_CASE("on the grid only Mountain on one node and on two is fitted") {
   const Catalogue catalogue = catalogue_of(16);
   std::vector<std::string> calibrated;
-  for (const CellOfTable3& cell : cells_of_table_3(catalogue, as_printed(catalogue))) {
-    if (cell.is_calibrated) {
-      calibrated.push_back(std::string(cell.title) + " " + std::to_string(cell.nodes));
+  for (const TimedCell& cell : cells_of(catalogue.grid, as_printed(catalogue))) {
+    if (cell.is_fitted) {
+      calibrated.push_back(std::string(cell.scene().title) + " " + std::to_string(cell.nodes()));
       CHECK_FALSE(cell.is_predicted());
     }
   }
@@ -65,7 +65,7 @@ TEST_CASE("a calibration of what came out as printed changes nothing, and a slow
     CHECK(number(row[1]) == doctest::Approx(number(row[2])));
     CHECK(number(row[3]) == doctest::Approx(0));
   }
-  for (const std::size_t run : {catalogue.timed[1][0], catalogue.timed[1][1], catalogue.dearer_cache}) {
+  for (const std::size_t run : {catalogue.grid.timed[1][0], catalogue.grid.timed[1][1], catalogue.dearer_cache}) {
     results[run]->total_ns *= 2;
   }
   const Table slower = calibration(catalogue, results);
@@ -80,7 +80,7 @@ TEST_CASE("the calibration rests on its own three runs and on no cell that is pr
   PaperResults results = calibrated_results(catalogue);
   const Table before = calibration(catalogue, results);
   for (std::size_t run = 0; run < results.size(); ++run) {
-    if (run != catalogue.timed[1][0] && run != catalogue.timed[1][1] && run != catalogue.dearer_cache) {
+    if (run != catalogue.grid.timed[1][0] && run != catalogue.grid.timed[1][1] && run != catalogue.dearer_cache) {
       results[run] = result_of_seconds(7 + run);
     }
   }
@@ -93,7 +93,7 @@ TEST_CASE("a calibration without its runs is empty and says so, and so is one th
   CHECK(none.rows().empty());
   CHECK(none.notes().front() == "Unfinished: 2 of 2 rows are missing.");
   PaperResults results = as_printed(catalogue);
-  results[catalogue.dearer_cache] = results[catalogue.timed[1][1]];
+  results[catalogue.dearer_cache] = results[catalogue.grid.timed[1][1]];
   CHECK(calibration(catalogue, results).rows().empty());
   CHECK_FALSE(fit_of({.one = 2, .two = 1, .two_with_dearer_lookups = 1}, {2, 1}).has_value());
   CHECK_FALSE(fit_of({.one = 10, .two = 8, .two_with_dearer_lookups = 9}, {10, 6}).has_value());

@@ -12,6 +12,7 @@
 
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -67,14 +68,13 @@ TEST_CASE("a whole study writes its report, every table twice and every picture 
   REQUIRE(process.status() == 0);
   const bool is_drawn = process.errors().empty();
   CHECK((is_drawn || contains(process.errors(), "dmpc: the plots are not drawn: gnuplot cannot be started")));
-  for (const std::string table :
-       {"voxel_table_2", "voxel_table_3", "voxel_prices", "voxel_pairs", "voxel_caches",  "voxel_loads", "voxel_claims",
-        "table_2",       "table_3",       "calibration",  "law",         "against_model", "memories",    "losses",
-        "algorithms",    "ray_ways",      "work_items",   "page_sizes",  "caches",        "claims"}) {
+  for (const std::string table : {"summary", "claims", "table_2", "table_3", "algorithms", "caches", "region_loads", "ray_ways",
+                                  "work_items", "losses", "voxel_prices", "voxel_pairs", "law", "grid_table_3", "calibration"}) {
     CHECK(has_text(folder / "paper" / (table + ".csv")));
     CHECK(has_text(folder / "paper" / (table + ".json")));
   }
-  for (const std::string plot : {"table_3", "losses", "algorithms", "caches", "misses", "traffic"}) {
+  for (const std::string plot :
+       {"table_2", "table_3_seconds", "table_3", "algorithms", "caches", "misses", "traffic", "losses"}) {
     CHECK(has_text(folder / "paper" / (plot + ".gnuplot")));
     CHECK(has_text(folder / "paper" / (plot + ".svg")) == is_drawn);
   }
@@ -83,7 +83,12 @@ TEST_CASE("a whole study writes its report, every table twice and every picture 
     CHECK(widest_line(report) <= 120);
     CHECK(contains(report, "| not judged |"));
     CHECK_FALSE(contains(report, "Unfinished"));
+    CHECK(report.find("Claims of the text: ") < report.find("Table 3 at a glance"));
   }
+  CHECK(contains(file_text(folder / "paper" / "index.html"), "Table 3 at a glance"));
+  CHECK(run({"sh", "-c", "cd '" + (folder / "paper").string() + "' && sha256sum --check --strict --quiet SHA256SUMS"}).status ==
+        0);
+  CHECK(has_text(folder / "paper" / "paper.zip"));
 }
 
 TEST_CASE("a run that throws loses no table: what was finished is written, then the error goes on") {

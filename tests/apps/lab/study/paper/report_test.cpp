@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/lab/study/paper/archive.h"
 #include "apps/lab/study/paper/tables.h"
 #include "tests/support/paper_results.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -66,14 +68,38 @@ TEST_CASE("only a report of pictures that prices are not fitted to says so") {
 TEST_CASE("a report in a folder has each table twice, each picture with its script, and links to the pictures") {
   const TemporaryFolder folder;
   CHECK(written(report_of(16), folder).empty());
-  CHECK(folder.entry_count() == 9);
+  CHECK(folder.entry_count() == 14);
   const std::string text = file_text(folder / "report.md");
-  for (const std::string name : {"table_3", "losses"}) {
+  for (const std::string name : {"table_3_seconds", "table_3", "losses"}) {
     CHECK(contains(text, "](" + name + ".svg)"));
-    for (const std::string extension : {".csv", ".json", ".gnuplot", ".svg"}) {
+    for (const std::string extension : {".gnuplot", ".svg"}) {
       CHECK(std::filesystem::file_size(folder / (name + extension)) > 100);
     }
   }
+}
+
+TEST_CASE("a report in a folder has the hashes of its files, and an archive with all of them") {
+  const TemporaryFolder folder;
+  CHECK(written(report_of(16), folder).empty());
+  const std::string hashes = file_text(folder / "SHA256SUMS");
+  CHECK(count(hashes, "\n") == 12);  // all but the hashes and the archive
+  CHECK(run({"sh", "-c", "cd '" + folder.path().string() + "' && sha256sum --check --strict SHA256SUMS"}).status == 0);
+  const Said listed = run({"python3", "-m", "zipfile", "-e", folder / "paper.zip", folder / "again"});
+  REQUIRE(listed.status == 0);
+  CHECK(file_text(folder / "again/paper/SHA256SUMS") == hashes);
+  CHECK(file_text(folder / "again/paper/index.html") == file_text(folder / "index.html"));
+  CHECK(run({"sh", "-c", "cd '" + (folder / "again/paper").string() + "' && sha256sum --check --strict SHA256SUMS"}).status == 0);
+}
+
+TEST_CASE("an archive of the same files has the same bytes, and one of none or of an empty file is one") {
+  const TemporaryFolder folder;
+  const std::string zip = zip_of({{"empty", ""}, {"more", std::string(100'000, 'x')}});
+  CHECK(zip == zip_of({{"empty", ""}, {"more", std::string(100'000, 'x')}}));
+  CHECK(zip.size() < 1'000);
+  write_text(folder / "two.zip", zip);
+  write_text(folder / "none.zip", zip_of({}));
+  CHECK(run({"python3", "-m", "zipfile", "-t", folder / "two.zip"}).status == 0);
+  CHECK(run({"python3", "-m", "zipfile", "-t", folder / "none.zip"}).status == 0);
 }
 
 TEST_CASE("a page of the report has a section for each table, with its pictures") {
@@ -89,12 +115,13 @@ TEST_CASE("without gnuplot the report is complete but for the pictures, and one 
   const TemporaryFolder folder, empty;
   const OnlyPath path(empty.path());
   const std::vector<std::string> complaints = written(report_of(16), folder);
-  REQUIRE(complaints.size() == 1);
+  REQUIRE(complaints.size() == 2);
   CHECK(contains(complaints[0], "the plots are not drawn: gnuplot cannot be started"));
+  CHECK(contains(complaints[1], "the files have no hashes: sha256sum cannot be started"));
   const std::string text = file_text(folder / "report.md");
   CHECK(contains(joined_lines(text), "Note: " + complaints[0]));
   CHECK_FALSE(contains(text, ".svg)"));
-  CHECK(folder.entry_count() == 7);
+  CHECK(folder.entry_count() == 10);
 }
 
 TEST_CASE("a gnuplot that fails is quoted once for each picture, and the report is complete but for the pictures") {
@@ -103,8 +130,8 @@ TEST_CASE("a gnuplot that fails is quoted once for each picture, and the report 
   std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
   const OnlyPath path(bin.path());
   const std::vector<std::string> complaints = written(report_of(16), folder);
-  REQUIRE(complaints.size() == 2);
-  CHECK(contains(complaints[0], "gnuplot could not draw table_3.svg, its exit status is 1: unknown terminal svg"));
+  REQUIRE(complaints.size() == 4);  // that there are no hashes is the last
+  CHECK(contains(complaints[1], "gnuplot could not draw table_3.svg, its exit status is 1: unknown terminal svg"));
   CHECK(contains(file_text(folder / "report.md"), "**Where the nodes' time goes"));
 }
 
@@ -118,7 +145,7 @@ TEST_CASE("an unfinished report says so, and empty tables have no picture") {
   CHECK(contains(text_of(report), "Unfinished: rows are missing."));
   CHECK(contains(text_of(report), "Unfinished: 24 of 24 rows are missing."));
   CHECK(contains(file_text(folder / "table_3.json"), "Unfinished: 24 of 24 rows are missing."));
-  CHECK(folder.entry_count() == 3);
+  CHECK(folder.entry_count() == 6);
 }
 
 }  // namespace dmpc::tests::paper_report_test

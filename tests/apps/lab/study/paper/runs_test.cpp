@@ -66,6 +66,19 @@ TEST_CASE("the runs of a study take the same virtual time every time") {
   }
 }
 
+TEST_CASE("a cache of a share of the database has so many pages, and at least one; one of so many pages has so many") {
+  std::vector<PaperRun> runs(3, {.scene = "tetra-4", .node_count = 4, .machine = paper_machine(), .resolution = 16});
+  runs[0].cache_share = 0.25;
+  runs[1].cache_share = 0;
+  runs[2].cache_pages = 7;
+  const std::vector<PaperSubject> subjects = paper_subjects(runs);
+  const PaperResults results = carried_out(runs, subjects);
+  const auto pages = static_cast<double>(subjects.front().subject.database.page_count());
+  CHECK(results[0]->cache_pages == doctest::Approx(pages / 4).epsilon(0.5 / pages * 4));
+  CHECK(results[1]->cache_pages == 1);
+  CHECK(results[2]->cache_pages == 7);
+}
+
 TEST_CASE("no run is no result") {
   CHECK(paper_subjects({}).empty());
   CHECK(carried_out({}, {}).empty());
@@ -73,12 +86,12 @@ TEST_CASE("no run is no result") {
 
 TEST_CASE("two runs of a scene that give different films are an error, and what was finished before is kept") {
   std::vector<PaperRun> runs = small_runs(), other = runs;
-  runs[1].record_order = core::RecordOrder::scattered;
+  runs[1].structure = core::Structure::extents;
   other[1].scene = "tetra-2";
   std::vector<PaperSubject> subjects = paper_subjects(other);
   REQUIRE(subjects.size() == 2);
   subjects[1].scene = "tetra-3";  // it is not
-  subjects[1].record_order = core::RecordOrder::scattered;
+  subjects[1].structure = core::Structure::extents;
   Interrupt interrupt;
   PaperResults results(runs.size());
   CHECK_THROWS_AS(carry_out(runs, subjects, interrupt, results), core::InternalError);

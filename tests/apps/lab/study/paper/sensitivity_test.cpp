@@ -102,7 +102,7 @@ TEST_CASE("a variation renders the watched cells and what they are held against,
       const PaperRun& run = catalogue.runs[runs.timed[scene][column]];
       CHECK(run.scene == paper_scenes[scene].scene);
       CHECK(run.node_count == paper_node_counts[column]);
-      CHECK(run.node_memory_bytes == catalogue.runs[catalogue.timed[scene][column]].node_memory_bytes);
+      CHECK(run.node_memory_bytes == catalogue.runs[catalogue.grid.timed[scene][column]].node_memory_bytes);
       CHECK(figures_of(run.machine) == figures_of(runs.variation.machine));
       CHECK(catalogue.runs[runs.timed[scene][paper_scenes[scene].base()]].node_count ==
             paper_node_counts[paper_scenes[scene].base()]);
@@ -133,7 +133,7 @@ TEST_CASE("variations whose runs are missing are left out, and the table says ho
   const Table table = sensitivity(catalogue, results, varied);
   CHECK(table.rows().size() == varied.size() - 1);
   CHECK(table.notes().back() == "Unfinished: 1 of 32 rows are missing.");
-  results[catalogue.timed[1][0]].reset();  // what all are held against
+  results[catalogue.grid.timed[1][0]].reset();  // what all are held against
   CHECK(sensitivity(catalogue, results, varied).rows().empty());
 }
 

@@ -53,6 +53,17 @@ TEST_CASE("what a run does not have is empty, and why there was no room stands b
   CHECK(table.notes() == Texts{"No room with --nodes=3: 3 nodes are too few."});
 }
 
+TEST_CASE("a sweep over machines says once which of them have prices for other structures") {
+  const auto notes = [](const std::string& structure) {
+    const SweepSettings settings = sweep_of({"machine:ipsc2,ipsc2-1994", "nodes:1,2"}, {}, {"--runner=virtual", structure});
+    return sweep_table(settings, apps::sweep_runs(settings), all_with(settings, {})).notes();
+  };
+  REQUIRE(notes("--structure=voxels").size() == 1);
+  CHECK(notes("--structure=voxels")[0].starts_with("ipsc2 has prices for other structures"));
+  REQUIRE(notes("--structure=grid").size() == 1);
+  CHECK(notes("--structure=grid")[0].starts_with("ipsc2-1994 has prices for other structures"));
+}
+
 TEST_CASE("without columns a table has times of the runners that run, and traffic of the strategies") {
   const auto usual = [](const SweepSettings& settings) { return figures_of(settings, apps::sweep_runs(settings)); };
   CHECK(usual(sweep_of({"nodes:2"})) == Texts{"seconds.render", "rays.total", "packets.sent", "packets.bytes", "pages.faults"});

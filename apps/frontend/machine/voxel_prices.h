@@ -1,5 +1,4 @@
-// The iPSC/2 with prices for the article's own structure, a plain grid of voxels, for the study `paper` alone. The preset ipsc2
-// keeps the prices of dmpc's grid.
+// Prices of operations on the article's own structure, a plain grid of voxels, for its machine, the iPSC/2.
 #pragma once
 
 #include "nodes/machine.h"
@@ -20,11 +19,11 @@ struct VoxelPrices {
   bool operator==(const VoxelPrices&) const = default;
 };
 
-/// Fitted to Mountain on 1 and 64 nodes and Rings4 on 2 and 64, their smallest and largest machines, by the time of a ray: the
-/// study's table of prices repeats the fit.
+/// Of the preset ipsc2-1994. Fitted to Mountain on 1 and 64 nodes and Rings4 on 2 and 64, their smallest and largest machines,
+/// by the time of a ray: the table of prices of `dmpc study paper` repeats the fit.
 inline constexpr VoxelPrices fitted_voxel_prices{.walk = 8386, .rays = 33'985, .cached_lookup = 5150};
 
-/// Returns the preset with these prices; the costs of pages and messages are the preset's.
-nodes::Machine voxel_machine(const VoxelPrices& prices);
+/// Sets the prices of what rays do; what pages and messages cost stays.
+void set_prices(nodes::Machine& machine, const VoxelPrices& prices);
 
 }  // namespace dmpc::apps
