@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "apps/frontend/line/parsed_number.h"
 #include "apps/frontend/system/child_process.h"
 #include "apps/frontend/system/companion_path.h"
 #include "apps/frontend/system/memory_file.h"
@@ -89,11 +90,15 @@ std::string complaint_of(const ChildProcess& process, int status) {
   return said.empty() || status < 0 ? end + (said.empty() ? "" : ", having said: " + said) : said;
 }
 
-std::uint64_t number_in(const std::string& line) {
-  if (line.empty() || line.size() > 10 || !std::all_of(line.begin(), line.end(), is_digit)) {
-    throw core::InputError("its process tells what is no number of faults");
+/// "12 340"
+PricedFaults faults_in(const std::string& line) {
+  const std::size_t blank = line.find(' ');
+  const auto count = number_in<std::uint64_t>(line.substr(0, blank));
+  const auto cost = blank == std::string::npos ? std::nullopt : number_in<std::uint64_t>(line.substr(blank + 1));
+  if (!count || !cost) {
+    throw core::InputError("its process tells what is no number of faults and no cost");
   }
-  return std::stoull(line);
+  return {*count, *cost};
 }
 
 /// Reports every error of a policy with its name.
@@ -123,28 +128,29 @@ ForeignPolicy::ForeignPolicy(const std::string& place, const std::function<void(
     if (!class_name_.empty()) {
       source_ = read_source(file.number());
     }
-    name_ = answers({}, {}, 0, check, [] {}).front();
+    name_ = answers({}, {}, {}, 0, check, [] {}).front();
     check_name(name_);
   });
 }
 
-std::vector<std::uint64_t> ForeignPolicy::misses(std::span<const svm::PageId> references,
-                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
-                                                 const std::function<void()>& check, const std::function<void()>& fed) const {
+std::vector<PricedFaults> ForeignPolicy::misses(std::span<const svm::PageId> references,
+                                                std::span<const std::uint32_t> cache_pages, std::uint32_t node,
+                                                const std::function<void()>& check, const std::function<void()>& fed,
+                                                std::span<const std::uint32_t> prices) const {
   return reported_of(place_, [&] {
-    const std::vector<std::string> lines = answers(references, cache_pages, node, check, fed);
-    std::vector<std::uint64_t> misses;
-    std::transform(lines.begin() + 1, lines.end(), std::back_inserter(misses), number_in);
+    const std::vector<std::string> lines = answers(references, prices, cache_pages, node, check, fed);
+    std::vector<PricedFaults> misses;
+    std::transform(lines.begin() + 1, lines.end(), std::back_inserter(misses), faults_in);
     return misses;
   });
 }
 
 /// Messages are exchanged through memory files, so that neither side ever waits for the other to read them.
-std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> references,
+std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> references, std::span<const std::uint32_t> prices,
                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
                                                 const std::function<void()>& check, const std::function<void()>& fed) const {
   const MemoryFile request, answer;
-  put_request(request, node, cache_pages, references, source_);
+  put_request(request, node, cache_pages, references, prices, source_);
   ChildSettings settings{
       .folder = "/", .gets_ctrl_c = false, .input = request.descriptor(), .output = answer.descriptor(), .leaves_nothing = true};
   if (class_name_.empty()) {

@@ -11,6 +11,11 @@
 
 namespace dmpc::apps {
 
+/// Faults, and the sum of their prices.
+struct PricedFaults {
+  std::uint64_t count = 0, cost = 0;
+};
+
 /// The policy's code runs in child processes that see only the references; if it crashes, hangs or exits, this process is not
 /// affected. Thread safety: an immutable value.
 class ForeignPolicy {
@@ -25,17 +30,17 @@ class ForeignPolicy {
   /// Name of its column: printable, and different from dmpc's own policies.
   const std::string& name() const { return name_; }
 
-  /// Returns a node's faults for caches of several sizes, counted as in svm::policy_misses(). `check` is called continually and
-  /// may throw, which ends the process. `fed` is called once per cache. Throws core::InputError for an error of the policy, with
-  /// the call, the fault, the cache and the expected behaviour.
-  std::vector<std::uint64_t> misses(std::span<const svm::PageId> references, std::span<const std::uint32_t> cache_pages,
-                                    std::uint32_t node, const std::function<void()>& check,
-                                    const std::function<void()>& fed) const;
+  /// Returns a node's faults for caches of several sizes, counted as in svm::policy_misses(). `prices`: of a miss of each
+  /// reference; empty: 1. `check` is called continually and may throw, which ends the process. `fed` is called once per cache.
+  /// Throws core::InputError for an error of the policy, with the call, the fault, the cache and the expected behaviour.
+  std::vector<PricedFaults> misses(std::span<const svm::PageId> references, std::span<const std::uint32_t> cache_pages,
+                                   std::uint32_t node, const std::function<void()>& check, const std::function<void()>& fed,
+                                   std::span<const std::uint32_t> prices = {}) const;
 
  private:
-  std::vector<std::string> answers(std::span<const svm::PageId> references, std::span<const std::uint32_t> cache_pages,
-                                   std::uint32_t node, const std::function<void()>& check,
-                                   const std::function<void()>& fed) const;
+  std::vector<std::string> answers(std::span<const svm::PageId> references, std::span<const std::uint32_t> prices,
+                                   std::span<const std::uint32_t> cache_pages, std::uint32_t node,
+                                   const std::function<void()>& check, const std::function<void()>& fed) const;
 
   std::string place_, path_, class_name_, source_, name_;
 };

@@ -13,16 +13,17 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "apps/frontend/system/module.h"
 #include "apps/frontend/system/trusted_path.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
-#include "svm/pages/observers/optimum.h"
-#include "svm/pages/replacement.h"
+#include "svm/pages/page.h"
 
 namespace dmpc::apps {
 namespace {
@@ -37,6 +38,7 @@ struct UnderWay {
 UnderWay under_way;
 
 const PolicyTable* table = nullptr;
+constexpr std::uint32_t priced_version = 2;  ///< from which on the table has price()
 
 /// Concatenates words and numbers without allocating memory.
 class Phrase {
@@ -97,13 +99,13 @@ void call(const char* name, const Call& made) {
   under_way.call = "";
 }
 
-class LibraryPolicy final : public svm::ReplacementPolicy {
+class LibraryPolicy {
  public:
-  explicit LibraryPolicy(const svm::PolicySite& site) {
-    under_way = {.frame_count = site.frame_count(), .node = site.seed, .fault = 1};
-    call("make()", [&] { return table->make(site.frame_count(), site.seed, &policy_); });
+  LibraryPolicy(std::uint32_t frame_count, std::uint32_t node) {
+    under_way = {.frame_count = frame_count, .node = node, .fault = 1};
+    call("make()", [&] { return table->make(frame_count, node, &policy_); });
   }
-  ~LibraryPolicy() override {
+  ~LibraryPolicy() {
     under_way.call = "drop()";
     under_way.has_page = false;
     table->drop(policy_);
@@ -112,31 +114,42 @@ class LibraryPolicy final : public svm::ReplacementPolicy {
   LibraryPolicy(const LibraryPolicy&) = delete;
   LibraryPolicy& operator=(const LibraryPolicy&) = delete;
 
-  void hit(svm::PageId page, std::uint32_t frame) override {
+  void hit(std::uint32_t page, std::uint32_t frame) {
     about(page);
-    call("hit", [&] { return table->hit(policy_, index_of(page), frame); });
+    call("hit", [&] { return table->hit(policy_, page, frame); });
   }
-  void insert(svm::PageId page, std::uint32_t frame) override {
+  void price(std::uint32_t page, std::uint32_t price) {
+    if (table->version >= priced_version && table->price != nullptr) {
+      about(page);
+      call("price", [&] { return table->price(policy_, page, price); });
+    }
+  }
+  void insert(std::uint32_t page, std::uint32_t frame) {
     about(page);
-    call("insert", [&] { return table->insert(policy_, index_of(page), frame); });
+    call("insert", [&] { return table->insert(policy_, page, frame); });
     ++under_way.fault;
   }
-  std::uint32_t victim(svm::PageId incoming) override {
+  /// Nothing if the page bypasses the cache.
+  std::optional<std::uint32_t> victim(std::uint32_t incoming) {
     about(incoming);
     std::uint32_t frame = under_way.frame_count;
-    call("victim", [&] { return table->victim(policy_, index_of(incoming), &frame); });
+    call("victim", [&] { return table->victim(policy_, incoming, &frame); });
+    if (frame == bypass) {
+      ++under_way.fault;
+      return std::nullopt;
+    }
     if (frame >= under_way.frame_count) {
       under_way.call = "victim";
       throw core::InputError(std::string(policy_call_under_way()) + ": it says frame " + std::to_string(frame) +
-                             ", expected one from 0 to " + std::to_string(under_way.frame_count - 1));
+                             ", expected one from 0 to " + std::to_string(under_way.frame_count - 1) + ", or bypass");
     }
     return frame;
   }
 
  private:
-  static void about(svm::PageId page) {
+  static void about(std::uint32_t page) {
     under_way.has_page = true;
-    under_way.page = index_of(page);
+    under_way.page = page;
   }
   void* policy_ = nullptr;
 };
@@ -157,8 +170,8 @@ const PolicyTable* table_in(const std::string& path) {
         "it has no policy: expected the symbol dmpc_policy, as the line DMPC_POLICY(Class, \"name\") of "
         "<dmpc/policy.h> makes it");
   }
-  if (found->version != policy_version) {
-    throw core::InputError("its policy has version " + std::to_string(found->version) + " of the interface, expected " +
+  if (found->version < 1 || found->version > policy_version) {
+    throw core::InputError("its policy has version " + std::to_string(found->version) + " of the interface, expected 1 to " +
                            std::to_string(policy_version) + ": compile it with the <dmpc/policy.h> of this dmpc");
   }
   if (found->name == nullptr || found->make == nullptr || found->hit == nullptr || found->insert == nullptr ||
@@ -168,9 +181,60 @@ const PolicyTable* table_in(const std::string& path) {
   return found;
 }
 
-nodes::MemoryPlan nothing(std::uint32_t /*frame_count*/) { return {}; }
+/// A cache of pages without bytes.
+class LibraryCache {
+ public:
+  LibraryCache(const PolicyRequest& request, std::uint32_t frame_count)
+      : request_(request), frame_count_(frame_count), frame_of_(svm::page_bound_of(request.references), nowhere) {}
 
-std::unique_ptr<svm::ReplacementPolicy> made(const svm::PolicySite& site) { return std::make_unique<LibraryPolicy>(site); }
+  /// The answer's line.
+  std::string faults() {
+    std::optional<LibraryPolicy> policy;
+    if (frame_count_ > 0) {
+      policy.emplace(frame_count_, request_.node);
+    }
+    for (std::size_t i = 0; i < request_.references.size(); ++i) {
+      const std::uint32_t page = index_of(request_.references[i]);
+      const bool is_repeat = i > 0 && request_.references[i] == request_.references[i - 1];
+      if (!policy || (!is_repeat && frame_of_[page] == nowhere)) {
+        fault(i, policy);
+      } else if (!is_repeat) {
+        policy->hit(page, frame_of_[page]);
+      }
+    }
+    return std::to_string(count_) + " " + std::to_string(cost_);
+  }
+
+ private:
+  static constexpr std::uint32_t nowhere = 0xffffffffU;
+
+  void fault(std::size_t reference, std::optional<LibraryPolicy>& policy) {
+    const std::uint32_t price = request_.prices.empty() ? 1 : request_.prices[reference];
+    ++count_;
+    cost_ += price;
+    if (!policy) {
+      return;
+    }
+    const std::uint32_t page = index_of(request_.references[reference]);
+    policy->price(page, price);
+    std::optional<std::uint32_t> frame = static_cast<std::uint32_t>(pages_.size());
+    if (pages_.size() < frame_count_) {
+      pages_.push_back(page);
+    } else if ((frame = policy->victim(page))) {
+      frame_of_[std::exchange(pages_[*frame], page)] = nowhere;
+    }
+    if (frame) {
+      frame_of_[page] = *frame;
+      policy->insert(page, *frame);
+    }
+  }
+
+  const PolicyRequest& request_;
+  std::uint32_t frame_count_;
+  std::vector<std::uint32_t> frame_of_;  ///< by page
+  std::vector<std::uint32_t> pages_;     ///< by frame
+  std::uint64_t count_ = 0, cost_ = 0;
+};
 
 /// Opens the library at `path` and passes to `answer` the policy's name, then the faults of each cache. Call it once in a
 /// process. Throws core::InputError if the file may not be opened (apps/frontend/system/trusted_path.h), is not a library, has no
@@ -179,9 +243,8 @@ void answer_by_library(const std::string& path, const PolicyRequest& request,
                        const std::function<void(const std::string& line)>& answer) {
   table = table_in(path);
   answer(table->name);
-  const svm::Replacement policy = svm::add_policy({"of a library", "what a library decides", true, nothing, made});
   for (const std::uint32_t cache_pages : request.cache_pages) {
-    answer(std::to_string(svm::policy_misses(policy, request.references, cache_pages, request.node)));
+    answer(LibraryCache(request, cache_pages).faults());
   }
 }
 

@@ -40,26 +40,29 @@ void read_all(int file, void* into, std::size_t count) {
 }  // namespace
 
 void put_request(const MemoryFile& file, std::uint32_t node, std::span<const std::uint32_t> cache_pages,
-                 std::span<const svm::PageId> references, std::string_view source) {
-  const std::array<std::uint32_t, 4> head = {node, static_cast<std::uint32_t>(cache_pages.size()),
-                                             static_cast<std::uint32_t>(source.size()),
-                                             static_cast<std::uint32_t>(references.size())};
+                 std::span<const svm::PageId> references, std::span<const std::uint32_t> prices, std::string_view source) {
+  const std::array<std::uint32_t, 5> head = {
+      node, static_cast<std::uint32_t>(cache_pages.size()), static_cast<std::uint32_t>(source.size()),
+      static_cast<std::uint32_t>(references.size()), static_cast<std::uint32_t>(prices.size())};
   write_all(file.descriptor(), head.data(), sizeof(head));
   write_all(file.descriptor(), cache_pages.data(), cache_pages.size_bytes());
   write_all(file.descriptor(), references.data(), references.size_bytes());
+  write_all(file.descriptor(), prices.data(), prices.size_bytes());
   write_all(file.descriptor(), source.data(), source.size());
   core::expect(::lseek(file.descriptor(), 0, SEEK_SET) == 0, "a file in memory has a beginning");
 }
 
 PolicyRequest take_request(int descriptor) {
-  std::array<std::uint32_t, 4> head{};
+  std::array<std::uint32_t, 5> head{};
   read_all(descriptor, head.data(), sizeof(head));
   PolicyRequest request{.node = head[0],
                         .cache_pages = std::vector<std::uint32_t>(head[1]),
                         .references = std::vector<svm::PageId>(head[3]),
+                        .prices = std::vector<std::uint32_t>(head[4]),
                         .source = std::string(head[2], '\0')};
   read_all(descriptor, request.cache_pages.data(), head[1] * sizeof(std::uint32_t));
   read_all(descriptor, request.references.data(), head[3] * sizeof(svm::PageId));
+  read_all(descriptor, request.prices.data(), head[4] * sizeof(std::uint32_t));
   read_all(descriptor, request.source.data(), head[2]);
   return request;
 }

@@ -163,15 +163,6 @@ std::string lights_text(const core::Scene& scene) {
   return text_of(digest);
 }
 
-std::string view_text(const core::View& view) {
-  Digest digest;
-  for (const core::Vec3d& vector : {view.from, view.at, view.up}) {
-    add(digest, vector);
-  }
-  digest.add(view.angle_degrees);
-  return text_of(digest);
-}
-
 std::string zenith_text(const core::Scene& scene) {
   Digest digest;
   add(digest, zenith_of(scene));
@@ -237,6 +228,15 @@ std::string difference_text(const std::string& name, const PictureFact* other, c
 }
 
 }  // namespace
+
+std::string view_text(const core::View& view) {
+  Digest digest;
+  for (const core::Vec3d& vector : {view.from, view.at, view.up}) {
+    add(digest, vector);
+  }
+  digest.add(view.angle_degrees);
+  return text_of(digest);
+}
 
 std::string difference_text(const std::vector<PictureFact>& other, const std::vector<PictureFact>& here) {
   std::vector<PictureFact> all = other;

@@ -37,6 +37,9 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
 /// Identity of a frame: the picture from `view`, in a scene whose own view, on which the sky and lights depend, may differ.
 PictureIdentity identity_from(const core::View& view, PictureIdentity own);
 
+/// A digest of what a picture shows of a scene by: equal views give equal texts.
+std::string view_text(const core::View& view);
+
 /// A digest of the whole scene: equal scenes give equal digests, whatever file or name they come from.
 std::uint64_t scene_digest(const core::Scene& scene);
 

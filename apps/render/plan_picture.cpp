@@ -14,6 +14,10 @@ namespace dmpc::apps {
 
 namespace {
 
+constexpr const char* equal_frames_note =
+    "a frame that equals the one before it is not rendered again: its picture is a copy, and its counters are 0 "
+    "(--no-skip=equal-frames renders it)";
+
 /// Whether a checkpoint may be there of the frame before, where a process was killed when that was written.
 bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
   const CheckpointOptions& checkpoint = call.asked.checkpoint;
@@ -156,9 +160,20 @@ void plan(RenderCall& call, PlannedPicture& picture) {
   }
 }
 
+/// Its picture, where nobody asks for what a run does beside.
+bool equals_done(const RenderCall& call, const DueFrame& frame, const PlannedPicture& picture) {
+  return picture.done && call.asked.picture.skips_equal_frames && call.asked.heat_maps.empty() &&
+         view_text(call.scenes.view(frame.number)) == picture.done->view;
+}
+
 /// The nodes stay as they are.
 void go_on(RenderCall& call, const DueFrame& frame, PlannedPicture& picture) {
   picture.options = options_of(frame, picture.built.subject);
+  if (equals_done(call, frame, picture)) {
+    call.report_once({call.asked.quiet ? "" : equal_frames_note});
+    return;
+  }
+  picture.done.reset();  // its film makes room for the next one
   picture.nodes.move_to(call.scenes.view(frame.number));
   picture.observers.begin_again();
   show_next(call, frame, picture.nodes.camera());

@@ -16,10 +16,14 @@ namespace dmpc::apps {
 
 namespace {
 
-void announce(RenderCall& call, const DueFrame& frame) {
+void announce(RenderCall& call, const DueFrame& frame, const std::optional<DoneFrame>& equal) {
   const FrameOptions& frames = call.asked.frames;
   if (call.checkpoints || frames.are_several()) {
     call.set_consequence();
+  }
+  if (call.live && equal) {
+    call.live->say("Frame " + grouped(*frame.number) + " equals frame " + grouped(equal->number) + ".");
+    return;
   }
   if (call.live) {
     call.live->say(frames.are_several()
@@ -54,7 +58,11 @@ ProcessorTime processor_time() {
 }
 
 RenderedPicture render_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned) {
-  announce(call, frame);
+  announce(call, frame, planned.done);
+  if (planned.done) {
+    clear_counters(planned.done->report);
+    return {std::move(planned.done->report), planned.built.facts.seconds, planned.done->number};
+  }
   Stopwatch stopwatch;
   const ProcessorTime before = processor_time();
   RenderedPicture rendered{render_with_progress(call, planned.nodes), planned.built.facts.seconds};

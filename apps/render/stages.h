@@ -38,6 +38,13 @@ struct BuiltScene {
   SceneFacts facts;
 };
 
+/// The last frame that these nodes have rendered, for frames that equal it.
+struct DoneFrame {
+  std::uint64_t number = 0;
+  std::string view;  ///< view_text()
+  Report report;
+};
+
 /// Not movable: its nodes refer to the other members.
 struct PlannedPicture {
   PlannedPicture(RenderCall& call, const DueFrame& frame, BuiltScene scene);
@@ -46,11 +53,13 @@ struct PlannedPicture {
   RenderOptions options;  ///< the frame's, with what the scene decides and where references are recorded
   Observers observers;
   WarmNodes nodes;
+  std::optional<DoneFrame> done = {};  ///< of the same scene; after plan_picture() only if the frame equals it
 };
 
 struct RenderedPicture {
   Report report;
-  Seconds seconds;  ///< so far
+  Seconds seconds;                                 ///< so far
+  std::optional<std::uint64_t> copied_frame = {};  ///< RenderRecord::copied_frame
 };
 
 struct WrittenPicture {
@@ -71,11 +80,12 @@ struct ProcessorTime {
 };
 ProcessorTime processor_time();
 
-/// Shows progress. Throws Interrupted, and what ReadyRun does.
+/// Shows progress, and keeps the frame that is done, if it equals the frame, as it is. Throws Interrupted, and what ReadyRun
+/// does.
 RenderedPicture render_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned);
 
 /// Writes the picture first, so that no error of another output loses it. Errors are reported on stderr, and do not prevent other
-/// outputs.
+/// outputs. Keeps the report of one of several frames as planned.done.
 WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned, RenderedPicture rendered);
 
 }  // namespace dmpc::apps

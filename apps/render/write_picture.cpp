@@ -50,8 +50,13 @@ std::string virtual_text(const Account& account, std::uint64_t film_hash) {
 /// A line: the frame, its picture and film, what its nodes fetched, asked or sent on, all that was sent, and times.
 void print_frame(std::ostream& output, std::uint64_t frame, const RenderRecord& record) {
   const Account account = account_of(record.report);
-  output << "frame " << grouped(frame) << "  " << shown(record.options.image.string()) << ", film " << hash_text(record.film_hash)
-         << std::visit([](const auto& report) { return travel_text(report); }, record.report) << ", "
+  output << "frame " << grouped(frame) << "  " << shown(record.options.image.string()) << ", film "
+         << hash_text(record.film_hash);
+  if (record.copied_frame) {
+    output << ", a copy of frame " << grouped(*record.copied_frame) << std::endl;
+    return;
+  }
+  output << std::visit([](const auto& report) { return travel_text(report); }, record.report) << ", "
          << bytes_text(nodes::total(account.sent).bytes) << " sent, " << seconds_text(record.seconds.render)
          << virtual_text(account, record.film_hash) << std::endl;  // seen at once, also in a file that somebody follows
 }
@@ -144,9 +149,11 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
   const SceneFacts& scene = planned.built.facts;
   Attempts attempts(std::cerr);
   const bool is_written = attempts.make([&] { rendered.seconds.write = write_film(call, planned.options, account.film); });
-  attempts.make([&] { call.say(film_notes(account.film, lit_in(planned.options, account))); });
-  attempts.make([&] { call.say({unseen_text(call, scene, account)}); });
-  if (has_viewers(call)) {
+  if (!rendered.copied_frame) {
+    attempts.make([&] { call.say(film_notes(account.film, lit_in(planned.options, account))); });
+    attempts.make([&] { call.say({unseen_text(call, scene, account)}); });
+  }
+  if (has_viewers(call) && !rendered.copied_frame) {
     attempts.make([&] { call.live->show(account.film); });
   }
   end_checkpoint(call, is_written, attempts);
@@ -165,9 +172,14 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
                                .view = run_profile.view ? &*run_profile.view : nullptr,
                                .references = run_profile.references.empty() ? nullptr : &run_profile.references,
                                .samples_found_done = samples_found_done(call),
-                               .scene_digest = scene.digest};
+                               .scene_digest = scene.digest,
+                               .copied_frame = rendered.copied_frame};
   write_others(call, frame, record, attempts, written);
   written.status = attempts.status();
+  if (call.asked.frames.are_several()) {
+    planned.done = {rendered.copied_frame.value_or(*frame.number), view_text(call.scenes.view(frame.number)),
+                    std::move(rendered.report)};
+  }
   return written;
 }
 

@@ -68,7 +68,9 @@ void add_options(OptionSet options, FrameOptions& frames) {
       "--frames", "N|A..B", [&frames](const std::string& text) { frames.range = parse_frames(text); },
       "Render frames 1 to N, or A to B, one after the other on the same nodes, which keep caches and regions. Names of outputs "
       "contain a placeholder for the frame number, as in -o out.####.png or -o out.%04d.png. Each frame is the same, to the bit, "
-      "as if it were rendered alone");
+      "as if it were rendered alone. A frame that equals the one before it, in scene and view, is a copy: it counts nothing, "
+      "unless "
+      "--heatmap or --no-skip=equal-frames has it rendered");
   options.add_text(
       "--turntable", "DEGREES", [&frames](const std::string& text) { frames.turntable_degrees = parse_degrees(text); },
       "Rotate the camera round the scene by this angle per frame; frame 1 is the scene's own view");

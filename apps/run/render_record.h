@@ -41,6 +41,7 @@ struct RenderRecord {
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< for options.references
   std::uint64_t samples_found_done = 0;                        ///< sum over all pixels of the resumed checkpoint
   std::optional<std::uint64_t> scene_digest = {};              ///< for options.report
+  std::optional<std::uint64_t> copied_frame = {};              ///< it is a copy of this frame's picture; all counters are 0
   std::uint64_t film_hash = account_of(report).film.hash();
 };
 

@@ -70,6 +70,16 @@ Account account_of_strategy(const StrategyReport& report) {
   return account;
 }
 
+void clear_own(svm::Report& report) {
+  report.host_deposits_saturated = report.pixels_done = report.items_assigned = report.host_pages_served = 0;
+}
+void clear_own(dataflow::Report& report) {
+  report.host_rays = {};
+  for (dataflow::NodeReport& node : report.nodes) {
+    node.primary_rays = 0;
+  }
+}
+
 }  // namespace
 
 WaitKinds wait_kinds(Strategy strategy) {
@@ -78,6 +88,22 @@ WaitKinds wait_kinds(Strategy strategy) {
 
 Account account_of(const Report& report) {
   return std::visit([](const auto& of_strategy) { return account_of_strategy(of_strategy); }, report);
+}
+
+void clear_counters(Report& report) {
+  const auto clear = [](auto& run) {
+    clear_own(run);
+    for (auto& node : run.nodes) {
+      node.program = {};
+      node.counters = {};
+    }
+    for (nodes::RankFigures& rank : run.ranks) {
+      rank.traffic = {};
+    }
+    run.host = {};
+    run.virtual_time.reset();
+  };
+  std::visit(clear, report);
 }
 
 TimeParts parts_of(const Account& account) { return parts_of(sum_of_nodes(*account.virtual_time), account.waits); }

@@ -54,6 +54,10 @@ struct Account {
 /// Thread-safe, as long as the report is not changed.
 Account account_of(const Report& report);
 
+/// Leaves the film and what was planned, and sets what the run has counted to 0; there is no virtual time. For a picture that is
+/// written once more without a run.
+void clear_counters(Report& report);
+
 /// Returns the total time of all nodes by parts, on a modelled machine.
 TimeParts parts_of(const Account& account);
 

@@ -31,11 +31,30 @@ void take_samples(PictureOptions& picture, std::string_view text) {
   }
 }
 
-/// `name` is one of all_skips, or "all".
-void switch_off(core::Skips& skips, const std::string& name) {
+/// `name` is one of all_skips, equal-frames or "all".
+void switch_off(PictureOptions& picture, const std::string& name) {
   for (const core::Skip& skip : core::all_skips) {
-    skips.*skip.is_on = skips.*skip.is_on && name != skip.name && name != "all";
+    picture.skips.*skip.is_on = picture.skips.*skip.is_on && name != skip.name && name != "all";
   }
+  picture.skips_equal_frames = picture.skips_equal_frames && name != equal_frames.name && name != "all";
+}
+
+void add_skip_option(OptionSet options, PictureOptions& picture) {
+  std::vector<std::string> names;
+  std::string table;
+  const auto add = [&](const char* name, const char* what) {
+    names.emplace_back(name);
+    table += "\n" + std::string(name) + ": " + what;
+  };
+  for (const core::Skip& skip : core::all_skips) {
+    add(skip.name, skip.what);
+  }
+  add(equal_frames.name, equal_frames.what);
+  names.emplace_back("all");
+  options.add_words(
+      "--no-skip", names, [&picture](const std::string& name) { switch_off(picture, name); },
+      "Disable an optimization that skips work which a scene does not need; the picture stays the same, to the last bit:" +
+          table);
 }
 
 void apply_quality(const OptionSet& options, PictureOptions& picture) {
@@ -179,7 +198,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
                               picture.presents_meshes ? "one ray a pixel, of a mesh file --samples=auto" : "one ray a pixel",
                               "Set --samples=auto, --error and, except with paths, --cutoff for a quick preview, or for a good "
                               "picture. Options that are given take precedence");
-  add_skip_option(options, picture.skips);
+  add_skip_option(options, picture);
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
     present_mesh(options, picture);
@@ -190,20 +209,6 @@ void add_options(OptionSet options, PictureOptions& picture) {
 void add_transport_options(OptionSet options, PictureOptions& picture) {
   add_options(options, picture.transport);
   options.check_in_the_end([options, &picture] { settle_transport(options, picture); });
-}
-
-void add_skip_option(OptionSet options, core::Skips& skips) {
-  std::vector<std::string> names;
-  std::string table;
-  for (const core::Skip& skip : core::all_skips) {
-    names.emplace_back(skip.name);
-    table += "\n" + std::string(skip.name) + ": " + skip.what;
-  }
-  names.emplace_back("all");
-  options.add_words(
-      "--no-skip", names, [&skips](const std::string& name) { switch_off(skips, name); },
-      "Disable an optimization that skips work which a scene does not need; the picture stays the same, to the last bit:" +
-          table);
 }
 
 void add_view_options(OptionSet options, PictureOptions& picture) {

@@ -43,6 +43,13 @@ struct DefaultError {
 };
 DefaultError default_error(bool is_by_paths);
 
+/// A skip that is not the picture's, beside core::all_skips.
+inline constexpr struct {
+  const char *name, *what;
+} equal_frames{
+    "equal-frames",
+    "a frame that equals the one before it is a copy of its picture, unless heat maps are asked for (render --frames)"};
+
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
@@ -58,6 +65,7 @@ struct PictureOptions {
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already applied to the fields above
   core::Skips skips;               ///< the enabled skips (core/trace/skips.h)
+  bool skips_equal_frames = true;  ///< of frames: one that equals the frame before it is not rendered
   SceneSetup scene_setup;          ///< changes to the scene's own view and lights
   TransportOptions transport;
 };
@@ -71,7 +79,6 @@ int depth_of(const PictureOptions& picture, const core::Scene& scene);
 void add_options(OptionSet options, PictureOptions& picture);
 /// Declares the options of light transport, for commands that support it. Call it after the others.
 void add_transport_options(OptionSet options, PictureOptions& picture);
-void add_skip_option(OptionSet options, core::Skips& skips);
 /// Declares --resolution, --depth and --convention, which neither choose the scene nor trade error for time.
 void add_view_options(OptionSet options, PictureOptions& picture);
 

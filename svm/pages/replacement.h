@@ -38,7 +38,7 @@ class ReplacementPolicy {
   virtual std::uint32_t victim(PageId incoming) = 0;
 };
 
-/// A policy: one of these, or a result of add_policy().
+/// A policy, by the number of its row in policy_kinds().
 enum class Replacement : std::uint8_t { lru, clock, fifo, random, two_queues, adaptive, small_and_main };
 
 /// The description of a policy.
@@ -51,11 +51,7 @@ struct PolicyKind {
   std::unique_ptr<ReplacementPolicy> (*make)(const PolicySite& site) = nullptr;
 };
 
-/// Adds a user-defined policy to those of --replacement. To be called before there are other threads, and at most 249 times. The
-/// name must be unique.
-Replacement add_policy(const PolicyKind& kind);
-
-/// In the order of their numbers; until the next add_policy().
+/// In the order of their numbers.
 std::span<const PolicyKind> policy_kinds();
 const PolicyKind& kind_of(Replacement replacement);
 inline std::string_view name_of(Replacement replacement) { return kind_of(replacement).name; }

@@ -9,8 +9,11 @@
 
 namespace dmpc {
 
-/// Version of this interface; dmpc refuses a library that was built for another one.
-inline constexpr std::uint32_t policy_version = 1;
+/// Version of this interface; dmpc accepts libraries that were built for it or for an older one.
+inline constexpr std::uint32_t policy_version = 2;
+
+/// What victim() returns in place of a frame for a page that is used once and not cached.
+inline constexpr std::uint32_t bypass = 0xffffffffU;
 
 /// Decides which page leaves a full cache when another one arrives. One object is made for each cache, by Class(frame_count,
 /// node): a node's cache has frame_count > 0 frames, numbered from 0, which are filled in order; no page leaves before all are
@@ -23,19 +26,23 @@ class Policy {
   virtual void hit(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}
   /// A page has arrived in a frame that was empty or was returned by victim().
   virtual void insert(std::uint32_t /*page*/, std::uint32_t /*frame*/) {}
-  /// Returns the frame whose page is replaced by `incoming`, for which insert() is called next. Every frame has a page.
+  /// Returns the frame whose page is replaced by `incoming`, for which insert() is called next. Every frame has a page. Or
+  /// returns `bypass`: no page leaves, insert() is not called, and the next reference to `incoming` is a fault again.
   virtual std::uint32_t victim(std::uint32_t incoming) = 0;
+  /// A page is fetched at this price (--price-column; 1 without it): called before its victim() and insert().
+  virtual void price(std::uint32_t /*page*/, std::uint32_t /*price*/) {}
 };
 
 /// The table that a library exports. Functions return nullptr, or an error message that is valid until the next call.
 struct PolicyTable {
-  std::uint32_t version;  ///< policy_version
+  std::uint32_t version;  ///< policy_version; tables of version 1 end with drop
   const char* name;       ///< column name: up to 32 letters, digits, "-", "_" or "."; not the name of one of dmpc's own policies
   const char* (*make)(std::uint32_t frame_count, std::uint32_t node, void** policy);
   const char* (*hit)(void* policy, std::uint32_t page, std::uint32_t frame);
   const char* (*insert)(void* policy, std::uint32_t page, std::uint32_t frame);
   const char* (*victim)(void* policy, std::uint32_t incoming, std::uint32_t* frame);
   void (*drop)(void* policy);
+  const char* (*price)(void* policy, std::uint32_t page, std::uint32_t price);  ///< may be null
 };
 
 namespace policy_detail {
@@ -71,6 +78,9 @@ struct Calls {
     return complaint_of([&] { *frame = of(policy).victim(incoming); });
   }
   static void drop(void* policy) { delete static_cast<Class*>(policy); }
+  static const char* price(void* policy, std::uint32_t page, std::uint32_t price) {
+    return complaint_of([&] { of(policy).price(page, price); });
+  }
 };
 
 }  // namespace policy_detail
@@ -86,4 +96,5 @@ struct Calls {
                                          dmpc::policy_detail::Calls<Class>::hit,         \
                                          dmpc::policy_detail::Calls<Class>::insert,      \
                                          dmpc::policy_detail::Calls<Class>::victim,      \
-                                         dmpc::policy_detail::Calls<Class>::drop}
+                                         dmpc::policy_detail::Calls<Class>::drop,        \
+                                         dmpc::policy_detail::Calls<Class>::price}

@@ -19,7 +19,6 @@ class PlySurfaces {
 
   /// Adds an `element material`. Colours are linear, as in MTL files.
   void add_material(const PlyRow& row);
-  bool has_materials() const { return !materials_.empty(); }
   std::size_t texture_count() const { return textures_.size(); }
 
   /// Returns the index within materials() of this combination; `texture` may be empty.

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/frontend/table/table.h"
@@ -49,16 +48,6 @@ std::vector<Cell> row_of(const FilledColumns<Subject>& columns, const Subject& s
     row.push_back(one.cell(subject));
   }
   return row;
-}
-
-/// Returns a table with a row for each of the subjects.
-template <class Subject, class Subjects>
-Table filled_table(std::string title, const FilledColumns<Subject>& columns, const Subjects& subjects) {
-  Table table(std::move(title), heads_of(columns));
-  for (const Subject& subject : subjects) {
-    table.add_row(row_of(columns, subject));
-  }
-  return table;
 }
 
 }  // namespace dmpc::apps

@@ -87,7 +87,7 @@ void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uin
 std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& recorded) {
   std::vector<CacheCurves::NodeReferences> references;
   for (const svm::NodeReport& node : recorded.nodes) {
-    references.push_back(node.references.pages());
+    references.push_back({node.references.pages()});
   }
   return references;
 }

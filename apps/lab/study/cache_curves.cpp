@@ -15,7 +15,7 @@ namespace dmpc::apps {
 namespace {
 
 using svm::Replacement;
-/// By size: of each of the other policies, then of those that are not dmpc's own, then of the optimum.
+/// As CacheCurves keeps them.
 using Faults = std::vector<std::vector<std::uint64_t>>;
 
 /// Returns the policies other than lru, whose misses are known for all sizes at once, in the order of their columns.
@@ -38,25 +38,42 @@ std::vector<std::uint32_t> bounded(std::vector<std::uint32_t> sizes, std::uint32
 }
 
 /// `sizes` are limited by the number of the references' pages.
-Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
+Faults faults_of(const CacheCurves::NodeReferences& references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
                  CacheCurves::Policies more, const CacheCurves::Watch& watch) {
-  const svm::Optimum optimum(references);
-  Faults faults(sizes.size());
+  const svm::Optimum optimum(references.pages);
+  Faults faults(sizes.size()), costs(sizes.size());
+  std::uint64_t cost = 0;
+  const svm::Missed pay = [&](std::size_t reference) { cost += references.prices[reference]; };
+  const svm::Missed missed = references.prices.empty() ? svm::Missed() : pay;
+  const auto faults_with = [&](Replacement policy, std::size_t size) {
+    watch.check();
+    return svm::policy_misses(policy, references.pages, sizes[size], node, missed);
+  };
   for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (missed) {
+      faults_with(Replacement::lru, i);  // their number is known
+      costs[i].push_back(std::exchange(cost, 0));
+    }
     for (const Replacement policy : other_policies()) {
-      watch.check();
-      faults[i].push_back(svm::policy_misses(policy, references, sizes[i], node));
+      faults[i].push_back(faults_with(policy, i));
+      costs[i].push_back(std::exchange(cost, 0));
       watch.fed();
     }
   }
   for (const ForeignPolicy& policy : more) {
-    const std::vector<std::uint64_t> misses = policy.misses(references, sizes, node, watch.check, watch.fed);
+    const std::vector<PricedFaults> priced =
+        policy.misses(references.pages, sizes, node, watch.check, watch.fed, references.prices);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      faults[i].push_back(misses[i]);
+      faults[i].push_back(priced[i].count);
+      costs[i].push_back(priced[i].cost);
     }
   }
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    faults[i].push_back(optimum.misses(sizes[i]));
+    faults[i].push_back(optimum.misses(sizes[i], missed));
+    costs[i].push_back(std::exchange(cost, 0));
+    if (missed) {
+      faults[i].insert(faults[i].end(), costs[i].begin(), costs[i].end());
+    }
   }
   return faults;
 }
@@ -67,16 +84,29 @@ void add(const Faults& more, Faults& sums) {
   }
 }
 
-std::string fault_column(std::string_view policy) { return "faults " + std::string(policy); }
+bool are_priced(const std::vector<CacheCurves::NodeReferences>& nodes) {
+  return std::ranges::any_of(nodes, [](const auto& node) { return !node.prices.empty(); });
+}
 
-/// Returns the policies with columns between lru's and the optimum's, in their order.
-std::vector<std::string> names_beside_lru(CacheCurves::Policies more) {
-  std::vector<std::string> names;
+/// Returns the policies with columns, in their order.
+std::vector<std::string> policy_names(CacheCurves::Policies more) {
+  std::vector<std::string> names = {"lru"};
   for (const Replacement policy : other_policies()) {
     names.emplace_back(svm::name_of(policy));
   }
   std::transform(more.begin(), more.end(), std::back_inserter(names), [](const ForeignPolicy& policy) { return policy.name(); });
+  names.emplace_back("optimum");
   return names;
+}
+
+/// `what` begins the columns' names.
+Plot plot_of(const std::string& name, const std::string& title, const std::string& what, CacheCurves::Policies more) {
+  std::vector<PlotSeries> policies;
+  for (const std::string& policy : policy_names(more)) {
+    policies.push_back({.title = policy, .column = what + " " + policy, .color = policies.size()});
+  }
+  return curves(name, title, "cache pages", CacheCurves::size_axis(), {.label = what, .scale = PlotScale::powers_of_10},
+                std::move(policies));
 }
 
 }  // namespace
@@ -85,9 +115,9 @@ CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t
                          std::vector<std::uint32_t> sizes, Policies more, const Watch& watch)
     : sizes_(std::move(sizes)),
       reference_count_(reference_count),
-      faults_(sizes_.size(), std::vector<std::uint64_t>(other_policies().size() + more.size() + 1)) {
+      faults_(sizes_.size(), std::vector<std::uint64_t>((are_priced(nodes) ? 2 : 1) * policy_names(more).size() - 1)) {
   side_by_side(nodes.size(), [&](std::size_t node) -> std::function<void()> {
-    svm::MissCurve lru(nodes[node]);
+    svm::MissCurve lru(nodes[node].pages);
     Faults faults = faults_of(nodes[node], static_cast<std::uint32_t>(node), bounded(sizes_, lru.distinct_pages()), more, watch);
     return [this, faults = std::move(faults), lru = std::move(lru)] {
       lru_ += lru;
@@ -97,30 +127,24 @@ CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t
 }
 
 std::uint64_t CacheCurves::cache_count(std::size_t node_count, std::size_t size_count, Policies more) {
-  return std::uint64_t{node_count} * size_count * names_beside_lru(more).size();
+  return std::uint64_t{node_count} * size_count * (other_policies().size() + more.size());
 }
 
-std::vector<Column> CacheCurves::columns(const std::string& share, Policies more) {
-  std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}, {fault_column("lru")}};
-  for (const std::string& name : names_beside_lru(more)) {
-    columns.push_back({fault_column(name)});
+std::vector<Column> CacheCurves::columns(const std::string& share, Policies more, bool have_prices) {
+  std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}};
+  for (const char* const what : have_prices ? std::vector{"faults", "cost"} : std::vector{"faults"}) {
+    for (const std::string& name : policy_names(more)) {
+      columns.push_back({std::string(what) + " " + name});
+    }
   }
-  columns.push_back({fault_column("optimum")});
   return columns;
 }
 
 PlotAxis CacheCurves::size_axis() { return {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}; }
 
-Plot CacheCurves::plot(Policies more) {
-  std::vector<PlotSeries> policies = {{"lru", fault_column("lru")}};
-  std::vector<std::string> names = names_beside_lru(more);
-  names.emplace_back("optimum");
-  for (const std::string& name : names) {
-    policies.push_back({.title = name, .column = fault_column(name), .color = policies.size()});
-  }
-  return curves("cache_faults", "Page faults", "cache pages", size_axis(), {.label = "faults", .scale = PlotScale::powers_of_10},
-                std::move(policies));
-}
+Plot CacheCurves::plot(Policies more) { return plot_of("cache_faults", "Page faults", "faults", more); }
+
+Plot CacheCurves::cost_plot(Policies more) { return plot_of("cache_costs", "Cost of page faults", "cost", more); }
 
 std::string CacheCurves::note() {
   return "Lru: from the stack distances of the references (Mattson, Gecsei, Slutz and Traiger, 1970). Other policies: by a cache "

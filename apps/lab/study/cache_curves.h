@@ -21,7 +21,10 @@ namespace dmpc::apps {
 class CacheCurves {
  public:
   /// The references of one node, in order; consecutive references to one page may count as one.
-  using NodeReferences = std::span<const svm::PageId>;
+  struct NodeReferences {
+    std::span<const svm::PageId> pages;
+    std::span<const std::uint32_t> prices = {};  ///< of a miss of each, if costs are wanted
+  };
 
   /// Policies other than dmpc's own.
   using Policies = std::span<const ForeignPolicy>;
@@ -37,9 +40,11 @@ class CacheCurves {
               Policies more, const Watch& watch);
 
   static std::uint64_t cache_count(std::size_t node_count, std::size_t size_count, Policies more);
-  /// Returns the columns of the cells that row() has. `share` heads the second: the whole of which the cache is a share.
-  static std::vector<Column> columns(const std::string& share, Policies more);
+  /// Returns the columns of the cells that row() has. `share` heads the second: the whole of which the cache is a share. With
+  /// prices there is a cost for each number of faults: the sum of their prices.
+  static std::vector<Column> columns(const std::string& share, Policies more, bool have_prices = false);
   static Plot plot(Policies more);
+  static Plot cost_plot(Policies more);
   static PlotAxis size_axis();
   /// Returns a note on the source of the figures.
   static std::string note();
@@ -54,7 +59,8 @@ class CacheCurves {
   std::vector<std::uint32_t> sizes_;
   std::uint64_t reference_count_;
   svm::MissCurve lru_;
-  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, of `more`, then of the optimum
+  /// By size: faults of each of the other policies, of `more`, then of the optimum; with prices then costs, of lru first.
+  std::vector<std::vector<std::uint64_t>> faults_;
 };
 
 /// Declares --cache-pages: sizes in pages, about 12 of them by default.

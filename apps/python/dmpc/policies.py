@@ -4,6 +4,7 @@
         def __init__(self, frame_count, node): self.frame_count, self.next = frame_count, -1
         def hit(self, page, frame): ...            # may be missing, as may insert()
         def insert(self, page, frame): ...
+        def price(self, page, price): ...          # may be missing, too
         def victim(self, incoming):
             self.next = (self.next + 1) % self.frame_count
             return self.next
@@ -13,12 +14,15 @@
 
 Frames are numbered from 0 and filled in their order; no page leaves before all have one. hit() is told of a page in a frame that is
 referenced again, where references of one page in a row are one; insert() of a page that has come into a frame, which was empty or
-victim()'s; victim() says which frame's page leaves for `incoming`. Pages are whole numbers that say nothing else.
+victim()'s; victim() says which frame's page leaves for `incoming`, or "bypass": then none leaves, and the page is used once and not
+kept. price() comes before victim() and insert(), with the price of the miss, which is 1 unless prices are given. Pages are whole
+numbers that say nothing else.
 
 dmpc starts this file by itself (apps/policy), so it needs nothing beyond Python.
 """
 
 import array
+import itertools
 import linecache
 import os
 import sys
@@ -28,12 +32,18 @@ class PolicyError(Exception):
     """A policy that cannot be asked, or says what makes no sense."""
 
 
-def simulate(policy, references, frame_count, node=0):
-    """How often a cache of `frame_count` pages misses. `policy` is a class, made as policy(frame_count, node); `references` are pages,
-    as whole numbers, in order. Raises what the policy raises, and a PolicyError if victim() names no frame that there is."""
+def simulate(policy, references, frame_count, node=0, prices=None):
+    """How often a cache of `frame_count` pages misses; with `prices`, one for each reference, a pair: the misses, and the sum of their
+    prices. `policy` is a class, made as policy(frame_count, node); `references` are pages, as whole numbers, in order. Raises what the
+    policy raises, and a PolicyError if victim() names no frame that there is."""
+    count, cost = _priced(policy, references, frame_count, node, prices)
+    return count if prices is None else (count, cost)
+
+
+def _priced(policy, references, frame_count, node, prices):
     if frame_count == 0:
-        return len(references)
-    return _Cache(policy, frame_count, node).feed(references)
+        return len(references), len(references) if prices is None else sum(prices)
+    return _Cache(policy, frame_count, node).feed(references, prices)
 
 
 class _Cache:
@@ -42,37 +52,45 @@ class _Cache:
     def __init__(self, policy, frame_count, node):
         self.frame_count, self.node, self.misses, self.call = frame_count, node, 0, "making the policy"
         made = policy(frame_count, node)
-        self.hit, self.insert = getattr(made, "hit", None), getattr(made, "insert", None)
+        self.hit, self.insert, self.price = (getattr(made, name, None) for name in ("hit", "insert", "price"))
         self.victim = getattr(made, "victim", None)
         if self.victim is None:
             raise PolicyError("it has no method victim(self, incoming), which says the frame whose page leaves")
 
-    def feed(self, references):
-        frames, pages, last = {}, [], None
-        for page in references:
+    def feed(self, references, prices=None):
+        frames, pages, last, cost = {}, [], None, 0
+        for page, price in zip(references, itertools.repeat(1) if prices is None else prices):
+            if page == last:
+                continue
+            last = page
             frame = frames.get(page)
             if frame is not None:
-                if frame != last and self.hit is not None:
+                if self.hit is not None:
                     self.call = ("hit", page)
                     self.hit(page, frame)
-                last = frame
                 continue
             self.misses += 1
+            cost += price
+            if self.price is not None:
+                self.call = ("price", page)
+                self.price(page, price)
             if len(pages) < self.frame_count:
                 frame = len(pages)
                 pages.append(page)
             else:
                 self.call = ("victim", page)
                 frame = self.victim(page)
+                if isinstance(frame, str) and frame == "bypass":
+                    continue
                 if type(frame) is not int or not 0 <= frame < self.frame_count:
                     frame = self._checked(frame)
                 del frames[pages[frame]]
                 pages[frame] = page
-            frames[page] = last = frame
+            frames[page] = frame
             if self.insert is not None:
                 self.call = ("insert", page)
                 self.insert(page, frame)
-        return self.misses
+        return self.misses, cost
 
     def _checked(self, frame):
         """What is no int, but a whole number all the same, such as numpy's."""
@@ -81,7 +99,7 @@ class _Cache:
         except (AttributeError, TypeError):
             number = -1
         if isinstance(frame, bool) or not 0 <= number < self.frame_count:
-            raise PolicyError(f"it says {frame!r:.80}, expected a frame from 0 to {self.frame_count - 1}")
+            raise PolicyError(f"it says {frame!r:.80}, expected a frame from 0 to {self.frame_count - 1}, or 'bypass'")
         return number
 
     def __str__(self):
@@ -129,8 +147,8 @@ def _serve(path, name):
     """What dmpc has it do: apps/policy/request.h says what it is asked, and how it answers."""
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what the policy prints is no answer
-    node, cache_count, source_bytes, reference_count = _numbers(sys.stdin.buffer, 4)
-    caches, references = _numbers(sys.stdin.buffer, cache_count), _numbers(sys.stdin.buffer, reference_count)
+    node, cache_count, source_bytes, reference_count, price_count = _numbers(sys.stdin.buffer, 5)
+    caches, references, prices = (_numbers(sys.stdin.buffer, count) for count in (cache_count, reference_count, price_count))
     at = ""
     try:
         policy = _class_in(sys.stdin.buffer.read(source_bytes), path, name)
@@ -138,12 +156,12 @@ def _serve(path, name):
         for frame_count in caches:
             cache = None
             if frame_count == 0:
-                print(reference_count, file=answers, flush=True)
+                print(reference_count, sum(prices) if prices else reference_count, file=answers, flush=True)
                 continue
             at = f"making it for {frame_count} frames of node {node}: "
             cache = _Cache(policy, frame_count, node)
             at = None
-            print(cache.feed(references), file=answers, flush=True)
+            print(*cache.feed(references, prices or None), file=answers, flush=True)
     except BaseException as error:  # a policy's exit, too
         sys.stderr.write((f"{cache}: " if at is None else at) + _said(error, path))
         sys.stderr.flush()

@@ -80,6 +80,11 @@ Json skips_json(const RenderRecord& record, const Account& account) {
                                  {"avoided", account.operations.skipped.*skip.avoided},
                                  {"unit", skip.unit}};
   }
+  result["equal_frames"] = {{"on", options.picture.skips_equal_frames},
+                            {"exact", true},
+                            {"avoided", record.copied_frame ? 1 : 0},
+                            {"unit", "frames"},
+                            {"copied_frame", record.copied_frame ? Json(*record.copied_frame) : Json()}};
   result["cutoff"] = cutoff_json(record, account);
   return result;
 }

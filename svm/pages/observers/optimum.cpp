@@ -43,6 +43,13 @@ class Future {
   std::vector<std::uint32_t> times_;
 };
 
+std::uint64_t all_miss(std::size_t references, const Missed& missed) {
+  for (std::size_t reference = 0; missed && reference < references; ++reference) {
+    missed(reference);
+  }
+  return references;
+}
+
 }  // namespace
 
 Optimum::Optimum(std::span<const PageId> references)
@@ -56,9 +63,9 @@ Optimum::Optimum(std::span<const PageId> references)
   }
 }
 
-std::uint64_t Optimum::misses(std::uint32_t cache_pages) const {
+std::uint64_t Optimum::misses(std::uint32_t cache_pages, const Missed& missed) const {
   if (cache_pages == 0) {
-    return references_.size();
+    return all_miss(references_.size(), missed);
   }
   std::vector<bool> is_cached(page_bound_);
   Future future(cache_pages);
@@ -68,6 +75,9 @@ std::uint64_t Optimum::misses(std::uint32_t cache_pages) const {
     const std::uint32_t page = index_of(references_[now]);
     if (!is_cached[page]) {
       ++misses;
+      if (missed) {
+        missed(now);
+      }
       if (free_frames > 0) {
         --free_frames;
       } else {
@@ -86,22 +96,26 @@ std::uint64_t Optimum::misses(std::uint32_t cache_pages) const {
 }
 
 std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
-                            std::uint32_t seed) {
+                            std::uint32_t seed, const Missed& missed) {
   if (cache_pages == 0) {
-    return references.size();
+    return all_miss(references.size(), missed);
   }
   constexpr std::array<std::byte, 1> page_bytes{};
   const CacheShape shape{cache_pages, page_bytes.size(), replacement};
   nodes::LocalMemory memory(Cache::layout(shape));
   Cache cache(memory, shape, seed);
   std::uint64_t misses = 0;
-  for (const PageId page : references) {
+  for (std::size_t reference = 0; reference < references.size(); ++reference) {
+    const PageId page = references[reference];
     if (const std::uint32_t frame = cache.frame_of(page); frame != Cache::no_frame) {
       cache.touch(frame);
-    } else {
-      ++misses;
-      cache.install(page, page_bytes);
+      continue;
     }
+    ++misses;
+    if (missed) {
+      missed(reference);
+    }
+    cache.install(page, page_bytes);
   }
   return misses;
 }

@@ -4,7 +4,9 @@
 // reference is furthest away. Pages are fetched on demand, each into a frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,9 @@
 #include "svm/pages/replacement.h"
 
 namespace dmpc::svm {
+
+/// Called with the number of each reference that misses, in order; may be empty.
+using Missed = std::function<void(std::size_t reference)>;
 
 /// The minimum of misses of one node's references. The first pass, which finds each reference's next, is in the constructor; the
 /// second is done for each size. Thread safety: an immutable value once made.
@@ -22,7 +27,7 @@ class Optimum {
 
   /// Page misses with `cache_pages` frames; with none every reference is one. Time n log c, memory p for n references of pages
   /// below p and c frames.
-  std::uint64_t misses(std::uint32_t cache_pages) const;
+  std::uint64_t misses(std::uint32_t cache_pages, const Missed& missed = {}) const;
 
  private:
   std::span<const PageId> references_;
@@ -34,6 +39,6 @@ class Optimum {
 /// reference is a miss. `seed` is the node's number. Takes a cache's memory, with pages of one byte, and for each reference about
 /// a cache's time. Throws core::CapacityError if there is not enough memory.
 std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
-                            std::uint32_t seed);
+                            std::uint32_t seed, const Missed& missed = {});
 
 }  // namespace dmpc::svm

@@ -55,7 +55,7 @@ class Hostile final : public dmpc::Policy {
 
 #ifdef DMPC_OTHER_VERSION
 extern "C" __attribute__((visibility("default"))) const dmpc::PolicyTable dmpc_policy;
-const dmpc::PolicyTable dmpc_policy = {dmpc::policy_version + 1, "hostile", nullptr, nullptr, nullptr, nullptr, nullptr};
+const dmpc::PolicyTable dmpc_policy = {dmpc::policy_version + 1, "hostile", nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 #else
 DMPC_POLICY(Hostile, "hostile");
 #endif

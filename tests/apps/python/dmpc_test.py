@@ -262,6 +262,13 @@ class PolicyTest(unittest.TestCase):
             self.assertEqual(faults, sum(dmpc.simulate(space["Clock"], of_node["page"].to_list(), size, node)
                                          for node, of_node in references.groupby("node")))
 
+    def test_s4_fifo_promotes_what_comes_back_and_if_it_is_wary_what_comes_back_twice(self):
+        space = {}
+        exec(pathlib.Path(MODULES, "examples/s4_fifo.py").read_text(), space)
+        references = [1, 2, 3, 1, 3, 4, 5, 1, 6, 1]  # two frames, one of them the small queue's; a name is remembered
+        self.assertEqual(dmpc.simulate(space["S4Fifo"], references, 2), 7)  # page 1 is in the main queue as it comes again
+        self.assertEqual(dmpc.simulate(space["Wary"], references, 2), 8)  # as it comes for the third time
+
     def test_numbers_of_numpy_are_frames_and_what_is_none_is_refused(self):
         class Says:
             frame = 0
@@ -282,6 +289,26 @@ class PolicyTest(unittest.TestCase):
             dmpc.simulate(type("None_such", (), {"__init__": lambda *_: None}), [1], 2)
         self.assertEqual(dmpc.simulate(Says, [1, 2, 1], 0), 3)
         self.assertEqual(dmpc.simulate(Says, [1, 1, 2, 2, 1, 1], 2), 2)  # of one page in a row the first may miss
+
+
+    def test_a_policy_may_let_a_page_pass_and_hears_what_misses_cost(self):
+        class Keeps:
+            """What has come first stays."""
+            heard = []
+
+            def __init__(self, frame_count, node):
+                pass
+
+            def price(self, page, price):
+                self.heard.append((page, price))
+
+            def victim(self, incoming):
+                return "bypass"
+
+        self.assertEqual(dmpc.simulate(Keeps, [1, 2, 2, 1, 2], 1), 3)
+        self.assertEqual(Keeps.heard, [(1, 1), (2, 1), (2, 1)])
+        self.assertEqual(dmpc.simulate(Keeps, [1, 2, 2, 1, 2], 1, prices=[5, 2, 9, 5, 3]), (3, 10))
+        self.assertEqual(dmpc.simulate(Keeps, [1, 2], 0, prices=[5, 2]), (2, 7))
 
 
 class LookingTest(unittest.TestCase):

@@ -126,6 +126,8 @@ TEST_CASE("a frame of an animation is the picture of a file that stands as the a
   CHECK(contains(all.errors, "animation go takes 2 seconds: at 1 frames a second frame 3 shows its end"));
   CHECK(file_text(folder / "a.1.png") != file_text(folder / "a.2.png"));
   CHECK(file_text(folder / "a.3.png") == file_text(folder / "a.4.png"));  // it has ended
+  CHECK(contains(all.output, "a copy of frame 3\n"));
+  CHECK_FALSE(contains(all.output, "a copy of frame 2\n"));
   for (const std::string strategy : {"svm", "dataflow", "forest", "replicated"}) {
     const std::string name = "@" + strategy + ".#.png";
     const Said part = render(folder, {"--frames=2..3", "--animation=go", "--fps=1", light, "--strategy=" + strategy, "-o", name});

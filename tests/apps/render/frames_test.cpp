@@ -30,6 +30,24 @@ std::vector<std::string> line(const TemporaryFolder& folder, const std::vector<s
 
 Said render(const TemporaryFolder& folder, const std::vector<std::string>& words) { return run(line(folder, words)); }
 
+/// What a file of counters has first under a key, without quotes.
+std::string value_of(const fs::path& file, const std::string& key) {
+  const std::string json = file_text(file);
+  const std::size_t place = json.find('"' + key + "\": ");
+  REQUIRE_MESSAGE(place != std::string::npos, key);
+  std::string value = json.substr(place + key.size() + 4, json.find_first_of(",}\n", place) - place - key.size() - 4);
+  std::erase(value, '"');
+  return value;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 TEST_CASE("frames leave a picture each, and each is, byte by byte, the picture of the frame alone") {
@@ -63,6 +81,64 @@ TEST_CASE("each frame has a heat map of its own, the same on a modelled machine 
   REQUIRE_MESSAGE(one.status == 0, one.errors);
   CHECK(file_text(folder / "s.png") == file_text(folder / "s1.png"));
   CHECK(contains(render(folder, {"--frames=2", "--turntable=9", "--heatmap=done:@s.png", "-o", "@b#.png"}).errors, "--heatmap="));
+}
+
+TEST_CASE("a frame that equals the one before is a copy of it, says so, and counts nothing, on every computer") {
+  for (const std::string computer : {"--strategy=svm", "--strategy=dataflow", "--strategy=forest", "--strategy=replicated",
+                                     "--runner=pool", "--runner=virtual"}) {
+    CAPTURE(computer);
+    const TemporaryFolder folder;
+    const Said said = render(folder, {computer, "--frames=3", "--turntable=0", "--stats=@a.#.json", "-o", "@a.#.png"});
+    REQUIRE_MESSAGE(said.status == 0, said.errors);
+    CHECK(file_text(folder / "a.1.png") == file_text(folder / "a.2.png"));
+    CHECK(file_text(folder / "a.1.png") == file_text(folder / "a.3.png"));
+    CHECK_FALSE(contains(said.output.substr(0, said.output.find('\n')), "copy"));
+    CHECK(contains(said.output, "a.3.png, film " + value_of(folder / "a.1.json", "film_hash") + ", a copy of frame 1\n"));
+    const std::size_t note = said.errors.find("a frame that equals the one before it is not rendered again");
+    REQUIRE(note != std::string::npos);
+    CHECK(said.errors.find("a frame that equals", note + 1) == std::string::npos);  // said once
+    CHECK(value_of(folder / "a.1.json", "copied_frame") == "null");
+    CHECK(value_of(folder / "a.1.json", "primary") != "0");
+    CHECK(value_of(folder / "a.3.json", "copied_frame") == "1");
+    CHECK(value_of(folder / "a.3.json", "primary") == "0");
+    CHECK(value_of(folder / "a.3.json", "run_hash") == "null");
+  }
+}
+
+TEST_CASE("only frames in a row are copies, and none is if it is not wanted or if a heat map is made of each") {
+  const TemporaryFolder folder;
+  write_text(folder / "path", "2 4,1,3/0,0,0/0,0,1/30\n3 4,1,3/0,0,0/0,0,1/30\n4 1,4,3/0,0,0/0,0,1/30\n");
+  const Said path = render(folder, {"--frames=2..4", "--camera-path=@path", "-o", "@a#.png"});
+  REQUIRE_MESSAGE(path.status == 0, path.errors);
+  CHECK(contains(path.output, "frame 3  " + (folder / "a3.png").string() + ", film "));
+  CHECK(count_of(path.output, "a copy of frame 2") == 1);
+  CHECK(count_of(path.output, "a copy of") == 1);
+  CHECK(file_text(folder / "a2.png") == file_text(folder / "a3.png"));
+  CHECK(file_text(folder / "a3.png") != file_text(folder / "a4.png"));
+  const std::vector<std::string> still = {"--frames=2", "--turntable=0", "--stats=@b#.json", "-o", "@b#.png"};
+  for (const std::string word : {"--no-skip=equal-frames", "--no-skip=all", "--heatmap=rays:@s#.png"}) {
+    CAPTURE(word);
+    std::vector<std::string> words = still;
+    words.push_back(word);
+    const Said said = render(folder, words);
+    REQUIRE_MESSAGE(said.status == 0, said.errors);
+    CHECK(count_of(said.output + said.errors, "equals the one before") + count_of(said.output, "a copy of") == 0);
+    CHECK(value_of(folder / "b2.json", "primary") == value_of(folder / "b1.json", "primary"));
+    CHECK(file_text(folder / "b1.png") == file_text(folder / "b2.png"));
+    fs::remove(folder / "b1.png");
+    fs::remove(folder / "b2.png");
+  }
+}
+
+TEST_CASE("a resumed frame is rendered though it equals one that is there, since that file may be anything") {
+  const TemporaryFolder folder;
+  write_text(folder / "a1.png", "precious");
+  const Said said = render(folder, {"--frames=3", "--turntable=0", "--resume", "--checkpoint=@c", "-o", "@a#.png"});
+  REQUIRE_MESSAGE(said.status == 0, said.errors);
+  CHECK(count_of(said.output, "a copy of frame 2") == 1);
+  CHECK(file_text(folder / "a2.png") == file_text(folder / "a3.png"));
+  CHECK(file_text(folder / "a2.png") != "precious");
+  CHECK(folder.entry_count() == 3);
 }
 
 TEST_CASE("a keyframe's picture is that of --camera") {

@@ -145,6 +145,28 @@ TEST_CASE("frames over ranks are those of one process, each with its own heat ma
   }
 }
 
+TEST_CASE("ranks agree on a frame that equals the one before, and go on with the next") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "path", "1 4,1,3/0,0,0/0,0,1/30\n2 4,1,3/0,0,0/0,0,1/30\n3 1,4,3/0,0,0/0,0,1/30\n");
+  for (const char* const strategy : {"--strategy=svm", "--strategy=dataflow"}) {
+    CAPTURE(strategy);
+    const std::string name = (folder / strategy).string();
+    auto line = small_with({"--runner=mpi", strategy, "--frames=3"});
+    line.insert(line.end(), {"--camera-path=" + (folder / "path").string(), "-o", name + "#.exr", "--stats=" + name + "#.json"});
+    const auto results = render_over(3, options_of(line));
+    for (const auto& result : results) {
+      CHECK(result.failure_text() == "");
+    }
+    CHECK(tests::contains(results[0].value.value().printed, ", a copy of frame 1\nframe 3  "));
+    CHECK(tests::file_text(name + "1.exr") == tests::file_text(name + "2.exr"));
+    CHECK(tests::file_text(name + "1.exr") != tests::file_text(name + "3.exr"));
+    const auto copied = nlohmann::json::parse(tests::file_text(name + "2.json"));
+    CHECK(copied["ranks"].size() == 3);
+    CHECK(copied["ranks"][1]["packets"]["sent"] == 0);
+    CHECK(nlohmann::json::parse(tests::file_text(name + "3.json"))["rays"]["primary"] == 280);
+  }
+}
+
 TEST_CASE("closing lines and counters tell of the ranks") {
   const tests::TemporaryFolder folder;
   auto line = small_with({"--runner=mpi", "--strategy=svm"});

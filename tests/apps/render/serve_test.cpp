@@ -159,6 +159,16 @@ TEST_CASE("of several frames the one under way is shown, and no page follows the
   CHECK(contains(events, "\"page\":false,\"said\":\"All frames are done.\"}"));
 }
 
+TEST_CASE("a frame that is a copy leaves the picture shown, and is in the lines at the end") {
+  Served served({"--frames=2", "--turntable=0", "--resolution=32x32", "--samples=64"});
+  const std::string events = served.got("events");
+  CHECK(served.page.process.status() == 0);
+  CHECK(contains(events, "\"frame\":1"));
+  CHECK_FALSE(contains(events, "\"frame\":2"));
+  CHECK(contains(events, ", a copy of frame 1\\n"));
+  CHECK(contains(events, "\"said\":\"All frames are done.\"}"));
+}
+
 TEST_CASE("a port that is none, or has somebody, and the viewer that was before, are said before anything is read") {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& option) {

@@ -127,51 +127,7 @@ TEST_CASE("a policy takes exactly the memory that it says it needs, and clock, f
   }
 }
 
-namespace {
-
-/// The worst that a cache can do with what goes round and round is lru; with this nearly all is kept.
-class MostRecentlyUsed final : public svm::ReplacementPolicy {
- public:
-  explicit MostRecentlyUsed(const svm::PolicySite& site) : stamps_(site.stamps) {}
-  std::uint32_t victim(svm::PageId /*incoming*/) override {
-    return static_cast<std::uint32_t>(std::max_element(stamps_.begin(), stamps_.end()) - stamps_.begin());
-  }
-
- private:
-  svm::Stamps stamps_;
-};
-
-/// Added once, whatever tests run.
-Replacement most_recently_used() {
-  static const Replacement added = svm::add_policy({"mru", "the page that was looked up most recently", false,
-                                                    [](std::uint32_t /*frames*/) { return nodes::MemoryPlan(); },
-                                                    [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
-                                                      return std::make_unique<MostRecentlyUsed>(site);
-                                                    }});
-  return added;
-}
-
-}  // namespace
-
-TEST_CASE("a policy of one's own has a name, is listed, and chooses what leaves") {
-  const Replacement own = most_recently_used();
-  CHECK(svm::name_of(own) == "mru");
-  CHECK(svm::policy_kinds().back().name == "mru");
-  Pages round_and_round;
-  for (std::uint32_t i = 0; i < 50; ++i) {
-    round_and_round.push_back(i % 5);
-  }
-  CHECK(Frames(Replacement::lru, 4).misses(round_and_round) == 50);
-  CHECK(Frames(own, 4).misses(round_and_round) == 5 + 45 / 4);
-}
-
-TEST_CASE("a policy whose name is taken, or that cannot be made, is a broken invariant") {
-  const auto make = [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
-    return std::make_unique<MostRecentlyUsed>(site);
-  };
-  const auto layout = [](std::uint32_t /*frames*/) { return nodes::MemoryPlan(); };
-  CHECK_THROWS_AS(svm::add_policy({"lru", "a second one", false, layout, make}), core::InternalError);
-  CHECK_THROWS_AS(svm::add_policy({"none", "cannot be made", false, layout, nullptr}), core::InternalError);
+TEST_CASE("a policy that is not there is a broken invariant") {
   CHECK_THROWS_AS(svm::name_of(static_cast<Replacement>(200)), core::InternalError);
 }
 

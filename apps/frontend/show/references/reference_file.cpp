@@ -21,6 +21,8 @@ constexpr std::size_t trace_line_characters_max = 4096;
 /// One less than there are page numbers, so that each reference may be of a page of its own.
 constexpr std::uint64_t trace_references_max = std::numeric_limits<std::uint32_t>::max() - 1;
 
+constexpr std::uint64_t price_max = std::numeric_limits<std::uint32_t>::max();
+
 using PageName = std::uint64_t;
 
 constexpr int first_of_gzip = 0x1f;
@@ -28,7 +30,7 @@ constexpr int first_of_gzip = 0x1f;
 /// Positions of the columns, from the header line.
 struct Columns {
   std::size_t page = 0;
-  std::optional<std::size_t> node;
+  std::optional<std::size_t> node, price;
   std::size_t count = 0;
 };
 
@@ -128,7 +130,10 @@ class ReferenceReader {
       }
       return *found;
     };
-    return {required(wanted_.page), wanted_.node ? required(*wanted_.node) : place("node"), names.size()};
+    const auto optional = [&](const std::optional<std::string>& name) {
+      return name ? std::optional(required(*name)) : std::nullopt;
+    };
+    return {required(wanted_.page), wanted_.node ? optional(wanted_.node) : place("node"), optional(wanted_.price), names.size()};
   }
 
   std::uint64_t number_in(std::string_view field, const char* column, std::uint64_t most) const {
@@ -151,11 +156,16 @@ class ReferenceReader {
     }
     const std::uint64_t node = columns.node ? number_in(fields[*columns.node], "node", nodes::node_count_max - 1) : 0;
     const PageName page = number_in(fields[columns.page], "page", std::numeric_limits<PageName>::max());
+    const std::uint64_t price = columns.price ? number_in(fields[*columns.price], "price", price_max) : 0;
     if (node >= names_.size()) {
       names_.resize(node + 1);
+      trace_.prices.resize(columns.price ? node + 1 : 0);
     }
     if (names_[node].empty() || names_[node].back() != page) {
       names_[node].push_back(page);
+      if (columns.price) {
+        trace_.prices[node].push_back(static_cast<std::uint32_t>(price));
+      }
     }
   }
 

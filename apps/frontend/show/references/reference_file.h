@@ -18,9 +18,10 @@ namespace dmpc::apps {
 
 /// References by node, in order.
 struct ReferenceTrace {
-  std::vector<std::vector<svm::PageId>> nodes;  ///< by node; consecutive references to one page count once
-  std::uint64_t reference_count = 0;            ///< including those left out
-  std::uint32_t page_count = 0;                 ///< different pages, numbered from 0 on
+  std::vector<std::vector<svm::PageId>> nodes;     ///< by node; consecutive references to one page count once
+  std::vector<std::vector<std::uint32_t>> prices;  ///< of a miss of each of these, by node, if there is such a column
+  std::uint64_t reference_count = 0;               ///< including those left out
+  std::uint32_t page_count = 0;                    ///< different pages, numbered from 0 on
 };
 
 /// A header line, and a line for each reference: the node, the reference's number on this node, the page, and its number of
@@ -30,12 +31,14 @@ void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>
 /// Names of columns.
 struct ReferenceColumns {
   std::string page = "page";
-  std::optional<std::string> node;  ///< must exist; nothing: "node", or all references are node 0's
+  std::optional<std::string> node;   ///< must exist; nothing: "node", or all references are node 0's
+  std::optional<std::string> price;  ///< of the price of a miss; must exist
 };
 
-/// Reads a file or a pipe, or, as "-", the standard input if it is one of these, with a column of pages and an optional one of
-/// nodes; other columns are ignored. Pages are any integers below 2^64. Throws core::InputError naming the line,
-/// core::CapacityError for more than 2^32 - 2 references. Gzip files are read through `unpack`; without it they are refused.
+/// Reads a file or a pipe, or, as "-", the standard input if it is one of these, with a column of pages and optional ones of
+/// nodes and prices; other columns are ignored. Pages are any integers below 2^64, prices below 2^32. Throws core::InputError
+/// naming the line, core::CapacityError for more than 2^32 - 2 references. Gzip files are read through `unpack`; without it they
+/// are refused.
 using UnpackText = std::function<std::unique_ptr<std::istream>(std::istream&)>;
 ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns = {},
                                const UnpackText& unpack = {});

@@ -21,14 +21,6 @@ namespace {
 constexpr const char* references_data_file = "references.csv";
 constexpr std::uint32_t references_size_count = 12;
 
-TableFiles files_of(const ReferencesOptions& options) {
-  std::vector<NamedFile> inputs;
-  if (options.file != "-") {
-    inputs.push_back({"FILE", options.file});
-  }
-  return {options.table, {names_of(references_data_file, {CacheCurves::plot({})})}, {.inputs = std::move(inputs)}};
-}
-
 /// Shows the number of caches fed, on a terminal. Thread safety: any thread may call count().
 class CachesFed {
  public:
@@ -45,14 +37,37 @@ class CachesFed {
 };
 
 std::vector<CacheCurves::NodeReferences> references_of(const ReferenceTrace& trace) {
-  return {trace.nodes.begin(), trace.nodes.end()};
+  std::vector<CacheCurves::NodeReferences> nodes;
+  for (std::size_t node = 0; node < trace.nodes.size(); ++node) {
+    nodes.push_back({trace.nodes[node]});
+    if (!trace.prices.empty()) {
+      nodes.back().prices = trace.prices[node];
+    }
+  }
+  return nodes;
+}
+
+std::vector<Plot> plots_of(const ReferencesOptions& options, CacheCurves::Policies policies) {
+  std::vector<Plot> plots = {CacheCurves::plot(policies)};
+  if (options.columns.price) {
+    plots.push_back(CacheCurves::cost_plot(policies));
+  }
+  return plots;
+}
+
+TableFiles files_of(const ReferencesOptions& options) {
+  std::vector<NamedFile> inputs;
+  if (options.file != "-") {
+    inputs.push_back({"FILE", options.file});
+  }
+  return {options.table, {names_of(references_data_file, plots_of(options, {}))}, {.inputs = std::move(inputs)}};
 }
 
 Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, CacheCurves::Policies policies,
                const Interrupt& interrupt) {
   Table table("Study references of " + options.file + ": " + counted(trace.reference_count, "reference") + " of " +
                   counted(trace.page_count, "page") + " by " + counted(trace.nodes.size(), "node"),
-              CacheCurves::columns("share of pages", policies));
+              CacheCurves::columns("share of pages", policies, options.columns.price.has_value()));
   const std::vector<std::uint32_t> sizes =
       options.cache_pages.empty() ? geometric_sizes(trace.page_count, references_size_count) : options.cache_pages;
   CachesFed fed(CacheCurves::cache_count(trace.nodes.size(), sizes.size(), policies), !options.quiet && stderr_is_terminal());
@@ -63,6 +78,10 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, Ca
       "Each node has a cache of its own, and faults are those of all. Share of pages: the cache of one node over all "
       "that are referenced. Misses are given as a share of all references.");
   table.add_note(CacheCurves::note());
+  if (options.columns.price) {
+    table.add_note("Cost: the sum of the faults' prices, from the column " + *options.columns.price +
+                   ". The optimum has the fewest faults, which need not cost least.");
+  }
   table.add_note(curves.needs_note());
   return table;
 }
@@ -73,14 +92,16 @@ void add_options(OptionSet set, ReferencesOptions& options) {
   set.add_argument(
       "FILE", [&options](const std::string& text) { options.file = text; },
       "A CSV file, perhaps packed by gzip, whose first line names its columns: page, and perhaps node; others are passed over. - "
-      "is "
-      "the standard input");
+      "is the standard input");
   set.add_text(
       "--page-column", "NAME [page]", [&options](const std::string& text) { options.columns.page = text; },
       "The column that has the page");
   set.add_text(
       "--node-column", "NAME [node]", [&options](const std::string& text) { options.columns.node = text; },
       "The column that has the node; without one all references are one node's");
+  set.add_text(
+      "--price-column", "NAME", [&options](const std::string& text) { options.columns.price = text; },
+      "The column that has what a miss costs, such as bytes: policies are then compared by the sum of these prices, too");
   add_cache_pages(set, options.cache_pages);
   add_policies(set, options.policies);
   add_options(set, options.table, TableExtras::plots_and_report);
@@ -91,6 +112,7 @@ void add_options(OptionSet set, ReferencesOptions& options) {
       "  dmpc study references trace.csv.gz --page-column=block --node-column=thread\n"
       "  zstdcat trace.csv.zst | dmpc study references -\n"
       "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
+      "  dmpc study references trace.csv --price-column=bytes\n"
       "  dmpc study references trace.csv --policy=python:$HOME/oldest.py:Oldest\n"
       "A page is a whole number, whatever it stands for: the references may be any program's.");
 }
@@ -108,7 +130,7 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
     return study_result({.title = "Study references of " + options.file,
                          .table = *table,
                          .data_file = references_data_file,
-                         .plots = {CacheCurves::plot(policies)}},
+                         .plots = plots_of(options, policies)},
                         options.table.format);
   };
   return run_tabled(

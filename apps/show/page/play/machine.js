@@ -9,7 +9,7 @@ cards.push({id: "machine", headingOf: () => "The machine", start: (run, box) => 
   const machine = run.machine = {places: new Map()};
   machine.canvas = makeCanvas(run, "machine", "Nodes by how much they compute, and links by how long they were held. The tables of nodes and links below say the same.", box,
     (x, y) => partAt(run, x, y), (right, down) => right || !links.length ? {node: beside(state.node, right || down, nodes)} : {link: beside(state.link, down, links.length)});
-  make("p", {class: "note"}, box, "Discs: computing at that time. " + (over.links ? "Links: bytes at that time." : links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
+  make("p", {class: "note"}, box, "Discs: computing in the time shown. " + (over.links ? "Links: bytes in the time shown." : links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
   const placeOf = placerOf(run);
   for (let node = 0; node < nodes; ++node) machine.places.set("node " + node, placeOf(node));
   placeOthers(run, placeOf);

@@ -8,7 +8,7 @@ cards.push({id: "pairs", headingOf: ({pairs}) => !pairs || pairs.side < 2 ? "" :
   if (places) unpacked(places).forEach((place, i) => { pairs.all[place] = counts[i]; });
   pairs.most = largestOf(counts);
   baked.width = baked.height = side;
-  make("p", {class: "note"}, box, `Rows: ${row}. Columns: ${column}. ${over.pairs ? `At that time, at most ${numberText(over.pairs.largest * over.pairs.most / 255)} ${over.pairs.what} in ${timeText(over.pairs.step_ns / 1e6)}` :
+  make("p", {class: "note"}, box, `Rows: ${row}. Columns: ${column}. ${over.pairs ? `In the time shown at most ${numberText(over.pairs.largest * over.pairs.most / 255)} ${over.pairs.what} in ${timeText(over.pairs.step_ns / 1e6)}` :
     `The whole run, at most ${numberText(pairs.most)} ${what}`}.`);
   part(() => (over.pairs ? stepKey() : "") + choiceKey(chosen()), () => drawPairs(run, canvas, baked));
 }});

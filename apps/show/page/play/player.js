@@ -28,7 +28,7 @@ const settle = (choice) => {
   pointed = null;
   change({...nothing, ...choice});
 };
-const partText = () => state.to > state.from ? `from ${timeText(state.from)} to ${timeText(state.to)}` : "at " + timeText(state.t);
+const partText = () => isWhole() ? "in the whole run" : state.to > state.from ? `from ${timeText(state.from)} to ${timeText(state.to)}` : "at " + timeText(state.t);
 /// Of all runs, but what one alone has.
 const wordsOf = (choice) => {
   const isOfAll = choice.x >= 0 || (choice.node >= 0 && choice.peer < 0);

@@ -43,9 +43,11 @@ const change = (parts) => {
   writeAddress();
 };
 
-/// Steps of the brush, or else the one of now: first and last. Beyond the end of a run there is none.
+/// At the end, where a page opens, all of the run is shown, not its last moment.
+const isWhole = () => state.to <= state.from && state.t >= totalMs;
+/// Steps of the brush, or else all, or the one of now: first and last. Beyond the end of a run there is none.
 const stepsShown = ({step_ns, steps, total_ns}) => {
-  const [from, to] = state.to > state.from ? [state.from, state.to * (1 - 1e-9)] : [state.t, state.t];
+  const [from, to] = isWhole() ? [0, totalMs] : state.to > state.from ? [state.from, state.to * (1 - 1e-9)] : [state.t, state.t];
   const stepOf = (ms) => Math.max(0, Math.min(steps - 1, Math.ceil(total_ns / step_ns) - 1, Math.floor(ms * 1e6 / step_ns)));
   return from > total_ns / 1e6 ? [0, -1] : [stepOf(from), stepOf(to)];
 };

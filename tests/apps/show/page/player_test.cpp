@@ -79,6 +79,15 @@ TEST_CASE("the chain of causes leads back to the start, from a wait by key and f
                  "The wait ended when it did"));
 }
 
+TEST_CASE("a page opens with where the time of the whole run went, not with its last moment") {
+  const std::string page = page_of(), text = "id('names').parentElement.textContent";
+  const std::string opened = reported(page, "", text);
+  CHECK_MESSAGE(contains(opened, "Of all nodes, in the whole run."), opened);
+  const std::string table = "id('names').textContent";
+  CHECK(reported(page, "", table) == reported(page, "", table, "#from=0&to=1e9"));
+  CHECK(contains(reported(page, "", text, "#t=0"), "Of all nodes, at 0"));
+}
+
 TEST_CASE("the view's command has its heat map and window") {
   CHECK(reported(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
         "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.pftrace --trace-window=1.000000,2.000000");

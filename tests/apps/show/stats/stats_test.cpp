@@ -229,6 +229,25 @@ TEST_CASE("what was left out is told skip by skip, with its unit, and whether it
   CHECK(value(of("cutoff"), "exact") == "false");
 }
 
+TEST_CASE("a picture that is a copy has its film, and nothing that a run counts") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::dataflow, Strategy::forest}) {
+    Rendered rendered(small(strategy));
+    const std::string before = rendered.json();
+    clear_counters(*rendered.report);
+    RenderRecord copied = rendered.record();
+    copied.copied_frame = 7;
+    const std::string json = stats_json(copied);
+    CHECK(value(json, "film_hash") == value(before, "film_hash"));
+    CHECK(value(before, "total") != "0");
+    CHECK(value(json, "total") == "0");
+    CHECK(value(before, "copied_frame") == "null");
+    CHECK(value(json, "copied_frame") == "7");
+    const Account account = account_of(*rendered.report);
+    CHECK(nodes::total(account.sent).packets + account.operations.bvh_node_reads + nodes::total(account.host.received).packets ==
+          0);
+  }
+}
+
 TEST_CASE("the records of the database are told by kind") {
   const Rendered rendered(small());
   const std::string json = rendered.json();

@@ -22,14 +22,15 @@ namespace dmpc::tests::references_command_test {
 namespace {
 
 /// What the command writes of a file with these lines.
-std::string output_of(const std::string& lines, const std::vector<std::uint32_t>& cache_pages) {
+std::string output_of(const std::string& lines, const std::vector<std::uint32_t>& cache_pages,
+                      const apps::ReferenceColumns& columns = {}) {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "trace.csv").string();
   std::ofstream(path) << lines;
   apps::Interrupt interrupt;
   std::ostringstream output;
   const apps::ReferencesOptions options{
-      .file = path, .cache_pages = cache_pages, .table = {.format = apps::TableFormat::csv}, .quiet = true};
+      .file = path, .columns = columns, .cache_pages = cache_pages, .table = {.format = apps::TableFormat::csv}, .quiet = true};
   CHECK(apps::study_references_command(options, interrupt, output) == 0);
   return output.str();
 }
@@ -131,6 +132,28 @@ TEST_CASE("the study of references draws its curves, in a folder and on a page")
   const apps::Plot plot = apps::CacheCurves::plot({});
   CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
   CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
+}
+
+TEST_CASE("with prices policies are compared by what their faults cost, too") {
+  // Belady's anomaly again, where page 1 costs 10 and the others 1. With 3 frames lru, clock and fifo fault twice on page 1, at
+  // first and after it has left, and 8, 7 and 7 times on others; the optimum once, and 6 times on others.
+  const std::string lines = "cost,page\n10,1\n1,2\n1,3\n1,4\n10,1\n1,2\n1,5\n10,1\n1,2\n1,3\n1,4\n1,5\n";
+  const std::string output = output_of(lines, {3}, {.price = "cost"});
+  CHECK(contains(output, ",faults optimum,cost lru,cost clock,cost fifo,"));
+  CHECK(contains(output, "\n3,60,83.33333333333333,10,9,9,"));
+  CHECK(contains(output, ",7,28,27,27,"));
+  CHECK(contains(output, ",16\n"));
+  CHECK_FALSE(contains(output_of(lines, {3}), "cost"));
+}
+
+TEST_CASE("a price that is repeated with its page counts once, and nodes pay together") {
+  const std::string output = output_of("node,page,ns\n0,1,5\n0,1,900\n2,7,4000000000\n", {1}, {.price = "ns"});
+  CHECK(contains(output, "\n1,50,66.66666666666667,2,2,2,2,2,2,2,2,4000000005,4000000005,"));
+  CHECK_THROWS_WITH_AS(output_of("page,ns\n1,4294967296\n", {1}, {.price = "ns"}),
+                       doctest::Contains("the price is '4294967296'; expected a whole number up to 4294967295"),
+                       core::InputError);
+  CHECK_THROWS_WITH_AS(output_of("page\n1\n", {1}, {.price = "ns"}), doctest::Contains("no column is called ns"),
+                       core::InputError);
 }
 
 TEST_CASE("a policy of one's own has a column beside dmpc's, on plots, too") {
