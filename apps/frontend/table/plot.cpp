@@ -298,9 +298,6 @@ class Script {
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }
 
-  /// In gnuplot, each filled shape follows the same hollow one.
-  static int hollow(int shape) { return shape % 2 == 1 ? shape - 1 : shape; }
-
   /// Returns the box with its lines to both ends, and above it one so flat that it is a line.
   std::string band(std::size_t series, const std::string& color) const {
     const PlotSeries& drawn = *drawn_[series];
@@ -326,7 +323,7 @@ class Script {
       case PlotMark::bars:
         return "boxes" + color + (is_again ? " fillstyle pattern " + std::to_string(hatches[color_number]) : "");
       case PlotMark::intervals:
-        return "yerrorbars pointtype " + std::to_string(hollow(shapes[series.color])) + " pointsize 1.1" + color;
+        return "yerrorbars linewidth 1.5" + shape + " pointsize 0.6" + color;
       case PlotMark::points:
         return "points" + shape + " pointsize 1.1" + color;
       default:
@@ -334,7 +331,7 @@ class Script {
     }
   }
 
-  /// Returns the layers of a series: a hatch is transparent and needs a background.
+  /// Returns the layers of a series: a hatch is transparent and needs a background, and intervals have their line below them.
   std::string elements(std::size_t series) const {
     const PlotSeries& drawn = *drawn_[series];
     if (drawn.mark == PlotMark::bands) {
@@ -344,11 +341,14 @@ class Script {
     for (const std::string& end : ends_of(drawn)) {
       ends += ":(column(" + column(end) + "))";
     }
-    const std::string numbers = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" + ends +
-                                (drawn.mark == PlotMark::line ? " smooth unique" : "") + " with ";
-    const std::string ground = "boxes linecolor '" + std::string(hatch_ground) + "' notitle";
-    return (is_hatched(drawn) ? numbers + ground + next_line : "") + numbers + style_of(drawn) + " title " +
-           gnuplot_text(drawn.title);
+    const std::string points = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")";
+    const std::string numbers = points + ends + (drawn.mark == PlotMark::line ? " smooth unique" : "") + " with ";
+    const std::string below = is_hatched(drawn) ? numbers + "boxes linecolor '" + hatch_ground + "' notitle" + next_line
+                              : drawn.mark == PlotMark::intervals
+                                  ? points + " smooth unique with lines linewidth 2 linecolor '" +
+                                        plot_colors[drawn.color % plot_colors.size()] + "' notitle" + next_line
+                                  : "";
+    return below + numbers + style_of(drawn) + " title " + gnuplot_text(drawn.title);
   }
 
   /// Stacked bars are drawn from the top down, so that each covers the part below.

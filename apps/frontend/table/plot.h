@@ -13,8 +13,8 @@
 
 namespace dmpc::apps {
 
-/// Style of a series: computed values are a line from left to right, reference values are points, uncertain values are hollow
-/// points with an interval, and distributions are a box with a line in it and whiskers.
+/// Style of a series: computed values are a line from left to right, reference values are points, uncertain values are a line
+/// whose points have intervals, and distributions are a box with a line in it and whiskers.
 enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 
 /// Number of styles that colour-blind people can distinguish: eight colours, then the first four of them again, dashed or

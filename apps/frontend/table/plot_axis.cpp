@@ -18,7 +18,7 @@ constexpr double headroom = 0.04;
 /// Space above and below on a logarithmic axis.
 constexpr double margin_factor = 1.25;
 
-/// Adds space around the values along y if no limits are given.
+/// Adds space around the values if no limits are given.
 void widen(PlotAxis& axis, const PlotExtent& extent) {
   const bool is_logarithmic = axis.scale == PlotScale::powers_of_10;
   if (!axis.most) {
@@ -76,7 +76,7 @@ std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent&
   if (axis.scale == PlotScale::powers_of_2 || !(shown.largest > shown.least) || (is_logarithmic && shown.least <= 0)) {
     return axis_lines(name, axis);
   }
-  if (name == "y") {
+  if (name == "y" || is_logarithmic) {
     widen(axis, shown);
   }
   std::string tics;

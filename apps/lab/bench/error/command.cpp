@@ -25,11 +25,11 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t default_reference_side = 32;
-/// A quick bench takes less than half a minute on two cores.
-constexpr std::uint32_t quick_reference_side = 16;
+/// A quick bench takes less than 20 s on two cores.
+constexpr std::uint32_t quick_reference_side = 12;
 constexpr Resolution quick_resolution{192, 192};
 /// For paths, whose references have many more samples.
-constexpr Resolution path_resolution{128, 128}, quick_path_resolution{96, 96};
+constexpr Resolution path_resolution{128, 128}, quick_path_resolution{64, 64};
 
 /// Samples for path references, and fewer for a quick bench.
 constexpr std::uint32_t path_reference_side = 128, quick_path_reference_side = 32;
@@ -68,7 +68,7 @@ TableFiles files_of(const ErrorOptions& options) {
   std::vector<PlottedNames> plotted;
   for (const std::string& scene : options.scenes) {
     add_scene_file(scene, others.inputs);
-    plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_seconds", plot_name_of(scene) + "_rays"}});
+    plotted.push_back({data_file_of(scene), {plot_name_of(scene), knobs_plot_of(plot_name_of(scene))}});
   }
   return {options.table, plotted, others};
 }
@@ -87,20 +87,17 @@ std::string title_of(const ErrorOptions& options) {
 }
 
 std::vector<std::string> explanations(bool are_by_paths) {
-  const std::string unclaimed =
-      "; a row whose RMSE is less than 10 times the reference's own error supports no claim and is on no Pareto front. Plots "
-      "show it hollow, without the reference's error, with an interval from what is left if that error were twice as large, a "
-      "tenth at least, to the whole RMSE.";
-  return {are_by_paths
-              ? "Errors are against the converged picture in the renderer's own arithmetic, with other samples than all rows" +
-                    unclaimed
-              : "Errors without a qualifier are against the converged picture in double precision" + unclaimed,
-          are_by_paths ? "Seconds are processor time. Fewer bounces make the picture darker, an error that samples do not "
-                         "reduce; roulette and BSDF sampling alone cause no such error."
+  return {std::string("RMSEs are against the converged picture in ") +
+              (are_by_paths ? "the renderer's own arithmetic, with other samples than all rows." : "double precision."),
+          "Errors are RMSEs without the reference's own, whose square is subtracted, with an interval of 95 % by how much 64 "
+          "groups of pixels differ; an error below the reference's own is not told, drawn or compared.",
+          "Seconds are processor time. Shares at equal error are interpolated in logarithms; their intervals have the groups' "
+          "differences and the rounds' least and most.",
+          are_by_paths ? "Fewer bounces make the picture darker, an error that samples do not reduce; roulette and BSDF sampling "
+                         "alone cause no such error."
                        : "Deterministic errors are those of the knob alone: against the picture with the same samples and the "
                          "knob at its exact position; for arithmetic, against the same samples in double precision.",
-          "The target of adaptive sampling is never below the reference's own error.",
-          "Ratios at equal RMSE are interpolated in logarithms, after the square of the reference's own error is subtracted."};
+          "Adaptive sampling is asked for no error below the reference's own, or that uniform samples do not reach."};
 }
 
 Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
@@ -129,7 +126,8 @@ std::string first_words(const ErrorOptions& options, std::span<const SceneResult
 std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
   std::vector<PlottedTable> plotted;
   for (const SceneResult& result : results) {
-    plotted.push_back({plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))});
+    plotted.push_back(
+        {table_of({&result, 1}, result.scene), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))});
   }
   return plotted;
 }
@@ -163,7 +161,6 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   if (!set.is_given("--resolution")) {
     measure.picture.resolution = are_by_paths ? quick_path_resolution : quick_resolution;
   }
-  measure.rounds = set.is_given("--repeat") ? measure.rounds : 1;
   if (!set.is_given("--reference-samples")) {
     measure.reference.samples_a_side = are_by_paths ? quick_path_reference_side : quick_reference_side;
   }
@@ -199,11 +196,10 @@ void add_turned_options(OptionSet set, ErrorOptions& options) {
         options.has_tessellation = measure.knobs.contains(Knob::tessellation);
       },
       "Knobs to turn, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
-      "default); adaptive also together with cutoff or depth. By paths: samples, adaptive, bounces, roulette and emitters (the "
-      "number of those for light sampling)");
+      "default). By paths: samples, adaptive, bounces, roulette and emitters (the number of those for light sampling)");
   set.add_flag("--quick", measure.is_quick,
-               "Fewer positions of each knob and, unless given, 192x192 pixels, one round and 16 x 16 samples per pixel of the "
-               "reference: half a minute");
+               "Fewer positions of each knob and, unless given, 192x192 pixels and 12 x 12 samples per pixel of the "
+               "reference: less than 20 s");
   set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Number of rounds; everything is rendered and timed in each");
   set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
                  "Samples per pixel where they are not the knob");
@@ -245,7 +241,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
       "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --light-radius=1 --quick\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --format=csv -o shells.csv\n"
-      "By paths pictures have 128x128 pixels by default, 96x96 with --quick, and references 32 x 32 samples with --quick.\n"
+      "By paths pictures have 128x128 pixels by default, 64x64 with --quick, and references 32 x 32 samples with --quick.\n"
       "The reference and the base point have the given depth; the other depths are smaller.");
   set.check_in_the_end([set, &options] {
     choose_transport(set, options.measure);

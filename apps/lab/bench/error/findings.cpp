@@ -1,45 +1,73 @@
 #include "apps/lab/bench/error/findings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <sstream>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/table/averages.h"
 #include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {
 
-constexpr double step = 1.0 / 255, quarter_step = step / 4;
+constexpr double quarter_step = 0.25 / 255;
 
-/// The curve of one knob, with both costs.
-struct Curve {
-  std::vector<CostPoint> rays, seconds;
-};
+using CostOf = std::function<double(const Measurement&)>;
 
-Curve curve_of(const SceneResult& result, Knob knob) {
-  Curve curve;
+double rays_of(const Measurement& measurement) { return static_cast<double>(measurement.rays); }
+double seconds_of(const Measurement& measurement) { return measurement.least_seconds(); }
+
+/// Returns the curve of one knob, without a group of pixels if `left_out` is one.
+std::vector<CostPoint> curve_of(const SceneResult& result, Knob knob, const CostOf& cost, std::size_t left_out = pixel_groups) {
+  std::vector<CostPoint> curve;
   for (std::size_t point = 0; point < result.points.size(); ++point) {
-    const Measurement& measurement = result.of(point);
-    const auto error = measurement.is_done() ? error_without_reference(result, measurement) : std::nullopt;
-    if (result.points[point].knob == knob && error) {
-      curve.rays.push_back({static_cast<double>(measurement.rays), *error});
-      curve.seconds.push_back({median(measurement.seconds), *error});
+    if (result.points[point].knob == knob && is_told(result, result.of(point))) {
+      curve.push_back({cost(result.of(point)), error_of(result.of(point), left_out)});
     }
   }
   return curve;
 }
 
-std::optional<double> divided(std::optional<double> cost, double whole) {
-  return cost && whole > 0 ? std::optional(*cost / whole) : std::nullopt;
+std::optional<double> share_at(const SceneResult& result, double error, const CostOf& cost, std::size_t left_out = pixel_groups) {
+  const auto uniform = cost_at(curve_of(result, Knob::samples, cost, left_out), error);
+  const auto adaptive = cost_at(curve_of(result, Knob::adaptive, cost, left_out), error);
+  return uniform && adaptive ? std::optional(*adaptive / *uniform) : std::nullopt;
 }
 
-std::string gain_text(const SceneResult& result) {
-  const AdaptiveGain gain = adaptive_gain(result);
-  return gain.seconds && gain.rays ? result.scene + ": for an RMSE of 1/255 uniform samples take " + fixed(*gain.seconds, 2) +
-                                         " times the time of adaptive ones (" + fixed(*gain.rays, 2) + " times the rays)."
-                                   : "";
+std::optional<Estimate> time_share_at(const SceneResult& result, double error) {
+  const std::optional<double> middle = share_at(result, error, seconds_of);
+  double variance = 0, spread = 0;
+  for (std::size_t group = 0; middle && group < pixel_groups; ++group) {
+    const double other = share_at(result, error, seconds_of, group).value_or(*middle);
+    variance += std::pow(std::log(other / *middle), 2) * (pixel_groups - 1) / pixel_groups;
+  }
+  for (std::size_t round = 0; middle && round < result.measurements.front().seconds.size(); ++round) {
+    const auto seconds = [round](const Measurement& one) { return one.seconds[std::min(round, one.seconds.size() - 1)]; };
+    const std::optional<double> other = share_at(result, error, seconds);
+    spread = std::max(spread, std::abs(std::log(other.value_or(*middle) / *middle)));
+  }
+  const double factor = std::exp(std::hypot(2 * std::sqrt(variance), spread));
+  return middle ? std::optional(Estimate{*middle / factor, *middle, *middle * factor}) : std::nullopt;
+}
+
+bool has(const SceneResult& result, Knob knob) {
+  return std::ranges::find(result.points, knob, &Point::knob) != result.points.end();
+}
+
+std::string adaptive_text(const SceneResult& result) {
+  const std::vector<AdaptiveShare> shares = adaptive_shares(result);
+  std::string rays;
+  for (const AdaptiveShare& share : shares) {
+    rays += (rays.empty() ? "; in rays " : ", ") + fixed(share.rays, 2) + " at " + share.error;
+  }
+  if (!shares.empty()) {
+    return result.scene + ": " + text_of(shares) + rays + ".";
+  }
+  return has(result, Knob::samples) && has(result, Knob::adaptive)
+             ? result.scene + ": no error asked of adaptive sampling is reached by both it and uniform sampling."
+             : "";
 }
 
 /// "1/255 (0.123/255, 0.81 times the rays)".
@@ -71,10 +99,10 @@ const Measurement* measured(const SceneResult& result, Knob knob, const std::str
   return nullptr;
 }
 
-/// Returns "0.9/255", with a mark if it is not claimed.
+/// Returns "0.9/255", with a mark if the reference cannot tell it.
 std::string error_text(const SceneResult& result, const Measurement& measurement) {
-  return fixed(255 * measurement.error.root_mean_square, 2) + "/255" +
-         (is_claimed(result, measurement) ? "" : " (less than 10 times the reference's own error)");
+  return fixed(255 * error_of(measurement), 2) + "/255" +
+         (is_told(result, measurement) ? "" : " (below the reference's own error)");
 }
 
 std::string quality_text(const SceneResult& result) {
@@ -84,9 +112,9 @@ std::string quality_text(const SceneResult& result) {
     return "";
   }
   const double rays = static_cast<double>(draft->rays) / static_cast<double>(std::max<std::uint64_t>(standard->rays, 1));
-  return result.scene + ": default quality has an RMSE of " + error_text(result, *standard) + ", draft " +
+  return result.scene + ": default quality has an error of " + error_text(result, *standard) + ", draft " +
          error_text(result, *draft) + " for " + fixed(rays, 3) + " times the rays (" +
-         fixed(median(draft->seconds) / median(standard->seconds), 3) + " times the seconds).";
+         fixed(draft->least_seconds() / standard->least_seconds(), 3) + " times the seconds).";
 }
 
 /// A point's time as a multiple of that of uniform samples with the same error: `at_least` if one sample has less error.
@@ -96,12 +124,11 @@ struct ChanceRatio {
 };
 std::optional<ChanceRatio> chance_ratio(const SceneResult& result, Knob knob, const std::string& position) {
   const Measurement* const turned = measured(result, knob, position);
-  const double error = turned != nullptr ? error_without_reference(result, *turned).value_or(0) : 0;
-  const std::vector<CostPoint> even = curve_of(result, Knob::samples).seconds;
-  if (!(error > 0) || even.empty()) {
+  const std::vector<CostPoint> even = curve_of(result, Knob::samples, seconds_of);
+  if (turned == nullptr || !is_told(result, *turned) || even.empty()) {
     return std::nullopt;
   }
-  const double seconds = median(turned->seconds);
+  const double error = error_of(*turned), seconds = turned->least_seconds();
   if (const auto cost = cost_at(even, error)) {
     return ChanceRatio{seconds / *cost};
   }
@@ -135,24 +162,47 @@ std::string scientific(double value) {
   return text.str();
 }
 
+/// The reference, and where it ends the range of errors.
 std::string reference_text(const SceneResult& result) {
   const std::string n = std::to_string(result.reference_samples_a_side);
+  const auto below = static_cast<std::uint64_t>(
+      std::ranges::count_if(result.measurements, [&](const Measurement& one) { return one.is_done() && !is_told(result, one); }));
   return result.scene + ": the reference has " + n + "x" + n + " samples a pixel, " +
          (result.base.is_by_paths() ? counted(static_cast<std::uint64_t>(*result.base.bounces), "bounce")
                                     : "depth " + std::to_string(result.base.depth)) +
-         ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) + "; its own error is " +
-         fixed(255 * result.reference.own_error, 4) + "/255 (relative MSE " +
-         scientific(result.reference.own_relative_mean_square) + ").";
+         ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) +
+         "; errors end at its own one, " + fixed(255 * result.reference.own_error, 3) + "/255 (relative MSE " +
+         scientific(result.reference.own_relative_mean_square) + ")" +
+         (below == 0 ? "."
+                     : ": of " + counted(below, "setting") +
+                           " below it nothing is drawn or compared; a larger --reference-samples reaches further.");
 }
 
 }  // namespace
 
-AdaptiveGain adaptive_gain(const SceneResult& result) {
-  const Curve even = curve_of(result, Knob::samples), adaptive = curve_of(result, Knob::adaptive);
-  const auto gain = [](std::span<const CostPoint> of_even, std::span<const CostPoint> of_adaptive) {
-    return divided(cost_at(of_even, step), cost_at(of_adaptive, step).value_or(0));
-  };
-  return {.seconds = gain(even.seconds, adaptive.seconds), .rays = gain(even.rays, adaptive.rays)};
+std::vector<AdaptiveShare> adaptive_shares(const SceneResult& result) {
+  std::vector<AdaptiveShare> shares;
+  for (const Point& point : result.points) {
+    const double error = point.setting.error;
+    if (const auto time = point.knob == Knob::adaptive ? time_share_at(result, error) : std::nullopt) {
+      shares.push_back({point.text, *time, share_at(result, error, rays_of).value_or(0)});
+    }
+  }
+  return shares;
+}
+
+std::string text_of(std::span<const AdaptiveShare> shares) {
+  std::string decided, undecided;
+  for (const AdaptiveShare& share : shares) {
+    const std::string at = share.error + " (" + fixed(share.time.low, 2) + " to " + fixed(share.time.high, 2) + ")";
+    if (share.is_undecided()) {
+      undecided += (undecided.empty() ? "no difference that this run can tell at " : ", ") + at;
+    } else {
+      const std::string times = fixed(share.time.middle, 2);
+      decided += decided.empty() ? "adaptive takes " + times + " of uniform's time at " + at : ", " + times + " at " + at;
+    }
+  }
+  return decided + (undecided.empty() ? "" : (decided.empty() ? "between adaptive and uniform " : "; ") + undecided);
 }
 
 std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) {
@@ -170,7 +220,7 @@ std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) 
 std::vector<std::string> findings_of(const SceneResult& result) {
   std::vector<std::string> sentences;
   for (std::string text :
-       {gain_text(result), reference_text(result), cheapest_text(result), quality_text(result), chance_text(result)}) {
+       {adaptive_text(result), reference_text(result), cheapest_text(result), quality_text(result), chance_text(result)}) {
     if (!text.empty()) {
       sentences.push_back(std::move(text));
     }
@@ -179,22 +229,14 @@ std::vector<std::string> findings_of(const SceneResult& result) {
 }
 
 std::string summary_of(std::span<const SceneResult> results) {
-  std::uint64_t all = 0, claimed = 0;
-  std::string gains;
+  std::string summary;
   for (const SceneResult& result : results) {
-    for (std::size_t point = 0; point < result.points.size(); ++point) {
-      all += result.of(point).is_done() ? 1 : 0;
-      claimed += result.of(point).is_done() && is_claimed(result, result.of(point)) ? 1 : 0;
+    if (std::ranges::any_of(result.measurements, &Measurement::is_done)) {
+      const std::string adaptive = adaptive_text(result);
+      summary += (summary.empty() ? "" : " ") + adaptive + (adaptive.empty() ? "" : " ") + reference_text(result);
     }
-    const std::string gain = gain_text(result);
-    gains += gain.empty() ? "" : gain + " ";
   }
-  return all == 0 ? ""
-                  : gains + grouped(claimed) + " of " + counted(all, "setting") +
-                        " have errors of at least 10 times the reference's own" +
-                        (claimed == all ? "."
-                                        : "; of the others the reference's is taken off in squares, and plots show them hollow, "
-                                          "with an interval.");
+  return summary;
 }
 
 }  // namespace dmpc::apps

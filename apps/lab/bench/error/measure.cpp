@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -122,36 +124,51 @@ class Bench {
   void measure() {
     find_reference();
     find_reference_picture();
-    plan();
+    plan(true, result_.reference.own_error);
+    for (Measurement& measurement : result_.measurements) {
+      measure(measurement);
+    }
+    plan(false, least_error());
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
-    round_by_round(options_.rounds, result_.measurements.size(), progress,
-                   [&](std::size_t index) { measure(result_.measurements[index]); });
+    const std::size_t count = result_.measurements.size();
+    round_by_round(options_.rounds, count, [&](std::size_t round, std::size_t index) {
+      progress.update(round * count + index, options_.rounds * count);
+      if (result_.measurements[index].seconds.size() <= round) {
+        measure(result_.measurements[index]);
+      }
+    });
   }
 
  private:
-  /// An error smaller than the reference's own could not be detected.
-  void plan() {
-    SweepOptions options{.knobs = options_.knobs,
-                         .is_quick = options_.is_quick,
-                         .error_least = result_.reference.own_error,
-                         .emitters = result_.emitters};
+  /// Adaptive sampling is asked for no error that the reference cannot tell, or that uniform samples do not reach.
+  double least_error() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Measurement& measurement : result_.measurements) {
+      least = is_told(result_, measurement) ? std::min(least, error_of(measurement)) : least;
+    }
+    return std::max(std::isfinite(least) ? least / curve_reach : 0, result_.reference.own_error);
+  }
+
+  /// Plans uniform samples, or the other knobs.
+  void plan(bool is_uniform, double error_least) {
+    SweepOptions options{
+        .knobs = options_.knobs, .is_quick = options_.is_quick, .error_least = error_least, .emitters = result_.emitters};
+    std::erase_if(options.knobs, [&](Knob knob) { return (knob == Knob::samples) != is_uniform; });
     if (options.knobs.contains(Knob::tessellation)) {
       options.tessellations = tessellations_of(result_.scene, options.is_quick);
     }
-    result_.points = sweep(result_.base, options);
-    add_measurements();
+    add_points(sweep(result_.base, options));
   }
 
-  /// The base point comes first, if there is any point: others are compared with its picture.
-  void add_measurements() {
-    for (const Point& point : result_.points) {
-      if (point.setting == result_.base && result_.measurements.empty()) {
-        result_.measurements.push_back({.setting = result_.base});
-      }
+  /// The base point is measured first, if there is any point: others are compared with its picture.
+  void add_points(const std::vector<Point>& points) {
+    auto& all = result_.measurements;
+    if (all.empty() && std::ranges::find(points, result_.base, &Point::setting) != points.end()) {
+      all.push_back({.setting = result_.base});
     }
-    for (const Point& point : result_.points) {
-      auto& all = result_.measurements;
-      const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.setting == point.setting; });
+    for (const Point& point : points) {
+      result_.points.push_back(point);
+      const auto found = std::ranges::find(all, point.setting, &Measurement::setting);
       result_.measurement_of.push_back(static_cast<std::size_t>(found - all.begin()));
       if (found == all.end()) {
         all.push_back({.setting = point.setting});
@@ -202,7 +219,7 @@ class Bench {
         render_timed(options_.strategy, scenes_.of(setting).subject.database, settings_of(setting), interrupt_);
     const Account account = account_of(one.report);
     return {.picture = image_of(account.film),
-            .seconds = setting.is_by_paths() ? one.times.processor_seconds : one.times.wall_seconds,
+            .seconds = one.times.processor_seconds,
             .rays = account.operations.ray_count(),
             .samples = account.film.samples(),
             .film_hash = account.film.hash()};
@@ -233,6 +250,7 @@ class Bench {
       }
     }
     measurement.error = measure_error(picture, result_.reference.picture);
+    measurement.squares = square_errors(picture, result_.reference);
     if (base_ && !setting.is_by_paths() && !setting.is_refined() && setting.samples == result_.base.samples) {
       measurement.deterministic = measure_error(picture, *base_);
     }
@@ -256,7 +274,7 @@ std::string file_text(const std::string& text) {
 
 void measure_scene(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result) {
   Bench(scene, options, interrupt, result).measure();
-  result.reference.picture = {};
+  result.reference.picture = result.reference.difference = {};
 }
 
 }  // namespace dmpc::apps

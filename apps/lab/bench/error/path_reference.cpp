@@ -36,14 +36,14 @@ class RowRenderer {
         tracer_(records_, settings.header, settings.skips),
         stack_(static_cast<std::size_t>(core::waiting_hits_max(settings.shade))) {}
 
-  RowFigures render(int row, Image& picture) {
+  RowFigures render(int row, Reference& reference) {
     RowFigures figures;
     core::Operations operations;
     const auto width = static_cast<std::uint32_t>(settings_.camera.width());
     for (std::uint32_t pixel = static_cast<std::uint32_t>(row) * width; pixel < (static_cast<std::uint32_t>(row) + 1) * width;
          ++pixel) {
       const core::Vec3d a = half(pixel, path_reference_first, operations);
-      figures.add(pixel, a, half(pixel, path_reference_first + half_, operations), picture);
+      figures.add(pixel, a, half(pixel, path_reference_first + half_, operations), reference);
     }
     figures.rays = operations.ray_count();
     return figures;
@@ -72,7 +72,7 @@ Reference path_reference(const core::Database& database, const core::RenderSetti
   const auto start = std::chrono::steady_clock::now();
   const auto rows = static_cast<std::size_t>(settings.camera.height());
   Reference reference;
-  reference.picture = Image(settings.camera.width(), settings.camera.height());
+  reference.picture = reference.difference = Image(settings.camera.width(), settings.camera.height());
   std::vector<RowFigures> figures(rows);
   std::uint64_t done = 0;
   const core::Parallel parallel(0);
@@ -80,7 +80,7 @@ Reference path_reference(const core::Database& database, const core::RenderSetti
       rows,
       [&](std::size_t row) {
         if (!attendance.stop.stop_requested()) {
-          figures[row] = RowRenderer(database, settings, samples).render(static_cast<int>(row), reference.picture);
+          figures[row] = RowRenderer(database, settings, samples).render(static_cast<int>(row), reference);
         }
       },
       [&](std::size_t) { attendance.progress(++done, rows); });

@@ -3,26 +3,47 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 
 namespace dmpc::apps {
 
-bool is_claimed(const SceneResult& result, const Measurement& measurement) {
-  return measurement.error.root_mean_square >= 10 * result.reference.own_error;
+std::vector<double> square_errors(const Image& picture, const Reference& reference) {
+  const auto square = [](double value) { return value * value; };
+  std::vector<double> squares(pixel_groups);
+  const std::size_t channels = picture.rgb.size();
+  for (std::size_t i = 0; i < channels; ++i) {
+    const double gap = double{picture.rgb[i]} - double{reference.picture.rgb[i]};
+    squares[core::mix(i / 3) % pixel_groups] +=
+        (square(gap) - square(double{reference.difference.rgb[i]})) / static_cast<double>(channels);
+  }
+  return squares;
 }
 
-std::optional<double> error_without_reference(const SceneResult& result, const Measurement& measurement) {
-  const double all = measurement.error.root_mean_square, own = result.reference.own_error;
-  return all > 2 * own ? std::optional(std::sqrt(all * all - own * own)) : std::nullopt;
+double error_of(const Measurement& measurement, std::size_t left_out) {
+  double sum = std::accumulate(measurement.squares.begin(), measurement.squares.end(), 0.0);
+  if (left_out < pixel_groups) {
+    sum = (sum - measurement.squares[left_out]) * pixel_groups / (pixel_groups - 1);
+  }
+  return std::sqrt(std::max(sum, 0.0));
 }
 
-ErrorInterval error_interval(const SceneResult& result, const Measurement& measurement) {
-  const double all = measurement.error.root_mean_square, own = result.reference.own_error, least = all / 10;
-  const auto without = [&](double reference) {
-    return std::max(least, std::sqrt(std::max(0.0, all * all - reference * reference)));
-  };
-  return {.low = without(2 * own), .middle = without(own), .high = all};
+bool is_told(const SceneResult& result, const Measurement& measurement) {
+  const double error = error_of(measurement);
+  return measurement.is_done() && std::isfinite(error) && error > 0 && error >= result.reference.own_error;
+}
+
+Estimate error_interval(const Measurement& measurement) {
+  const double error = error_of(measurement), mean = error * error / pixel_groups;
+  double variance = 0;
+  for (const double square : measurement.squares) {
+    variance += (square - mean) * (square - mean) * pixel_groups / (pixel_groups - 1);
+  }
+  // Twice the deviation, and half of that for the root.
+  const double factor = std::exp(std::sqrt(variance) / (error * error));
+  return {.low = error / factor, .middle = error, .high = error * factor};
 }
 
 std::optional<PictureError> deterministic_error(const SceneResult& result, std::size_t point) {
@@ -57,12 +78,12 @@ std::map<double, double> by_error(std::span<const CostPoint> points) {
 
 }  // namespace
 
-std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vector<bool>& is_eligible) {
-  core::expect(points.size() == is_eligible.size(), "every point is eligible or not");
-  std::vector<bool> front = is_eligible;
+std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vector<bool>& is_drawn) {
+  core::expect(points.size() == is_drawn.size(), "every point is drawn or not");
+  std::vector<bool> front = is_drawn;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t other = 0; other < points.size(); ++other) {
-      front[i] = front[i] && !(is_eligible[other] && beats(points[other], points[i]));
+      front[i] = front[i] && !(is_drawn[other] && beats(points[other], points[i]));
     }
   }
   return front;
@@ -70,13 +91,14 @@ std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vec
 
 std::optional<double> cost_at(std::span<const CostPoint> points, double error) {
   const std::map<double, double> costs = by_error(points);
-  const auto above = costs.lower_bound(error);
-  if (above == costs.end() || (above == costs.begin() && above->first != error)) {
+  if (const auto same = costs.find(error); same != costs.end()) {
+    return same->second;
+  }
+  if (costs.size() < 2 || error * curve_reach < costs.begin()->first || error > costs.rbegin()->first * curve_reach) {
     return std::nullopt;
   }
-  if (above->first == error) {
-    return above->second;
-  }
+  auto above = costs.upper_bound(error);
+  above = above == costs.begin() ? std::next(above) : above == costs.end() ? std::prev(above) : above;
   const auto below = std::prev(above);
   const double share = std::log(error / below->first) / std::log(above->first / below->first);
   return below->second * std::pow(above->second / below->second, share);

@@ -15,33 +15,20 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 12> knob_names = {
-    "samples", "adaptive", "cutoff",   "depth",    "tessellation",        "arithmetic",
-    "quality", "bounces",  "roulette", "emitters", "adaptive and cutoff", "adaptive and depth"};
-/// Number of knobs on the command line.
-constexpr std::size_t single_count = 10;
+constexpr std::array<const char*, 10> knob_names = {"samples",    "adaptive", "cutoff",  "depth",    "tessellation",
+                                                    "arithmetic", "quality",  "bounces", "roulette", "emitters"};
 constexpr const char *whitted_knobs = "samples,adaptive,cutoff,depth,tessellation,arithmetic,quality",
                      *path_knobs = "samples,adaptive,bounces,roulette,emitters";
 
 Knob knob_of(const std::string& word, const std::string& text) {
-  const auto* const end = knob_names.begin() + single_count;
-  const auto* const found = std::find(knob_names.begin(), end, word);
-  if (found == end) {
-    const std::vector<std::string> all(knob_names.begin(), end);
+  const auto* const found = std::find(knob_names.begin(), knob_names.end(), word);
+  if (found == knob_names.end()) {
+    const std::vector<std::string> all(knob_names.begin(), knob_names.end());
     const std::string meant = core::did_you_mean(word, all);
     throw core::UsageError("--knobs=" + text + ": expected some of " + whitted_knobs + ", or by paths of " + path_knobs +
                            ", with commas between them" + (meant.empty() ? "" : ".") + meant);
   }
   return static_cast<Knob>(found - knob_names.begin());
-}
-
-void add_pairs(std::set<Knob>& knobs) {
-  if (knobs.contains(Knob::adaptive) && knobs.contains(Knob::cutoff)) {
-    knobs.insert(Knob::adaptive_and_cutoff);
-  }
-  if (knobs.contains(Knob::adaptive) && knobs.contains(Knob::depth)) {
-    knobs.insert(Knob::adaptive_and_depth);
-  }
 }
 
 /// A number as written for readers.
@@ -50,14 +37,18 @@ struct Named {
   double value;
 };
 
-constexpr std::array<Named, 8> errors = {{{"16/255", 16.0 / 255},
-                                          {"8/255", 8.0 / 255},
-                                          {"4/255", 4.0 / 255},
-                                          {"2/255", 2.0 / 255},
-                                          {"1/255", 1.0 / 255},
-                                          {"1/510", 1.0 / 510},
-                                          {"1/1020", 1.0 / 1020},
-                                          {"1/2040", 1.0 / 2040}}};
+constexpr std::array<Named, 10> errors = {{{"64/255", 64.0 / 255},
+                                           {"32/255", 32.0 / 255},
+                                           {"16/255", 16.0 / 255},
+                                           {"8/255", 8.0 / 255},
+                                           {"4/255", 4.0 / 255},
+                                           {"2/255", 2.0 / 255},
+                                           {"1/255", 1.0 / 255},
+                                           {"1/510", 1.0 / 510},
+                                           {"1/1020", 1.0 / 1020},
+                                           {"1/2040", 1.0 / 2040}}};
+/// A quick sweep has so many of them.
+constexpr std::ptrdiff_t quick_errors = 5;
 constexpr std::array<Named, 6> cutoffs = {
     {{"1/64", 1.0 / 64}, {"1/255", 1.0 / 255}, {"1/512", 1.0 / 512}, {"1/1024", 1.0 / 1024}, {"1/4096", 1.0 / 4096}, {"0", 0}}};
 constexpr std::array bounce_counts = {0, 1, 2, 3, 4, 6, 8, 12, 16, 32, 64, 128};
@@ -99,10 +90,6 @@ class Sweep {
         });
       case Knob::emitters:
         return add_emitters();
-      case Knob::adaptive_and_cutoff:
-        return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", &Setting::cutoff);
-      case Knob::adaptive_and_depth:
-        return add_pairs(std::array<Named, 2>{{{"3", 3}, {"5", 5}}}, knob, " depth ", &Setting::depth);
     }
   }
 
@@ -152,15 +139,12 @@ class Sweep {
     add_each(positions, add_one);
   }
 
-  /// A quick sweep has the errors about an 8-bit step.
   void add_errors() {
-    for (std::size_t i = options_.is_quick ? 1 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
-      add_refined(Knob::adaptive, errors[i].text, refined(errors[i]));
-    }
-  }
-  void add_refined(Knob knob, const std::string& text, const Setting& setting) {
-    if (setting.error >= options_.error_least) {
-      add(knob, text, setting);
+    const auto* const end =
+        std::ranges::partition_point(errors, [&](const Named& error) { return error.value >= options_.error_least; });
+    for (const auto* error = options_.is_quick ? std::max(end - quick_errors, errors.begin()) : errors.begin(); error != end;
+         ++error) {
+      add(Knob::adaptive, error->text, refined(*error));
     }
   }
 
@@ -196,20 +180,6 @@ class Sweep {
     }
   }
 
-  /// Adds errors near an 8-bit step with each position of the other knob except the base point's.
-  template <class Positions, class Position>
-  void add_pairs(const Positions& positions, Knob knob, const std::string& between, Position Setting::*turned_too) {
-    for (const Named& position : positions) {
-      for (std::size_t error = 1; error + 1 < errors.size(); error += options_.is_quick ? 3 : 1) {
-        Setting setting = refined(errors[error]);
-        setting.*turned_too = static_cast<Position>(position.value);
-        if (setting.depth < base_.depth || setting.cutoff > 0) {
-          add_refined(knob, errors[error].text + between + position.text, setting);
-        }
-      }
-    }
-  }
-
   const Setting& base_;
   const SweepOptions& options_;
 };
@@ -223,7 +193,6 @@ std::set<Knob> parse_knobs(const std::string& text) {
   for (const std::string& word : words_between_commas(text, "--knobs")) {
     knobs.insert(knob_of(word, text));
   }
-  add_pairs(knobs);
   return knobs;
 }
 

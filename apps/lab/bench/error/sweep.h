@@ -1,5 +1,4 @@
-// The settings that `bench error` measures: every knob of a render that trades time for error, varied alone about a base point,
-// and some pairs.
+// The settings that `bench error` measures: every knob of a render that trades time for error, varied alone about a base point.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +12,7 @@
 
 namespace dmpc::apps {
 
-/// The last two vary two knobs together. For paths there are samples, adaptive, and the three before the last two, which only
-/// paths have.
+/// For paths there are samples, adaptive, and the last three, which only paths have.
 enum class Knob : std::uint8_t {
   samples,
   adaptive,
@@ -25,16 +23,13 @@ enum class Knob : std::uint8_t {
   quality,
   bounces,
   roulette,
-  emitters,
-  adaptive_and_cutoff,
-  adaptive_and_depth
+  emitters
 };
 
-/// Returns the name on the command line and in the table; pairs have spaces.
+/// Returns the name on the command line and in the table.
 const char* name_of(Knob knob);
 
-/// Parses "samples,depth"; a pair is included if both of its knobs are. Throws core::UsageError, which lists the known knobs, for
-/// anything else.
+/// Parses "samples,depth". Throws core::UsageError, which lists the known knobs, for anything else.
 std::set<Knob> parse_knobs(const std::string& text);
 
 /// Returns all knobs that the scene and its family allow, for pictures by paths or others.
@@ -67,7 +62,7 @@ struct Point {
 struct SweepOptions {
   std::set<Knob> knobs;
   std::vector<int> tessellations;  ///< positions of that knob in addition to exact quadrics, above 0
-  bool is_quick = false;           ///< fewer positions of each knob
+  bool is_quick = false;           ///< fewer positions of each knob, and of adaptive the smallest
   double error_least = 0;          ///< the smallest error requested of a refined picture
   std::uint32_t emitters = 0;      ///< sampled by the base point; 0: there is nothing to vary
 };

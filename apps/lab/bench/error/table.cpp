@@ -5,29 +5,34 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/frontend/table/averages.h"
 #include "apps/frontend/table/filled_columns.h"
+#include "apps/lab/bench/error/findings.h"
 #include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr double steps = 255;
+constexpr const char* front_of_samples = "front of uniform and adaptive";
 
 struct Fronts {
-  std::vector<bool> by_rays, by_seconds;
+  std::vector<bool> of_all, of_samples;  ///< by measurement: among all points, and those of uniform and adaptive sampling
 };
 
+bool is_of_samples(Knob knob) { return knob == Knob::samples || knob == Knob::adaptive; }
+
 Fronts fronts_of(const SceneResult& result) {
-  std::vector<CostPoint> rays, seconds;
-  std::vector<bool> is_eligible;
+  std::vector<CostPoint> points;
+  std::vector<bool> is_drawn, is_sampling(result.measurements.size());
   for (const Measurement& one : result.measurements) {
-    const double error = one.error.root_mean_square;
-    rays.push_back({static_cast<double>(one.rays), error});
-    seconds.push_back({one.is_done() ? median(one.seconds) : 0, error});
-    is_eligible.push_back(one.is_done() && is_claimed(result, one));
+    points.push_back({one.is_done() ? one.least_seconds() : 0, error_of(one)});
+    is_drawn.push_back(is_told(result, one));
   }
-  return {pareto_front(rays, is_eligible), pareto_front(seconds, is_eligible)};
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    const std::size_t one = result.measurement_of[point];
+    is_sampling[one] = is_sampling[one] || (is_of_samples(result.points[point].knob) && is_drawn[one]);
+  }
+  return {pareto_front(points, is_drawn), pareto_front(points, is_sampling)};
 }
 
 struct ErrorRow {
@@ -36,6 +41,7 @@ struct ErrorRow {
   std::size_t point;
 
   const Point& place() const { return result.points[point]; }
+  std::size_t index() const { return result.measurement_of[point]; }
   const Measurement& measured() const { return result.of(point); }
   double a_pixel(std::uint64_t count) const { return static_cast<double>(count) / static_cast<double>(result.pixels()); }
 };
@@ -72,19 +78,24 @@ FilledColumns<ErrorRow> make_error_columns() {
       {{"samples a pixel", "", 2}, [](const Row& row) { return row.a_pixel(row.measured().samples); }},
       {{"rays"}, [](const Row& row) { return row.measured().rays; }},
       {{"rays a pixel", "", 2}, [](const Row& row) { return row.a_pixel(row.measured().rays); }},
-      {{"seconds median", "s", 3}, [](const Row& row) { return median(row.measured().seconds); }},
-      {{"seconds least", "s", 3}, [](const Row& row) { return std::ranges::min(row.measured().seconds); }},
+      {{"seconds least", "s", 3}, [](const Row& row) { return row.measured().least_seconds(); }},
       {{"seconds most", "s", 3}, [](const Row& row) { return std::ranges::max(row.measured().seconds); }}};
+  const auto add = [&](const char* name, double Estimate::*part) {
+    columns.push_back({{name, "1/255", 3}, [part](const Row& row) {
+                         const bool told = is_told(row.result, row.measured());
+                         return told ? Cell(steps * error_interval(row.measured()).*part) : Cell();
+                       }});
+  };
+  add("error", &Estimate::middle);
+  add("error low", &Estimate::low);
+  add("error high", &Estimate::high);
+  columns.push_back({{"remark"}, [](const Row& row) {
+                       return std::string(is_told(row.result, row.measured()) ? "" : "less than the reference's own error");
+                     }});
+  columns.push_back({{"front"}, [](const Row& row) { return yes_if(row.fronts.of_all[row.index()]); }});
+  columns.push_back({{front_of_samples}, [](const Row& row) { return yes_if(row.fronts.of_samples[row.index()]); }});
   add_errors(
       "", [](const Row& row) { return std::optional(row.measured().error); }, columns);
-  columns.push_back({{"remark"}, [](const Row& row) {
-                       return std::string(is_claimed(row.result, row.measured()) ? "" : "less than 10 times the reference's own");
-                     }});
-  const auto is_on = [](const std::vector<bool>& front, const Row& row) {
-    return yes_if(front[row.result.measurement_of[row.point]]);
-  };
-  columns.push_back({{"front by rays"}, [is_on](const Row& row) { return is_on(row.fronts.by_rays, row); }});
-  columns.push_back({{"front by seconds"}, [is_on](const Row& row) { return is_on(row.fronts.by_seconds, row); }});
   add_errors(
       "deterministic ", [](const Row& row) { return deterministic_error(row.result, row.point); }, columns);
   return columns;
@@ -102,32 +113,6 @@ FilledColumns<ErrorRow> columns_of(bool are_by_paths) {
   return columns;
 }
 
-/// Additional columns for plots: the error of claimed rows as it is, and for others the remaining error with its interval.
-FilledColumns<ErrorRow> make_drawn_columns() {
-  using Row = ErrorRow;
-  FilledColumns<Row> columns = error_columns();
-  columns.push_back({{"drawn RMSE", "1/255", 3}, [](const Row& row) {
-                       return is_claimed(row.result, row.measured()) ? Cell(steps * row.measured().error.root_mean_square)
-                                                                     : Cell();
-                     }});
-  const auto add = [&](const char* name, double ErrorInterval::*end) {
-    columns.push_back({{name, "1/255", 3}, [end](const Row& row) {
-                         return is_claimed(row.result, row.measured())
-                                    ? Cell()
-                                    : Cell(steps * error_interval(row.result, row.measured()).*end);
-                       }});
-  };
-  add("RMSE without the reference's", &ErrorInterval::middle);
-  add("least without", &ErrorInterval::low);
-  add("most without", &ErrorInterval::high);
-  return columns;
-}
-
-const FilledColumns<ErrorRow>& drawn_columns() {
-  static const FilledColumns<ErrorRow> columns = make_drawn_columns();
-  return columns;
-}
-
 void add_rows(Table& table, const SceneResult& result, const FilledColumns<ErrorRow>& columns) {
   const Fronts fronts = fronts_of(result);
   for (std::size_t point = 0; point < result.points.size(); ++point) {
@@ -137,51 +122,35 @@ void add_rows(Table& table, const SceneResult& result, const FilledColumns<Error
   }
 }
 
+/// Knobs that only paths have take the colours of those that paths do not have; black is the front's.
 std::size_t color_of(Knob knob) {
-  return knob == Knob::adaptive_and_depth    ? 7
-         : knob == Knob::adaptive_and_cutoff ? 5
-         : knob == Knob::bounces             ? color_of(Knob::depth)
-         : knob == Knob::roulette            ? color_of(Knob::cutoff)
-         : knob == Knob::emitters            ? color_of(Knob::tessellation)
-                                             : static_cast<std::size_t>(knob);
+  const auto number = static_cast<std::size_t>(knob);
+  return knob >= Knob::bounces ? number - 5 : knob == Knob::quality ? number - 1 : number;
 }
 
-/// Two knobs at once form a cloud, as does a single point; the others form curves.
-PlotSeries series_of(Knob knob) {
-  const bool is_of_paths = knob == Knob::bounces || knob == Knob::roulette || knob == Knob::emitters;
-  const bool is_cloud = knob >= Knob::arithmetic && !is_of_paths;
-  return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
-}
-
-/// A knob's points whose error is too near to the reference's own.
-PlotSeries uncertain_series_of(Knob knob) {
-  return {.title = std::string(name_of(knob)) + ", uncertain",
-          .column = "RMSE without the reference's",
-          .where = {{"knob", name_of(knob)}},
-          .mark = PlotMark::intervals,
+PlotSeries series_of(Knob knob, PlotMark mark) {
+  const std::string name = name_of(knob);
+  return {.title = knob == Knob::samples    ? "uniform sampling"
+                   : knob == Knob::adaptive ? "adaptive sampling"
+                                            : name,
+          .column = "error",
+          .where = {{"knob", name}},
+          .mark = mark,
           .color = color_of(knob),
-          .low = "least without",
-          .high = "most without"};
+          .low = "error low",
+          .high = "error high"};
 }
 
-Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, const std::string& column,
-             const std::string& front) {
-  std::vector<PlotSeries> series;
-  constexpr std::array whitted{
-      Knob::samples,           Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::adaptive_and_cutoff,
-      Knob::adaptive_and_depth};
-  constexpr std::array paths{Knob::samples, Knob::adaptive, Knob::bounces, Knob::roulette, Knob::emitters};
-  for (const Knob knob : result.base.is_by_paths() ? std::span<const Knob>(paths) : std::span<const Knob>(whitted)) {
-    series.push_back(series_of(knob));
-    series.push_back(uncertain_series_of(knob));
-  }
-  series.push_back({"Pareto front", "drawn RMSE", {{front, "yes"}}, PlotMark::line, 6});
-  series.push_back({"on the front", "drawn RMSE", {{front, "yes"}}, PlotMark::points, 6});
-  x.scale = PlotScale::powers_of_10;
-  return curves(name,
-                result.scene + " at " + std::to_string(result.width) + "x" + std::to_string(result.height) +
-                    ": error against the converged picture",
-                column, std::move(x), {.label = "RMSE (1/255)", .scale = PlotScale::powers_of_10}, std::move(series));
+PlotSeries front_series(const char* column) {
+  return {.title = "on the front", .column = "error", .where = {{column, "yes"}}, .mark = PlotMark::points, .color = 6};
+}
+
+Plot plot_of(const SceneResult& result, const std::string& name, const std::string& title, std::vector<PlotSeries> series) {
+  const std::string size = std::to_string(result.width) + "x" + std::to_string(result.height);
+  return curves(name, result.scene + ": " + title, "seconds least",
+                {.label = "processor time of " + size + " pixels (least of the rounds)", .scale = PlotScale::powers_of_10},
+                {.label = "error without the reference's own (RMSE, 1/255)", .scale = PlotScale::powers_of_10},
+                std::move(series));
 }
 
 }  // namespace
@@ -195,18 +164,27 @@ Table table_of(std::span<const SceneResult> results, const std::string& title) {
   return table;
 }
 
-Table plotted_table(const SceneResult& result) {
-  Table table(result.scene, heads_of(drawn_columns()));
-  add_rows(table, result, drawn_columns());
-  return table;
+std::vector<Plot> plots_of(const SceneResult& result, const std::string& name) {
+  const std::vector<AdaptiveShare> shares = adaptive_shares(result);
+  std::vector<PlotSeries> sampling, knobs;
+  for (const Knob knob : {Knob::samples, Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::quality,
+                          Knob::bounces, Knob::roulette, Knob::emitters}) {
+    knobs.push_back(series_of(knob, knob == Knob::quality ? PlotMark::points : PlotMark::line));
+    if (is_of_samples(knob)) {
+      sampling.push_back(series_of(knob, PlotMark::intervals));
+    }
+  }
+  sampling.push_back(front_series(front_of_samples));
+  knobs.push_back(front_series("front"));
+  std::vector<Plot> plots = {
+      plot_of(result, name, shares.empty() ? "error against time" : text_of(std::span(shares).last(1)), std::move(sampling))};
+  const auto is_other = [](const Point& point) { return !is_of_samples(point.knob) && point.knob != Knob::arithmetic; };
+  if (std::ranges::any_of(result.points, is_other)) {
+    plots.push_back(plot_of(result, knobs_plot_of(name), "the other knobs", std::move(knobs)));
+  }
+  return plots;
 }
 
-std::vector<Plot> plots_of(const SceneResult& result, const std::string& name) {
-  const bool is_by_paths = result.base.is_by_paths();
-  return {plot_of(result, name + "_seconds",
-                  {.label = is_by_paths ? "processor seconds to render (median)" : "seconds to render (median)"},
-                  "seconds median", "front by seconds"),
-          plot_of(result, name + "_rays", {.label = "rays of all kinds"}, "rays", "front by rays")};
-}
+std::string knobs_plot_of(const std::string& name) { return name + "_knobs"; }
 
 }  // namespace dmpc::apps

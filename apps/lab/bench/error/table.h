@@ -11,14 +11,14 @@
 
 namespace dmpc::apps {
 
-/// Returns the rows of all measured points, in their order. The Pareto fronts are those of the scene's points whose error is
-/// claimed. Errors are in 8-bit steps, 1/255, of linear light.
+/// Returns the rows of all measured points, in their order. Errors are in 8-bit steps, 1/255, of linear light; without the
+/// reference's own only if it tells them (is_told()).
 Table table_of(std::span<const SceneResult> results, const std::string& title);
 
-/// Returns the claimed rows of one scene, from which its plots are drawn.
-Table plotted_table(const SceneResult& result);
-
-/// Returns RMSE against seconds and against rays, named after `name`: a curve for each knob, and the Pareto front.
+/// Returns plots of the scene's table, errors against processor time: `name`, of uniform and adaptive sampling alone, and of the
+/// other knobs, if there are any. Points that nothing beats in the same plot are marked.
 std::vector<Plot> plots_of(const SceneResult& result, const std::string& name);
+/// Returns the name of the second plot.
+std::string knobs_plot_of(const std::string& name);
 
 }  // namespace dmpc::apps

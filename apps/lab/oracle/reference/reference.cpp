@@ -16,10 +16,11 @@ constexpr double relative_floor = 0.01;
 
 }  // namespace
 
-void HalvesSum::add(std::size_t pixel, const Vec3d& a, const Vec3d& b, Image& picture) {
+void HalvesSum::add(std::size_t pixel, const Vec3d& a, const Vec3d& b, Reference& reference) {
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const double mean = (a[channel] + b[channel]) / 2, off = (a[channel] - b[channel]) / 2;
-    picture.rgb[3 * pixel + channel] = static_cast<float>(mean);
+    reference.picture.rgb[3 * pixel + channel] = static_cast<float>(mean);
+    reference.difference.rgb[3 * pixel + channel] = static_cast<float>(off);
     squares += off * off;
     relative_squares += off * off / ((mean + relative_floor) * (mean + relative_floor));
   }
@@ -49,10 +50,10 @@ Reference reference_for(const core::Scene& scene, const PictureOptions& picture,
   };
   const ReferencePicture a = half(0, SamplePattern::stratified(n, n / 2, 2 * options.seed));
   const ReferencePicture b = half(1, SamplePattern::stratified(n / 2, n, 2 * options.seed + 1));
-  Reference reference{.picture = Image(a.width, a.height), .rays = a.rays + b.rays};
+  Reference reference{.picture = Image(a.width, a.height), .difference = Image(a.width, a.height), .rays = a.rays + b.rays};
   HalvesSum sum;
   for (std::size_t pixel = 0; pixel < a.radiance.size(); ++pixel) {
-    sum.add(pixel, a.radiance[pixel], b.radiance[pixel], reference.picture);
+    sum.add(pixel, a.radiance[pixel], b.radiance[pixel], reference);
   }
   sum.finish(reference);
   reference.seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -21,6 +21,7 @@ struct ReferenceOptions {
 /// says how far the picture is from the one with infinitely many samples.
 struct Reference {
   Image picture;         ///< linear radiance, rounded to float at the end
+  Image difference;      ///< (A - B) / 2, rounded as well
   double own_error = 0;  ///< root mean square of (A - B) / 2 over all channels of all pixels, to compare with an RMSE
   /// Mean of ((A - B) / 2)^2 / (picture + 0.01)^2, to compare with PictureError::relative_mean_square.
   double own_relative_mean_square = 0;
@@ -32,8 +33,8 @@ struct Reference {
 struct HalvesSum {
   double squares = 0, relative_squares = 0;
 
-  /// Adds a pixel of both halves; the picture gets their mean.
-  void add(std::size_t pixel, const core::Vec3d& a, const core::Vec3d& b, Image& picture);
+  /// Adds a pixel of both halves to the sums and to the reference's images, which have its size.
+  void add(std::size_t pixel, const core::Vec3d& a, const core::Vec3d& b, Reference& reference);
   /// Sets the reference's own errors, from all pixels of its picture.
   void finish(Reference& reference) const;
 };

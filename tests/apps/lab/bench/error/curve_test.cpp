@@ -32,7 +32,7 @@ TEST_CASE("points that are equal in cost and error are on the Pareto front toget
   CHECK(front({{1, 2}, {1, 2}, {2, 3}}) == std::vector{true, true, false});
 }
 
-TEST_CASE("a point that is not eligible is on no Pareto front and keeps no other off it") {
+TEST_CASE("a point that is not drawn is on no Pareto front and keeps no other off it") {
   CHECK(pareto_front(std::vector<CostPoint>{{1, 1}, {2, 2}}, {false, true}) == std::vector{false, true});
   CHECK_THROWS_AS(pareto_front(std::vector<CostPoint>{{1, 1}}, {}), core::InternalError);
 }
@@ -50,11 +50,14 @@ TEST_CASE("the cost at the error of a point is that of the cheapest such point")
   CHECK(*cost_at(std::vector<CostPoint>{{7, 3}}, 3) == 7);
 }
 
-TEST_CASE("nothing is known of the cost at an error outside the curve") {
+TEST_CASE("nothing is known of the cost at an error more than a tenth outside the curve, which goes straight on so far") {
   const std::vector<CostPoint> points = {{100, 2}, {400, 1}};
-  CHECK_FALSE(cost_at(points, 2.01));
-  CHECK_FALSE(cost_at(points, 0.99));
+  CHECK(*cost_at(points, 2 * 1.05) == doctest::Approx(100 / (1.05 * 1.05)));
+  CHECK(*cost_at(points, 1 / 1.05) == doctest::Approx(400 * 1.05 * 1.05));
+  CHECK_FALSE(cost_at(points, 2.21));
+  CHECK_FALSE(cost_at(points, 0.9));
   CHECK_FALSE(cost_at({}, 1));
+  CHECK_FALSE(cost_at(std::vector<CostPoint>{{7, 3}}, 2.9));
   CHECK_FALSE(cost_at(std::vector<CostPoint>{{0, 2}, {400, 1}, {9, 0}}, 1.5));
 }
 

@@ -31,6 +31,8 @@ TEST_CASE("a reference says how far it is from one with many more samples") {
   CHECK(fine.own_error < rough.own_error / 3);
   CHECK(error > rough.own_error / 1.5);
   CHECK(error < rough.own_error * 1.5);
+  const apps::Image none(rough.picture.width, rough.picture.height);
+  CHECK(apps::measure_error(rough.difference, none).root_mean_square == doctest::Approx(rough.own_error));
 }
 
 TEST_CASE("a reference sees textures as they are, without cones") {
