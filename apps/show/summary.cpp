@@ -172,6 +172,14 @@ StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& rep
               "\n"};
 }
 
+/// Returns the line about a host that was busy for more than half of the run; empty if it was not.
+std::string host_line(const nodes::VirtualReport& report) {
+  const double share = report.host_busy_share();
+  return share <= 0.5 ? ""
+                      : "host     busy for " + percent_text(100 * share) +
+                            " of the run, mostly with film, so it may decide the time; with more samples a pixel nodes do\n";
+}
+
 /// Returns the lines of a run in virtual time, with line ends; none without it.
 std::string virtual_lines(const RenderRecord& record, const Account& account) {
   const std::optional<nodes::Machine>& machine = record.options.computer.machine;
@@ -182,7 +190,7 @@ std::string virtual_lines(const RenderRecord& record, const Account& account) {
   const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + name_with_links(*machine);
   return "virtual  " + time + ", " + counted(report.events, "event") + "; run_hash " +
          hash_text(report.run_hash(record.film_hash)) + ", machine_digest " + hash_text(report.machine_digest) + "\nlosses   " +
-         parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
+         parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n" + host_line(report);
 }
 
 std::string time_text(const Seconds& seconds) {

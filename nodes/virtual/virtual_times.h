@@ -26,10 +26,11 @@ struct VirtualTimes {
   std::array<std::uint64_t, packet_kind_count> waiting_ns{};
   std::uint64_t end_ns = 0;  ///< idle time at the end
 
+  /// Everything but waiting.
+  std::uint64_t busy_ns() const { return computing_ns + sending_ns + receiving_ns + service_busy_ns + service_idle_ns; }
   /// The length of the run: the same for every node.
   std::uint64_t total_ns() const {
-    return computing_ns + sending_ns + receiving_ns + service_busy_ns + service_idle_ns +
-           std::accumulate(waiting_ns.begin(), waiting_ns.end(), std::uint64_t{0}) + end_ns;
+    return busy_ns() + std::accumulate(waiting_ns.begin(), waiting_ns.end(), std::uint64_t{0}) + end_ns;
   }
 };
 
@@ -49,6 +50,10 @@ struct VirtualReport {
   std::vector<VirtualTimes> nodes;                 ///< in order, the host last
   std::optional<CriticalPath> critical_path = {};  ///< if an observer followed paths; adds up to total_ns
 
+  /// The share of the run in which the host was busy, in [0, 1]; 0 for a run without nodes or time.
+  double host_busy_share() const {
+    return nodes.empty() || total_ns == 0 ? 0 : static_cast<double>(nodes.back().busy_ns()) / static_cast<double>(total_ns);
+  }
   /// A digest of a whole run: its events, its machine and its product (a hash of it). Equal runs have equal hashes, on any
   /// computer and in every build type.
   std::uint64_t run_hash(std::uint64_t product_hash) const { return core::mix(core::mix(hash ^ machine_digest) ^ product_hash); }
