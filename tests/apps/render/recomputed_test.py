@@ -61,11 +61,12 @@ def stats_of(words):
 
 
 def as_written(figure, name, stats):
-    """The value with as many digits behind the point as the figure has."""
+    """The value with as many digits behind the point as the figure has, and commas if that has some."""
     share = name.startswith("% ")
     path, factor = NAMES.get(name, (name[2:], 100) if share else (name, 1))
     value = functools.reduce(lambda part, key: part[key], path.split("."), stats) * factor
     text = f"{value:,.{len(figure.partition('.')[2])}f}"
+    text = text if "," in figure else text.replace(",", "")
     return text[1:] if figure.startswith(".") and text.startswith("0.") else text
 
 
