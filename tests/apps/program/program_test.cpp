@@ -175,7 +175,7 @@ TEST_CASE("no strategy and no option of dataflow changes the film") {
                                                {"dataflow", "--ray-batch=1"},
                                                {"dataflow", "--ray-credits=0", "--chaos=3"},
                                                {"dataflow", "--cuts=alternating", "--no-skip=empty-regions"},
-                                               {"dataflow", "--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
+                                               {"dataflow", "--nodes=3", "--node-memory=304KiB", "--page-size=512B"}}) {
     const std::vector<std::string> outputs = {"--stats", folder / "a.json", "-o", folder / "a.exr"};
     CHECK(run_dmpc(together({{"render", "balls-1", "--resolution=16x16"}, outputs, {"--strategy"}, more})).status == 0);
     hashes.insert(film_hash(folder / "a.json"));

@@ -81,7 +81,9 @@ TEST_CASE("the closing lines of a modelled machine tell virtual time and what be
     CHECK_FALSE(contains(summary(small(strategy)), "virtual  "));
     CHECK_FALSE(contains(summary(small(strategy)), "losses   "));
   }
-  CHECK(contains(summary(modelled()), ", page wait "));
+  RenderOptions one = modelled();
+  one.pages.in_flight = 1;
+  CHECK(contains(summary(one), ", page wait "));
   CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
 }
 
