@@ -87,6 +87,13 @@ TEST_CASE("the closing lines of a modelled machine tell virtual time and what be
   CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
 }
 
+TEST_CASE("a host that is busy for more than half of a modelled run is told, and no other") {
+  RenderOptions options = modelled(Strategy::replicated, "hdr");
+  options.computer.node_count = 64;  // on 192 pixels
+  CHECK(contains(summary(options), "\nhost     busy for "));
+  CHECK_FALSE(contains(summary(modelled(Strategy::replicated)), "host     busy for "));
+}
+
 TEST_CASE("memory ports are told") {
   nodes::Machine machine = find_machine_preset("cm5")->machine;
   machine.has_memory_port = true;
