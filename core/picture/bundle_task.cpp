@@ -11,7 +11,8 @@ void BundleTaskWith<Bundle>::start(std::span<const std::uint32_t> pixels, std::s
                                    const RenderSettings& settings, Operations&) {
   expect((settings.header.has_instances != 0) == std::is_same_v<Bundle, InstanceBundle>,
          "a bundle is one that the database's walk takes");
-  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
+  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade, settings.skips)),
+         "the ray stack holds the hits that wait");
   expect(!pixels.empty() && pixels.size() <= pixels_max && pixels.size() == steps.size(), "a task has up to 16 pixels");
   std::copy(pixels.begin(), pixels.end(), pixels_.begin());
   std::copy(steps.begin(), steps.end(), steps_.begin());

@@ -9,7 +9,8 @@ namespace dmpc::core {
 template <class RayCursor>
 void PixelTaskWith<RayCursor>::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings,
                                      Operations& operations) {
-  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
+  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade, settings.skips)),
+         "the ray stack holds the hits that wait");
   expect((settings.header.has_instances != 0) == std::is_same_v<RayCursor, InstanceCursor>,
          "a pixel's rays have the cursor that the database's walk takes");
   pixel_ = pixel;

@@ -129,11 +129,11 @@ bool is_bsdf_sampled(const DatabaseHeader& header) { return header.has_emission 
 
 }  // namespace
 
-int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
-  if (!options.transport.is_by_paths() && !options.sends_rays_on) {
-    return 1;
+int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header, const Skips& skips) {
+  if (!options.transport.is_by_paths()) {
+    return waiting_hits_max(options, skips);
   }
-  const bool looks_for_light = options.transport.is_by_paths() && is_bsdf_sampled(header);
+  const bool looks_for_light = is_bsdf_sampled(header);
   return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
 }
 
@@ -370,7 +370,7 @@ Stage Shader::after_reflection(const HitState& state) const {
 
 /// At the last depth the path sends a ray of its own to find emitters, as long as rays may be as deep.
 bool Shader::is_at_last_depth(const HitState& state) const {
-  return state.ray.depth >= ray_depth_max(options_, header_) ||
+  return state.ray.depth >= ray_depth_max(options_, header_, skips_) ||
          (state.ray.depth >= options_.depth_max && !is_bsdf_sampled(header_));
 }
 

@@ -35,8 +35,8 @@ struct ShadeOptions {
   /// Hits at this depth spawn shadow rays only; the primary ray has depth 1. With paths it is the number of bounces plus 1, and a
   /// surface at this depth still shows the sky and emitters.
   int depth_max = 5;
-  /// Whether hits may send reflected or transmitted rays. If no material does, a ray from the eye has depth 1 and no hit waits.
-  bool sends_rays_on = true;
+  /// Whether a material of the scene may reflect or transmit rays.
+  bool has_reflection_or_transmission = true;
   /// A ray that can add only less light than this to its sample, in every channel, is not shot: this is the largest error of each
   /// omitted ray. 0: all are shot (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
@@ -51,12 +51,14 @@ struct ShadeOptions {
 
 /// How many hits of a ray's path wait at once, while rays below them are traced. With paths one: it has sent its shadow rays when
 /// it sends the path on, and does not wait for it.
-constexpr int waiting_hits_max(const ShadeOptions& options) {
-  return options.transport.is_by_paths() || !options.sends_rays_on ? 1 : options.depth_max;
+/// 1, too, where no material reflects or transmits, unless rays of weight 0 are sent.
+constexpr int waiting_hits_max(const ShadeOptions& options, const Skips& skips) {
+  const bool sends_rays_on = options.has_reflection_or_transmission || !skips.zero_terms;
+  return options.transport.is_by_paths() || !sends_rays_on ? 1 : options.depth_max;
 }
-/// The depth of the deepest ray in a database's picture, at most 255: 1 if no hit sends rays on; with paths one more if a hit at
-/// depth_max looks for emitters.
-int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header);
+/// The depth of the deepest ray in a database's picture, at most 255: with paths one more than depth_max if a hit at depth_max
+/// looks for emitters.
+int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header, const Skips& skips);
 
 /// The distance between a pixel's samples, in sides of the pixel, after the pass of this sample: passes double them. A sample
 /// represents this share of its pixel, so the more samples there are, the less a texture is blurred in each.

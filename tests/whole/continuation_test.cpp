@@ -96,7 +96,7 @@ struct Relay {
   Relay(const Subject& subject, std::uint64_t seed) {
     std::optional<PartialPicture> start;
     while (runs == 0 || last->end != nodes::RunEnd::finished) {
-      Keeper keeper(5, true);
+      Keeper keeper(2, true);
       const Run next{.strategy = all_strategies[(seed + runs) % 3],
                      .nodes = 1 + static_cast<std::uint32_t>(seed + 2 * runs) % 3,
                      .continuation = keeper.continuation(start ? &*start : nullptr),

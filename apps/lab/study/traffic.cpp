@@ -6,6 +6,7 @@
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/table/filled_columns.h"
+#include "apps/run/strategy_options.h"
 #include "dataflow/regions/balance.h"
 #include "svm/packets.h"
 
@@ -92,8 +93,10 @@ void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
   runs.expect_runs(3 * node_counts.size());
   for (const std::uint32_t node_count : node_counts) {
     const auto by_rays = [&](Balance balance, const char* regions) {
+      dataflow::RayOptions rays = StrategyOptions().rays;
+      rays.balance.balance = balance;
       return runs.run(std::to_string(node_count) + " nodes, dataflow, regions " + regions,
-                      dataflow::RunOptions{.computer = {.node_count = node_count}, .rays = {.balance = {.balance = balance}}});
+                      dataflow::RunOptions{.computer = {.node_count = node_count}, .rays = rays});
     };
     table.add_row(row_of(traffic_columns(), TrafficRow{node_count, by_rays(Balance::subsampled, "subsampled"),
                                                        by_rays(Balance::equal_size, "equal size"),

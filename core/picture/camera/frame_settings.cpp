@@ -13,8 +13,7 @@ RenderSettings seen_by(const Camera& camera, const RenderSettings& settings, con
   RenderSettings seen = settings;
   seen.camera = camera;
   seen.background = settings.skips.background ? find_background(database, camera) : BackgroundTiles();
-  // A skipped ray of weight 0 would be the only one, so without that skip there may be as many as elsewhere.
-  seen.shade.sends_rays_on = !settings.skips.zero_terms || has_reflection_or_transmission(database);
+  seen.shade.has_reflection_or_transmission = has_reflection_or_transmission(database);
   seen.shade.one_child_from = 0;
   seen.shade.one_child_from = settings.shade.transport.is_by_paths() ? std::uint8_t{0} : find_one_child_depth(database, seen);
   return seen;

@@ -239,6 +239,16 @@ class StudyTest(unittest.TestCase):
             column = {"virtual_seconds.total": "virtual_time", "links.wait": "link_wait"}.get(name, name.removeprefix("time_percent."))
             self.assertTrue(numpy.allclose(own[0][name], theirs[column], rtol=1e-12, atol=0), name)
 
+    def test_pages_and_rays_at_equal_memory_are_what_their_chosen_options_render(self):
+        space = {"__name__": "equal_memory"}
+        exec(pathlib.Path(MODULES, "examples/equal_memory.py").read_text(), space)
+        cell = space["cell"]("hdr", "tetra-2", "whitted")
+        again = space["run"]("tetra-2", machine="hdr", transport="whitted", samples=4, system="svm-extents", page_size=cell["page size"],
+                             in_flight=cell["in flight"], node_memory=f"{cell['memory (KiB)']}KiB")
+        self.assertEqual(again[0], cell["pages (s)"])
+        self.assertLessEqual(again[1], cell["memory (KiB)"] * 1024)
+        self.assertEqual(cell["rays over pages"], cell["rays (s)"] / cell["pages (s)"])
+
     def test_what_a_study_complains_of_is_raised(self):
         with self.assertRaisesRegex(dmpc.InputError, "--policy=/none.so: "):
             dmpc.study.cache("balls-1", policy="/none.so")

@@ -158,7 +158,7 @@ TEST_CASE("a forged checkpoint of a first pass is refused, or rendered to its en
 TEST_CASE("a forged checkpoint of a picture that is refined is refused, or rendered to its end") {
   const tests::Subject::Size size{12, 9, 2, {.error = 0.005}};
   try_forgeries(Forged(size, 4), forgery_count() / 3);
-  try_forgeries(Forged(size, 12), forgery_count() / 3);
+  try_forgeries(Forged(size, 6), forgery_count() / 3);
 }
 
 TEST_CASE("who reads a forged checkpoint is told what it says that cannot be") {

@@ -79,13 +79,15 @@ TEST_CASE("a modelled machine renders the film of threads, with every strategy")
   }
 }
 
-TEST_CASE("a modelled machine's nodes work on one pixel, or bundle, at once unless told otherwise") {
+TEST_CASE("a modelled machine's nodes work on 16 pixels, or a bundle of them, whatever travels, unless told otherwise") {
   const auto in_flight = [](const RenderOptions& options) {
     const Rendered rendered(options);
     return std::get<svm::Report>(*rendered.report).plan.in_flight;
   };
   RenderOptions options = modelled();
-  CHECK(in_flight(options) == 1);
+  CHECK(in_flight(options) == 16);
+  CHECK(in_flight(modelled(Strategy::forest)) == 16);
+  CHECK(in_flight(modelled(Strategy::replicated)) == 1);
   CHECK(in_flight(small()) == 64);
   options.pages.bundles_on_machines = true;
   CHECK(in_flight(options) == 16);
@@ -134,7 +136,7 @@ TEST_CASE("dataflow's defaults are those that the help tells") {
 
 TEST_CASE("a memory that is too small is bad input, and one that is scarce is worth a note") {
   RenderOptions options = small(Strategy::dataflow);
-  options.computer.node_memory_bytes = 300_KiB;
+  options.computer.node_memory_bytes = 304_KiB;
   CHECK_FALSE(Rendered(options).notes.empty());
   options.computer.node_memory_bytes = 1_KiB;
   CHECK_THROWS_AS(Rendered{options}, core::InputError);

@@ -81,8 +81,17 @@ TEST_CASE("the closing lines of a modelled machine tell virtual time and what be
     CHECK_FALSE(contains(summary(small(strategy)), "virtual  "));
     CHECK_FALSE(contains(summary(small(strategy)), "losses   "));
   }
-  CHECK(contains(summary(modelled()), ", page wait "));
+  RenderOptions one = modelled();
+  one.pages.in_flight = 1;
+  CHECK(contains(summary(one), ", page wait "));
   CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
+}
+
+TEST_CASE("a host that is busy for more than half of a modelled run is told, and no other") {
+  RenderOptions options = modelled(Strategy::replicated, "hdr");
+  options.computer.node_count = 64;  // on 192 pixels
+  CHECK(contains(summary(options), "\nhost     busy for "));
+  CHECK_FALSE(contains(summary(modelled(Strategy::replicated)), "host     busy for "));
 }
 
 TEST_CASE("memory ports are told") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/picture/camera/frame_settings.h"
 #include "core/picture/render.h"
 #include "tests/support/film_of.h"
 #include "tests/support/shooting.h"
@@ -85,6 +86,19 @@ TEST_CASE("whatever is left out, a picture is as much a crowd") {
     glass.settings.skips.*skip.is_on = false;
     CHECK(find_one_child_depth(glass.database, glass.settings) == crowd_depth);
   }
+}
+
+TEST_CASE("a matt scene needs one entry of a ray stack, whatever the depth, and one that mirrors or transmits an entry a depth") {
+  const auto waiting = [](const Scene& scene, const Skips& skips = {}) {
+    const Picture picture(scene, 255);
+    const RenderSettings settings = seen_by(picture.settings.camera, picture.settings, picture.database);
+    CHECK(ray_depth_max(settings.shade, settings.header, skips) == waiting_hits_max(settings.shade, skips));
+    return waiting_hits_max(settings.shade, skips);
+  };
+  CHECK(waiting(built_in("tetra-2")) == 1);
+  CHECK(waiting(built_in("balls-1")) == 255);
+  CHECK(waiting(nested_glass(1)) == 255);
+  CHECK(waiting(built_in("tetra-2"), no_skips()) == 255);  // rays of weight 0
 }
 
 TEST_CASE("where a hit sends one of two rays the picture is right on average") {

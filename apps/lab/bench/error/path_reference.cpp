@@ -34,7 +34,7 @@ class RowRenderer {
         half_(samples / 2),
         records_(database.bytes()),
         tracer_(records_, settings.header, settings.skips),
-        stack_(static_cast<std::size_t>(core::waiting_hits_max(settings.shade))) {}
+        stack_(static_cast<std::size_t>(core::waiting_hits_max(settings.shade, settings.skips))) {}
 
   RowFigures render(int row, Reference& reference) {
     RowFigures figures;

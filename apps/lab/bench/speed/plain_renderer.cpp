@@ -111,7 +111,7 @@ class Walker : public EmbreeQueries {
   explicit Walker(const PlainStage& stage)
       : EmbreeQueries(stage),
         settings_(stage.settings()),
-        ray_depth_max_(core::ray_depth_max(settings_.shade, settings_.header)) {}
+        ray_depth_max_(core::ray_depth_max(settings_.shade, settings_.header, settings_.skips)) {}
 
   Color mean_of(int column, int row) {
     const auto pixel = static_cast<std::uint32_t>(row * settings_.camera.width() + column);

@@ -101,7 +101,7 @@ TEST_CASE("frames are studied on one machine, or several that have names, by mor
   CHECK(several.node_counts == Counts{16, 64});
 }
 
-TEST_CASE("the study of speedup runs svm on the ipsc2 with one pixel in flight, unless told otherwise") {
+TEST_CASE("the study of speedup runs svm on the ipsc2 with the default pixels in flight, unless told otherwise") {
   const SpeedupStudy standard = speedup();
   CHECK(standard.node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
   CHECK(standard.run.strategy == Strategy::svm);

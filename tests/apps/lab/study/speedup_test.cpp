@@ -65,8 +65,7 @@ TEST_CASE("a row is that of a run by itself") {
   StudySubject subject("tetra-3");
   const Table table = subject.measure(study_of(Strategy::svm, {1, 5}));
   const svm::Report report = subject.runs.run(
-      "again", svm::RunOptions{.computer = {.node_count = 5, .machine = apps::find_machine_preset("ipsc2")->machine},
-                               .pages = {.in_flight = 1}});
+      "again", svm::RunOptions{.computer = {.node_count = 5, .machine = apps::find_machine_preset("ipsc2")->machine}});
   CHECK(real(table, 1, "virtual time") == doctest::Approx(1e-9 * static_cast<double>(report.virtual_time->total_ns)));
   CHECK(cell(table, 1, "run hash") == Cell(apps::hash_text(report.virtual_time->run_hash(report.film.hash()))));
   CHECK(whole(table, 1, "node memory") == report.plan.node_memory_max_bytes());
@@ -114,7 +113,7 @@ TEST_CASE("a study of speedup that an error ends has the rows before it") {
 TEST_CASE("the notes say what ran") {
   SpeedupStudy study = study_of(Strategy::svm, {1});
   CHECK(study.notes("tetra-3").front().find(
-            "strategy svm, memory as much as it needs, cache of a quarter of the database (lru), 1 pixel "
+            "strategy svm, memory as much as it needs, cache of a quarter of the database (lru), 16 pixels "
             "in flight, work items of 3x3.") != std::string::npos);
   study.run.computer.node_memory_bytes = 1 << 20U;
   study.run.pages = {.cache_pages = 5, .replacement = svm::Replacement::fifo, .in_flight = 4, .work_item_side = 0};

@@ -77,7 +77,9 @@ TEST_CASE("the parts of every node's virtual time add up to the run's, and to a 
 }
 
 TEST_CASE("waits for pages and for rays are waits for data") {
-  const Json pages = counters(modelled()), rays = counters(modelled(Strategy::dataflow));
+  RenderOptions one = modelled();
+  one.pages.in_flight = 1;
+  const Json pages = counters(one), rays = counters(modelled(Strategy::dataflow));
   const auto percent = [](const Json& json, const char* kind) {
     return 100 * json["virtual_seconds"]["waiting"][kind].get<double>() / (3 * json["virtual_seconds"]["total"].get<double>());
   };
