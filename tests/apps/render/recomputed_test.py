@@ -41,7 +41,8 @@ def command_of(section):
 def cells_of(section):
     """(figure, name, words) of each cell."""
     line = re.search(r"^Recomputed: (.*?)(?:\n\n|\Z)", section, re.MULTILINE | re.DOTALL)
-    cells = [re.fullmatch(r"([\d.,]+) (.+?) by `(.+?)`\.?", cell) for cell in line[1].replace("\n", " ").strip().split("; ")] if line else []
+    texts = line[1].replace("\n", " ").strip().split("; ") if line else []
+    cells = [re.fullmatch(r"([\d.,]+) (.+?) by `(.+?)`\.?", text) for text in texts]
     if not all(cells):
         raise ValueError(f"expected 'Recomputed: FIGURE NAME by `OPTIONS`; ...', found: {line[0]}")
     return [cell.groups() for cell in cells]
