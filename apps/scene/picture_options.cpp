@@ -212,8 +212,10 @@ void add_transport_options(OptionSet options, PictureOptions& picture) {
 }
 
 void add_view_options(OptionSet options, PictureOptions& picture) {
+  const std::optional<Resolution>& size = picture.resolution;
+  const std::string usual = size ? std::to_string(size->width) + "x" + std::to_string(size->height) : "the scene's";
   options.add_text(
-      "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
+      "--resolution", "WxH [" + usual + "]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
       "Width and height of the picture in pixels");
   options.add_number("--depth", picture.depth, 1, 255, std::to_string(picture.depth),
                      "Maximum depth of reflections and refractions; 1 is the primary ray alone");

@@ -192,8 +192,9 @@ MachineDescription with_voxel_prices(MachineDescription ipsc2) {
   for (auto& [key, source] : ipsc2.sources) {
     if (key == "operation_ps") {
       source =
-          "steps, reads and tests by one factor to the measured core, rays and shading by another: fitted to Mountain on 1 and "
-          "64 nodes and to Rings4 on 2 and 64 in Table 3 of the 1994 paper (dmpc study paper), medium; the rest is ipsc2's, low";
+          "steps, reads and tests by one factor to the measured core, rays and hits by another: fitted to Mountain on 1 and 64 "
+          "nodes and to Rings4 on 2 and 64 in Table 3 of the 1994 paper (dmpc study paper), medium; page_install, ray_packing, "
+          "tile_read and question_setup are ipsc2's, low";
     } else if (key == "cached_lookup") {
       source = "fitted to the same four cells, not measured, low";
     }

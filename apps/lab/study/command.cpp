@@ -145,6 +145,7 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
 
 /// A study that compares structures gets the scene from which to build them.
 void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
+  study.scene = options.picture.scene;
   study.build = [&scene, &options](const core::BuildOptions& asked) {
     DatabaseOptions other = options.database;
     other.build.structure = asked.structure;
@@ -202,6 +203,9 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
 }  // namespace
 
 void add_options(OptionSet set, StudyOptions& options) {
+  if (std::holds_alternative<SystemsStudy>(options.study)) {
+    options.picture.resolution = SystemsStudy::resolution;
+  }
   std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
   add_options(set, options.picture);
   add_transport_options(set, options.picture);

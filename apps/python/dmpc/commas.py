@@ -6,5 +6,5 @@ differ: cp build/release/apps/manual/*.py apps/python/dmpc/
 
 WITH_COMMAS = {
     "ambient", "background", "cache_pages", "columns", "knobs", "machines", "methods", "node_memory", "nodes", "parts", "reference_samples",
-    "sizes", "sky", "structures", "systems", "tests", "threads", "trace_window"
+    "sizes", "sky", "systems", "tables", "tests", "threads", "trace_window"
 }

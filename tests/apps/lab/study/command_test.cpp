@@ -193,7 +193,7 @@ TEST_CASE("every study draws its pictures and its page, of rows as they come") {
                                                                               {"traffic", "--nodes=1,2"},
                                                                               {"cache", "--nodes=2", "--cache-pages=2,8"},
                                                                               {"speedup", "--nodes=1,2"},
-                                                                              {"systems", "--nodes=4"},
+                                                                              {"systems", "--nodes=4", "--draws=2"},
                                                                               {"frames", "--nodes=2,3", "--frames=2"}}) {
     CAPTURE(words[0]);
     const TemporaryFolder folder;

@@ -138,23 +138,28 @@ TEST_CASE("the help of the study of speedup tells its own defaults") {
   CHECK(text.find("replicated 1") == std::string::npos);
 }
 
-TEST_CASE("systems and rules of memory are chosen by name, and each system has its own structure") {
+TEST_CASE("systems, tables and rules of memory are chosen by name, and tables have their own databases") {
   const auto chosen = [](std::initializer_list<std::string> more) {
     return std::get<SystemsStudy>(study("systems", more).study);
   };
   const SystemsStudy standard = chosen({});
   CHECK(standard.chosen.size() == systems().size());
-  CHECK(standard.memories.size() == 4);
-  CHECK(standard.structures == std::vector{SystemStructures::of_papers, SystemStructures::of_today});
-  CHECK(chosen({"--structures=today"}).structures == std::vector{SystemStructures::of_today});
-  CHECK(standard.machine.computer.machine->name == "ipsc2");
-  const SystemsStudy taken =
-      chosen({"--systems=forest,svm,forest", "--node-memory=auto,2%,1MiB", "--nodes=8,64", "--machine=hdr"});
-  REQUIRE(taken.chosen.size() == 2);
-  CHECK(taken.chosen[0] == System::forest);
+  CHECK(standard.memories.size() == 1);
+  CHECK(standard.tables == std::vector{SystemTable::described, SystemTable::equal});
+  CHECK(standard.draws == 100);
+  CHECK(standard.machine.machine.name == "ipsc2");
+  CHECK(study("systems", {}).picture.resolution->width == 128);
+  const SystemsStudy taken = chosen({"--systems=forest,svm,forest", "--tables=equal", "--node-memory=rays,2%,1MiB",
+                                     "--nodes=8,64", "--machine=hdr", "--draws=0", "--search"});
+  CHECK(taken.chosen == std::vector{System::forest, System::svm});
+  CHECK(taken.tables == std::vector{SystemTable::equal});
   CHECK(taken.memories.size() == 3);
   CHECK(taken.node_counts.size() == 2);
-  CHECK(taken.machine.computer.machine->name == "hdr");
+  CHECK(taken.machine.machine.name == "hdr");
+  CHECK(taken.draws == 0);
+  CHECK(taken.has_search);
+  CHECK_THROWS_AS(chosen({"--tables=papers"}), core::UsageError);
+  CHECK_THROWS_AS(chosen({"--page-size=4KiB"}), core::UsageError);
 }
 
 }  // namespace dmpc::apps::study_options_test
