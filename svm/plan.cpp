@@ -28,6 +28,9 @@ constexpr core::Field strategy_field = field_of<&PlanRequest::strategy>(),
                       memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
 constexpr std::uint32_t auto_cache_pages_min = 64;
+/// Of the cache, where memory is bounded and the number of pixels in flight is not asked for: with fewer frames, tasks evict each
+/// other's pages (svm/RESULTS.md).
+constexpr std::uint32_t frames_a_task = 8;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
@@ -240,11 +243,13 @@ std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, s
 }
 
 /// The maximum number of pixels in flight that leave space for the requested cache, or else for a frame each: a pixel without one
-/// evicts another's page.
+/// evicts another's page. Unless so many pixels were asked for, each task leaves its share of a cache that is worth having.
 std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
   std::uint32_t in_flight = wanted_in_flight(request);
   const auto frames_for = [&](std::uint32_t pixels) {
-    return request.pages.cache_pages ? frames_min(request) : std::min(pixels, request.strategy->foreign_pages_max(request));
+    const std::uint32_t each = request.pages.in_flight ? 0 : frames_a_task * (pixels / pixels_a_task(request, pixels));
+    return request.pages.cache_pages ? frames_min(request)
+                                     : std::min(std::max(pixels, each), request.strategy->foreign_pages_max(request));
   };
   while (in_flight > 1 && bytes_with(request, frames_for(in_flight), in_flight) > memory_bytes) {
     const std::uint32_t less = pixels_a_task(request, in_flight);
