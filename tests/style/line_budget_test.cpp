@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 140'000;
+constexpr std::size_t sources_max = 140'500;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {
@@ -108,7 +108,7 @@ TEST_CASE("no library has more lines than its budget") { CHECK(faults_of(count_b
 
 TEST_CASE("no library's tests have more lines than their budget") { CHECK(faults_of(count_below({"tests"}), tests) == Faults{}); }
 
-TEST_CASE("all sources together have at most 140,000 lines") {
+TEST_CASE("all sources together have at most 140,500 lines") {
   const auto counts = count_below(layers);
   const auto add = [](std::size_t sum, const auto& file) { return sum + file.second; };
   CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}, add) <= sources_max);
