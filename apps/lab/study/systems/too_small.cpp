@@ -25,17 +25,17 @@ std::string too_small(const RunShares& shares, const PictureSize& picture) {
     return "the host is busy for " + percent(shares.host_busy) + ": " +
            by_samples(shares.host_busy / (share_max * std::max(shares.computing, 1e-3)), picture);
   }
-  if (shares.film_wait > share_max) {
-    return "nodes wait for film for " + percent(shares.film_wait) + ": " +
-           by_samples(shares.film_wait / std::max(1 - shares.film_wait, 1e-3), picture);
+  const double lost = shares.film_wait + shares.idle_at_end, growth = lost / std::max(1 - lost, 1e-3);
+  if (lost <= share_max) {
+    return "";
   }
-  if (shares.idle_at_end > share_max) {
-    // What is left at the end is a few work items, which are as long in a larger picture: its area has to grow.
-    const double side = std::sqrt(shares.idle_at_end / std::max(1 - shares.idle_at_end, 1e-3));
-    return "nodes are idle at the end for " + percent(shares.idle_at_end) + ": --resolution=" + whole(side * picture.width) +
-           "x" + whole(side * picture.height) + " or more would do";
+  if (shares.film_wait >= shares.idle_at_end) {
+    return "nodes wait for film or are idle at the end for " + percent(lost) + ": " + by_samples(growth, picture);
   }
-  return "";
+  // What is left at the end is a few work items, which are as long in a larger picture: its area has to grow.
+  const double side = std::sqrt(growth);
+  return "nodes are idle at the end or wait for film for " + percent(lost) + ": --resolution=" + whole(side * picture.width) +
+         "x" + whole(side * picture.height) + " or more would do";
 }
 
 }  // namespace dmpc::apps

@@ -15,9 +15,9 @@ struct PictureSize {
   int width = 0, height = 0, samples = 1;
 };
 
-/// Returns what decides a run in place of rays and pages, and which picture would do: "nodes wait for film in 73 % of the time:
-/// --samples=3 or more would do". Empty for a run that is large enough: film and the end are at most half of the nodes' time, and
-/// the host is busy for at most half of the run.
+/// Returns what decides a run in place of rays and pages, and which picture would do: "nodes wait for film or are idle at the
+/// end for 73 % of the time: --samples=3 or more would do". Empty for a run that is large enough: film and the end are at most
+/// half of the nodes' time, and the host is busy for at most half of the run.
 std::string too_small(const RunShares& shares, const PictureSize& picture);
 
 }  // namespace dmpc::apps
