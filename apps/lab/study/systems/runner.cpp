@@ -13,19 +13,11 @@ namespace {
 
 double quotient(double part, double whole) { return whole == 0 ? 0 : part / whole; }
 
-/// Returns the share of the run in which the host sends, receives or serves.
-double host_busy_share(const nodes::VirtualReport& time) {
-  const nodes::VirtualTimes& host = time.nodes.back();
-  return quotient(
-      static_cast<double>(host.computing_ns + host.sending_ns + host.receiving_ns + host.service_busy_ns + host.service_idle_ns),
-      static_cast<double>(time.total_ns));
-}
-
 RunShares shares_of(const Account& account) {
   const auto percent = parts_of(account).percent();
   const auto share = [&](TimePart part) { return percent[static_cast<std::size_t>(part)] / 100; };
   return {share(TimePart::computing), share(TimePart::film_wait), share(TimePart::idle_at_end),
-          host_busy_share(*account.virtual_time)};
+          account.virtual_time->host_busy_share()};
 }
 
 struct Figured {
@@ -52,9 +44,11 @@ const FilledColumns<Figured>& figures() {
   return all;
 }
 
+double seconds_of(const Account& account) { return 1e-9 * static_cast<double>(account.virtual_time->total_ns); }
+
 MeasuredRun measured_run(const Report& report) {
   const Account account = account_of(report);
-  MeasuredRun run{.seconds = 1e-9 * static_cast<double>(account.virtual_time->total_ns),
+  MeasuredRun run{.seconds = seconds_of(account),
                   .film_hash = account.film.hash(),
                   .memory_bytes = account.node_memory_max_bytes,
                   .shares = shares_of(account),
@@ -150,7 +144,7 @@ std::vector<std::vector<double>> SystemRunner::time_draws(const std::vector<Syst
   }
   std::vector<std::vector<double>> seconds(study_.draws, std::vector<double>(setups.size()));
   runs_.run_side_by_side(wanted, [&](std::size_t i, const StudyOutcome& outcome) {
-    seconds[i / setups.size()][i % setups.size()] = measured_run(*outcome.report).seconds;
+    seconds[i / setups.size()][i % setups.size()] = seconds_of(account_of(*outcome.report));
   });
   runs_.check();
   return seconds;

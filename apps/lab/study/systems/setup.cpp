@@ -77,7 +77,8 @@ std::string SystemSetup::name() const { return std::string(name_of(system)) + " 
 
 SystemSetup described_setup(System system) {
   const core::BuildOptions build = original_database_of(system).build;
-  SystemSetup setup{system, {build.structure, true, build.page_size_bytes}, strategy_of(system)};
+  const bool is_original = build.structure == core::Structure::voxels;  // else the table "equal" shares the database
+  SystemSetup setup{system, {build.structure, is_original, build.page_size_bytes}, strategy_of(system)};
   setup.options.pages.in_flight = 1;
   setup.options.rays.without_backpressure = true;
   setup.options.rays.balance.bsp.order = dataflow::CutOrder::alternating;
