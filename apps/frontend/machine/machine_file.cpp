@@ -193,7 +193,7 @@ std::uint32_t prices_for(const Fields& fields) {
     if (found == names.end()) {
       fields.refuse("prices_for", "expected a list of " + joined(names, ", "), given);
     }
-    bits |= 1U << static_cast<unsigned>(found - names.begin());
+    bits |= price_bit(static_cast<core::Structure>(found - names.begin()));
   }
   return bits;
 }

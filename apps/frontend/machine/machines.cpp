@@ -234,7 +234,7 @@ std::string name_with_links(const nodes::Machine& machine) {
 std::vector<std::string_view> priced_structures(const nodes::Machine& machine) {
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < core::structure_names.size(); ++i) {
-    if ((machine.prices_for >> i & 1U) != 0) {
+    if (is_priced_for(machine, static_cast<core::Structure>(i))) {
       names.push_back(core::structure_names[i]);
     }
   }
@@ -242,12 +242,12 @@ std::vector<std::string_view> priced_structures(const nodes::Machine& machine) {
 }
 
 std::string price_note(const nodes::Machine& machine, core::Structure structure) {
-  const auto is_priced = [structure](const nodes::Machine& priced) { return (priced.prices_for & price_bit(structure)) != 0; };
-  if (machine.prices_for == 0 || is_priced(machine)) {
+  if (machine.prices_for == 0 || is_priced_for(machine, structure)) {
     return "";
   }
   const auto& all = machine_presets();
-  const auto other = std::find_if(all.begin(), all.end(), [&](const auto& preset) { return is_priced(preset.machine); });
+  const auto other =
+      std::find_if(all.begin(), all.end(), [&](const auto& preset) { return is_priced_for(preset.machine, structure); });
   const std::string name(core::structure_names[static_cast<std::size_t>(structure)]);
   return machine.name + " has prices for other structures (" + joined(priced_structures(machine), ", ") + ") than " + name +
          ", so virtual times may be far off; " + other->machine.name + " has prices for " + name;

@@ -40,6 +40,10 @@ std::string name_with_links(const nodes::Machine& machine);
 
 /// The bit of a structure in nodes::Machine::prices_for.
 constexpr std::uint32_t price_bit(core::Structure structure) { return 1U << static_cast<unsigned>(structure); }
+/// Whether the machine says that its prices are for this structure.
+inline bool is_priced_for(const nodes::Machine& machine, core::Structure structure) {
+  return (machine.prices_for & price_bit(structure)) != 0;
+}
 /// The names of those bits; none if the machine does not say it.
 std::vector<std::string_view> priced_structures(const nodes::Machine& machine);
 /// A sentence that the machine's prices are for other structures than this one; empty if they are not, or not said to be.

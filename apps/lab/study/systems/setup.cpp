@@ -183,7 +183,7 @@ const MachineDescription& priced_for(core::Structure structure, const MachineDes
     return machine;
   }
   const char* const* const priced = std::find_if(one_computer.begin(), one_computer.end(), [&](const char* name) {
-    return (find_machine_preset(name)->machine.prices_for & price_bit(structure)) != 0;
+    return is_priced_for(find_machine_preset(name)->machine, structure);
   });
   return priced == one_computer.end() ? machine : *find_machine_preset(*priced);
 }
