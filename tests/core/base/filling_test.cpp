@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace dmpc::core::filling_test {
 namespace {
 
@@ -22,7 +23,6 @@ std::ptrdiff_t resident_pages(std::byte* first, std::size_t bytes) {
 
 }  // namespace
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("bytes that are about to be filled take nothing of what lies beside them") {
   constexpr std::size_t length = 4 * large_page_bytes;
   void* const mapped = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -37,6 +37,6 @@ TEST_CASE("bytes that are about to be filled take nothing of what lies beside th
   CHECK(resident_pages(aligned + 2 * large_page_bytes, large_page_bytes) == 1);
   ::munmap(mapped, length);
 }
-#endif
 
 }  // namespace dmpc::core::filling_test
+#endif
