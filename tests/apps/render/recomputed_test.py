@@ -5,7 +5,8 @@ A section with a table and a `dmpc render` command of `--runner=virtual` names t
     Recomputed: 0.0084 s by `mount-6-t6 --machine=hdr`; 12,503 packets.by_kind.page_request.packets by `--resident=50`.
 
 Each is of the section's first such command, in which the quoted words replace the scene and options of the same name. A figure in s or ms
-is the virtual time, % a share; other names are paths in the file of --stats. Every figure stands elsewhere in its section, too.
+is the virtual time, % a share; other names are paths in the file of --stats. Of several frames it is the mean of all but the first. Every
+figure stands elsewhere in its section, too.
 """
 
 import concurrent.futures
@@ -15,6 +16,7 @@ import os
 import pathlib
 import re
 import shlex
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -57,15 +59,17 @@ def changed(command, words):
 @functools.cache
 def stats_of(words):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([PROGRAM, "render", *words, "--quiet", f"--stats={folder}/stats.json", "-o", f"{folder}/a.exr"], check=True)
-        return json.loads(pathlib.Path(folder, "stats.json").read_text())
+        frame = ".####" if any(word.startswith("--frames=") for word in words) else ""
+        subprocess.run([PROGRAM, "render", *words, "--quiet", f"--stats={folder}/stats{frame}.json", "-o", f"{folder}/a{frame}.exr"],
+                       check=True)
+        return [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).glob("stats*.json"))[1 if frame else 0:]]
 
 
 def as_written(figure, name, stats):
     """The value with as many digits behind the point as the figure has, and commas if that has some."""
     share = name.startswith("% ")
     path, factor = NAMES.get(name, (name[2:], 100) if share else (name, 1))
-    value = functools.reduce(lambda part, key: part[key], path.split("."), stats) * factor
+    value = statistics.mean(functools.reduce(lambda part, key: part[key], path.split("."), each) for each in stats) * factor
     text = f"{value:,.{len(figure.partition('.')[2])}f}"
     text = text if "," in figure else text.replace(",", "")
     return text[1:] if figure.startswith(".") and text.startswith("0.") else text
@@ -113,7 +117,7 @@ Recomputed: 0.125 s by `--nodes=4`; 125 ms by `tree-8`; 1,250 a.b by `--nodes=4`
     STATS = {"virtual_seconds": {"total": 0.125}, "a": {"b": 1250}, "c": 0.125}
 
     def faults(self, old, new):
-        return faults_of("t", self.SECTION.replace(old, new), lambda words: self.STATS)
+        return faults_of("t", self.SECTION.replace(old, new), lambda words: [self.STATS])
 
     def test_words_replace_the_scene_and_options_of_the_same_name(self):
         command = command_of(self.SECTION)
