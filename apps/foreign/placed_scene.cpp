@@ -429,6 +429,10 @@ class PlacedScene {
   }
 
   void add_lights() {
+    const bool is_by_paths = options_.is_by_paths || options_.is_below_sky || options_.is_below_own_sky;
+    const auto shining = std::ranges::count_if(file_.materials, [](const FileMaterial& each) { return each.material.shines(); });
+    note_count(result_.notes, "materials that shine, which light other things by paths alone",
+               is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
     if (file_.is_lit_whole) {
       add_physical_lights();
     } else {
@@ -476,10 +480,6 @@ class PlacedScene {
       return;
     }
     const bool is_by_paths = options_.is_below_sky || options_.is_below_own_sky;
-    const auto shines = [](const FileMaterial& material) { return material.material.shines(); };
-    const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
-    note_count(result_.notes, "materials that shine, which light other things by paths alone",
-               is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
     std::vector<core::PointLight> points;
     std::uint64_t unfallen = 0;
     for (const FileLight& light : file_.lights) {

@@ -14,6 +14,7 @@
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/help/choices.h"
+#include "apps/program/word_help.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/scenes.h"
@@ -25,7 +26,14 @@ namespace {
 
 const char* const about =
     "dmpc COMMAND --help shows the options of a command, with examples. dmpc list shows scenes, machines and other "
-    "choices,\ndmpc help glossary explains terms.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png";
+    "choices,\ndmpc help WORD explains a word.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png";
+
+const char* const first_steps =
+    "dmpc renders scenes on a simulated cluster, and counts what its nodes send each other. To begin:\n"
+    "  dmpc demo                                        a teapot on eight nodes, and where their time went\n"
+    "  dmpc render teapot-12 --nodes=8 -o teapot.png    a built-in scene, or a file: glTF, OBJ, PLY, STL, pbrt, NFF\n"
+    "  dmpc view model.glb                              find a camera in a browser\n"
+    "  dmpc --help                                      all commands; dmpc help WORD explains a word\n";
 
 Command help_command(const HelpText& help) {
   return {help, false, [help](Interrupt&, std::ostream& output) {
@@ -35,23 +43,29 @@ Command help_command(const HelpText& help) {
           }};
 }
 
-/// Throws core::UsageError for words behind the glossary, or behind a command that has none within it.
-void check_is_one_topic(const CommandDescription& program, std::span<const std::string> topic, const std::string& glossary) {
+bool has_command(const CommandDescription& program, std::span<const std::string> words) {
   const CommandDescription* here = &program;
-  std::string known;
-  for (const std::string& word : topic) {
+  for (const std::string& word : words) {
     const auto inner = std::find_if(here->commands.begin(), here->commands.end(),
                                     [&word](const CommandDescription& command) { return command.name == word; });
-    if (known == glossary || (!known.empty() && here->commands.empty())) {
-      throw core::UsageError("there is no help about '" + word + "' of " + known + ": expected dmpc help " + known +
-                             hint_at_help("help"));
+    if (inner == here->commands.end()) {
+      return false;
     }
-    if (inner == here->commands.end() && word != glossary) {
-      return;  // whoever reads the line knows better what to say of it
-    }
-    here = inner == here->commands.end() ? here : &*inner;
-    known += (known.empty() ? "" : " ") + word;
+    here = &*inner;
   }
+  return true;
+}
+
+/// What `help` explains, except names of options and values.
+std::vector<std::string> known_words(const CommandDescription& program) {
+  std::vector<std::string> words{"glossary"};
+  for (const CommandDescription& command : program.commands) {
+    words.push_back(command.name);
+  }
+  for (const GlossaryEntry& entry : glossary()) {
+    words.emplace_back(entry.word);
+  }
+  return words;
 }
 
 Command read_by(Commands&& commands, std::span<const std::string> arguments) {
@@ -85,26 +99,32 @@ void Commands::begin(const std::string& name, const std::string& description) {
 }
 
 void Commands::declare_help() {
-  OptionSet help = line_.add_command("help", "Show help about a command, or the glossary");
+  OptionSet help = line_.add_command("help", "Show help about a command or a word, or the glossary");
   help.add_arguments(
       "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
-      "A command, such as render or study cache; or glossary, which explains dmpc's terms");
-  help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
+      "A command, such as render or study cache; a word that tables show or options take, such as page, svm or hdr; or glossary, "
+      "which explains all terms");
+  help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help page wait\n  dmpc help glossary");
   topics_.words.emplace_back("glossary");
 }
 
-HelpText Commands::help_about(std::vector<std::string> topic) const {
-  static const std::vector<std::string> words_topic = {"glossary"};
+HelpText Commands::help_about(const std::vector<std::string>& topic) const {
   Commands all(declare_);
-  check_is_one_topic(all.line().describe(), topic, words_topic.front());
-  if (topic == words_topic) {
+  const CommandDescription program = all.line().describe();
+  const std::string words = joined(topic, " ");
+  if (words == "glossary") {
     return {glossary_text()};
   }
-  if (const std::string meant = core::did_you_mean(topic.empty() ? "" : topic.front(), words_topic); !meant.empty()) {
-    throw core::UsageError("there is no help about " + topic.front() + "." + meant + hint_at_help("help"));
+  if (has_command(program, topic)) {
+    std::vector<std::string> line = topic;
+    line.emplace_back("--help");
+    return std::get<HelpText>(all.line().parse(line));
   }
-  topic.emplace_back("--help");
-  return std::get<HelpText>(all.line().parse(topic));
+  if (const std::string meaning = word_help(words, program); !meaning.empty()) {
+    return {meaning};
+  }
+  throw core::UsageError("there is no help about '" + words + "': expected a command, glossary, or a word that tables show." +
+                         core::did_you_mean(words, known_words(program)) + hint_at_help("help"));
 }
 
 void Commands::declare_values() {
@@ -141,6 +161,9 @@ void Commands::declare_values() {
 }
 
 Command parse_command_line(Commands::Declare declare, std::span<const std::string> arguments) {
+  if (arguments.empty()) {
+    return help_command({first_steps});
+  }
   try {
     return read_by(Commands(declare, Commands::Words(arguments.begin(), arguments.end())), arguments);
   } catch (const core::UsageError&) {

@@ -78,7 +78,7 @@ class Commands {
   void declare_help();
   void declare_values();
   /// What `dmpc help` with the words given prints. Throws core::UsageError for a topic that there is none.
-  HelpText help_about(std::vector<std::string> topic) const;
+  HelpText help_about(const std::vector<std::string>& topic) const;
 
   Declare declare_;
   std::optional<Words> line_words_;  ///< nothing: any

@@ -2,6 +2,7 @@
 #include "apps/help/list_command.h"
 #include "apps/info/command.h"
 #include "apps/program/commands.h"
+#include "apps/program/demo.h"
 #include "apps/render/command.h"
 #include "apps/scene/scene_command.h"
 #include "apps/view/command.h"
@@ -9,6 +10,7 @@
 namespace dmpc::apps {
 
 void declare_renderer(Commands& commands) {
+  commands.add("demo", "Render a teapot on eight modelled nodes, and show its page", DemoOptions(), demo_command);
   commands.add("render", "Render a scene on N nodes", RenderOptions(),
                [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
                  return render_command(options, interrupt, output);

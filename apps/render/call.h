@@ -16,6 +16,7 @@
 #include "apps/render/frame_files.h"
 #include "apps/render/frame_scenes.h"
 #include "apps/render/live_view.h"
+#include "apps/render/pass_progress.h"
 #include "apps/run/render_options.h"
 #include "nodes/ranks/heartbeats.h"
 
@@ -49,7 +50,8 @@ struct RenderCall {
   std::optional<FileLock> lock;    ///< on the checkpoint
   std::unique_ptr<LiveView> live;  ///< outlives everything that it observes
   std::optional<Checkpoints> checkpoints;
-  std::set<std::string> reported;  ///< notes printed so far
+  std::optional<PassProgress> passes;  ///< while a picture is rendered
+  std::set<std::string> reported;      ///< notes printed so far
 };
 
 /// Acquires everything that does not depend on the scene: paths, libraries, the checkpoint's lock, the port for browsers. Throws

@@ -66,11 +66,13 @@ UpAxis up_of(const core::View& view) {
   return up;
 }
 
-std::string unseen_note(const core::Box& bounds, const UpAxis& up) {
+std::string small_note(double share, const core::Box& bounds, const UpAxis& up) {
   core::expect(!bounds.empty(), "a scene that may be seen has bounds");
   const core::View view = whole_view(sphere_around(bounds), up);
-  return "the camera sees nothing of the scene, which lies between " + rounded_text(bounds.low) + " and " +
-         rounded_text(bounds.high) + ": to see the whole scene use --camera=" + text_of(camera_of(view));
+  return (share > 0 ? "the scene fills " + percent_text(100 * share, 1) + " of the picture. It"
+                    : "the camera sees nothing of the scene, which") +
+         " lies between " + rounded_text(bounds.low) + " and " + rounded_text(bounds.high) +
+         ": to see the whole scene use --camera=" + text_of(camera_of(view));
 }
 
 }  // namespace dmpc::apps

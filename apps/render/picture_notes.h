@@ -19,8 +19,11 @@ std::vector<std::string> film_notes(const core::Film& film, std::uint64_t lit);
 /// The up axis of a scene as it is seen: the one nearest to its view's up.
 UpAxis up_of(const core::View& view);
 
-/// A sentence for a picture whose primary rays hit nothing: the scene's position, and the camera that shows all of it. Requires
-/// bounds that are not empty.
-std::string unseen_note(const core::Box& bounds, const UpAxis& up);
+/// The share of a picture below which its scene is told to be small.
+inline constexpr double small_share = 0.02;
+
+/// A sentence for a picture of which the scene fills `share`, up to small_share: the scene's position, and the camera that shows
+/// all of it. Requires bounds that are not empty.
+std::string small_note(double share, const core::Box& bounds, const UpAxis& up);
 
 }  // namespace dmpc::apps

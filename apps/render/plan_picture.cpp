@@ -127,11 +127,13 @@ nodes::Observer* show_next(const RenderCall& call, const DueFrame& frame, const 
 
 core::Continuation continuation_of(RenderCall& call) {
   core::Continuation continuation;
+  continuation.ends_before = [&call](const core::PassEnd& end) { return call.passes->ends_before(end); };
   if (call.checkpoints) {
-    continuation = call.checkpoints->continuation();
-    continuation.is_due = [is_due = continuation.is_due, &call] { return call.interrupt.take_keep_request() || is_due(); };
-    continuation.keep = [keep = continuation.keep, &call](const core::Film& film, const core::Refinement& pass,
-                                                          const core::PixelMask& done) {
+    const core::Continuation kept = call.checkpoints->continuation();
+    continuation.start = kept.start;
+    continuation.is_due = [is_due = kept.is_due, &call] { return call.interrupt.take_keep_request() || is_due(); };
+    continuation.keep = [keep = kept.keep, &call](const core::Film& film, const core::Refinement& pass,
+                                                  const core::PixelMask& done) {
       keep(film, pass, done);
       call.set_consequence();
     };

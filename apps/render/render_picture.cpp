@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cstdint>
 #include <iostream>
 #include <utility>
@@ -7,7 +8,6 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/frontend/system/stopwatch.h"
-#include "apps/render/pass_progress.h"
 #include "apps/render/stages.h"
 #include "core/base/expect.h"
 #include "core/picture/sampling/refinement.h"
@@ -35,13 +35,19 @@ void announce(RenderCall& call, const DueFrame& frame, const std::optional<DoneF
 Report render_with_progress(RenderCall& call, WarmNodes& nodes) {
   const core::PartialPicture* const start = call.checkpoints ? call.checkpoints->start() : nullptr;
   Progress progress(std::cerr, !call.asked.quiet && stderr_is_terminal());
-  PassProgress passes(progress, start != nullptr ? start->passes : 1, core::passes_max);
+  const auto begin = std::chrono::steady_clock::now();
+  call.passes.emplace(progress,
+                      RefinedRun{.error = call.asked.picture.refinement.error,
+                                 .seconds = call.asked.seconds_max,
+                                 .pass = start != nullptr ? start->passes : 1,
+                                 .samples_done = start != nullptr ? start->samples_done() : 0},
+                      [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); });
   return nodes.render(
       [&](std::uint32_t done, std::uint32_t total) {
         if (call.live) {
           call.live->update(done, total);
         }
-        call.asked.picture.is_refined ? passes.update(done, total) : progress.update(done, total);
+        call.asked.picture.is_refined ? call.passes->update(done, total) : progress.update(done, total);
       },
       call.interrupt.token());
 }

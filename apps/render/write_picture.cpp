@@ -85,10 +85,14 @@ double write_film(const RenderCall& call, const RenderOptions& options, const co
 
 std::uint64_t samples_found_done(const RenderCall& call) { return call.checkpoints ? call.checkpoints->samples_found_done() : 0; }
 
-/// If no ray from the eye has met anything of a scene that has something.
-std::string unseen_text(const RenderCall& call, const SceneFacts& scene, const Account& account) {
-  const bool sees_nothing = account.operations.primary_hits == 0 && samples_found_done(call) == 0 && !scene.bounds.empty();
-  return sees_nothing ? unseen_note(scene.bounds, scene.up) : "";
+/// If few or none of the rays from the eye have met anything of a scene that has something.
+std::string small_text(const RenderCall& call, const SceneFacts& scene, const Account& account) {
+  if (samples_found_done(call) > 0 || scene.bounds.empty()) {
+    return "";
+  }
+  const double share = static_cast<double>(account.operations.primary_hits) / static_cast<double>(account.film.samples());
+  const double share_max = is_mesh(call.asked.picture.scene) ? small_share : 0;
+  return share <= share_max ? small_note(share, scene.bounds, scene.up) : "";
 }
 
 /// Shadow rays that brought light, where none is shot that would not.
@@ -101,8 +105,9 @@ std::uint64_t lit_in(const RenderOptions& options, const Account& account) {
 /// Somebody looks on, or may in the end, where the page stays.
 bool has_viewers(const RenderCall& call) { return call.live && (call.live->has_had_visitors() || stderr_is_terminal()); }
 
-void end_checkpoint(RenderCall& call, bool is_written, Attempts& attempts) {
-  if (call.checkpoints && is_written) {
+/// `is_done`: it is written, and as good as it was asked for.
+void end_checkpoint(RenderCall& call, bool is_done, Attempts& attempts) {
+  if (call.checkpoints && is_done) {
     attempts.make([&] { call.checkpoints->finish(); });
   } else if (call.checkpoints && call.checkpoints->has_one()) {
     std::cerr << "dmpc: the checkpoint is kept; --resume continues from it\n";
@@ -151,12 +156,12 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
   const bool is_written = attempts.make([&] { rendered.seconds.write = write_film(call, planned.options, account.film); });
   if (!rendered.copied_frame) {
     attempts.make([&] { call.say(film_notes(account.film, lit_in(planned.options, account))); });
-    attempts.make([&] { call.say({unseen_text(call, scene, account)}); });
+    attempts.make([&] { call.say({small_text(call, scene, account)}); });
   }
   if (has_viewers(call) && !rendered.copied_frame) {
     attempts.make([&] { call.live->show(account.film); });
   }
-  end_checkpoint(call, is_written, attempts);
+  end_checkpoint(call, is_written && !account.refinement.is_cut_short, attempts);
   RunProfile run_profile;
   attempts.make([&] { run_profile = take_run_profile(call, planned.observers); });
   const ProcessorTime all = processor_time();

@@ -70,6 +70,35 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_flag("--quiet", render.quiet, "Print no progress and no closing lines");
 }
 
+/// The options that a beginner looks for.
+void set_brief_help(OptionSet options) {
+  options.set_brief_help(
+      {{"The picture",
+        {{"-o,--output IMAGE", "The picture: .exr, .tif, .png, .jpg, ..."},
+         {"--resolution WxH", "Its width and height in pixels"},
+         {"--camera FROM/AT", "Position and target of the camera, such as 1,2,3/0,0,0"},
+         {"--quality draft|good", "Smooth edges, by adaptive sampling"},
+         {"--samples N", "Samples per pixel; auto: as many as --error requires"},
+         {"--transport whitted|paths", "Mirrors and hard shadows, or path tracing"},
+         {"--sky COLOUR|FILE", "Light from all around, with --transport=paths"}}},
+       {"The computer",
+        {{"--nodes N", "Number of nodes, each with its own memory [8]"},
+         {"--strategy NAME", "What travels: svm (pages), dataflow (rays), forest (questions), replicated (nothing)"},
+         {"--system NAME", "One of the published systems: dmpc list systems"},
+         {"--node-memory SIZE", "Limit of each node's memory, such as 4MiB"},
+         {"--cache-pages N", "Pages of other nodes that a node can cache (svm)"},
+         {"--page-size SIZE", "From 512B to 64KiB [1KiB]"}}},
+       {"The run",
+        {{"--runner NAME", "threads, pool (a few threads for all nodes), virtual (a modelled machine), mpi"},
+         {"--machine NAME", "The machine that virtual models: dmpc list machines"},
+         {"--time SECONDS", "End an adaptive render (--samples=auto, mesh files) at about this time"},
+         {"--serve", "Show it in a browser while it is rendered"}}},
+       {"What else is written",
+        {{"--report FILE.html", "A page with picture, losses, traffic and memory"},
+         {"--heatmap KIND:FILE", "What each pixel took: faults, rays, time, ..."},
+         {"--stats FILE.json", "All counters"}}}});
+}
+
 void check_tracer(const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
     throw UsageError(
@@ -140,6 +169,31 @@ void check_frames(const OptionSet& options, const RenderOptions& render) {
   }
 }
 
+/// Between two passes a refined picture ends by time, or by their number, which repeats one that ended by time.
+void add_end_options(OptionSet options, RenderOptions& render) {
+  options.add_text(
+      "--time", "SECONDS",
+      [&render](const std::string& text) {
+        render.seconds_max = parse_within(text, "--time", above_0, 1e9, "seconds, above 0 and at most 1e9");
+      },
+      "With --samples=auto: end between two passes, nearest to this wall-clock time of rendering, though the error is not "
+      "reached. "
+      "The closing lines say which error is, and which --passes repeats the picture");
+  options.add_number("--passes", render.picture.refinement.passes, 1, core::passes_max, std::to_string(core::passes_max),
+                     "With --samples=auto: the most passes");
+}
+
+void check_end(const OptionSet& options, const RenderOptions& render) {
+  for (const char* option : {"--time", "--passes"}) {
+    if (!render.picture.is_refined && options.is_given(option)) {
+      throw UsageError(std::string(option) + " goes with --samples=auto");
+    }
+  }
+  if (render.picture.refinement.kind == core::ErrorKind::noise && render.picture.refinement.passes < 2) {
+    throw UsageError("--passes=1: by paths expected at least 2, from which the error can be estimated");
+  }
+}
+
 void check(const OptionSet& options, const RenderOptions& render) {
   check_together(options, render);
   check_tracer(render);
@@ -152,6 +206,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_trace(render.trace);
   check_references(render);
   check_frames(options, render);
+  check_end(options, render);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -197,6 +252,7 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_study_options(options, render);
   add_options(options, render.frames);
   add_options(options, render.checkpoint);
+  add_end_options(options, render);
   options.check_in_the_end([options, &render] {
     if (render.system) {
       settle_system(options, *render.system, render, render.database);
@@ -209,6 +265,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     check(options, render);
     choose_pool(render.runner.kind, render.computer);
   });
+  set_brief_help(options);
   options.set_examples(
       "Examples:\n"
       "  dmpc render teapot-12 --nodes=8 -o teapot.png\n"

@@ -31,6 +31,7 @@ struct RenderOptions : StrategyOptions {
   TraceOptions trace;
   std::optional<std::filesystem::path> references;  ///< CSV file of the nodes' page references
   CheckpointOptions checkpoint;                     ///< checkpoint of the unfinished picture
+  std::optional<double> seconds_max;                ///< of a refined picture, from the start of its rendering; above 0
   std::string serve_port;                           ///< port for browsers, 0: any free port; empty: none
   bool quiet = false;                               ///< no progress and no closing lines
 };

@@ -85,6 +85,9 @@ std::optional<SkyChoice> sky_of(const PictureOptions& picture) {
   return picture.transport.sky ? picture.transport.sky : is_below_own_sky(picture.scene) ? own_sky(picture.scene) : mesh_sky();
 }
 
+/// Rare light, such as that of a small lamp by two diffuse bounces, would ask for thousands in a few pixels.
+constexpr std::uint32_t samples_max_of_meshes = 256;
+
 void present_mesh(const OptionSet& options, PictureOptions& picture) {
   if (!picture.presents_meshes || !is_mesh(picture.scene)) {
     return;
@@ -94,6 +97,9 @@ void present_mesh(const OptionSet& options, PictureOptions& picture) {
     picture.is_by_paths_unasked = true;
     picture.transport.kind = core::TransportKind::paths;
     picture.transport.sky = sky_of(picture);
+  }
+  if (!options.is_given("--samples-max")) {
+    picture.refinement.samples_max = samples_max_of_meshes;
   }
   const bool are_paths_asked_for = is_said && picture.transport.is_by_paths();
   if (!are_paths_asked_for && !options.is_given("--samples") && !picture.quality) {
@@ -189,12 +195,13 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "--error", "E [1/255, by paths 1/100]",
       [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
       "With --samples=auto: the estimated root mean square error of the linear picture at which the render stops");
-  options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
+  options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768,
+                     picture.presents_meshes ? "4096, of a mesh file 256" : "4096",
                      "With --samples=auto: the most samples per pixel");
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Do not trace rays that can contribute less than C to their sample; 0 is exact");
-  options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
+  options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"good", Quality::good}},
                               picture.presents_meshes ? "one ray a pixel, of a mesh file --samples=auto" : "one ray a pixel",
                               "Set --samples=auto, --error and, except with paths, --cutoff for a quick preview, or for a good "
                               "picture. Options that are given take precedence");
@@ -202,6 +209,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
     present_mesh(options, picture);
+    picture.is_one_ray_unasked = !options.is_given("--samples") && !picture.is_refined;
     check_refinement(options, picture);
   });
 }

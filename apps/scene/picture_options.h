@@ -22,15 +22,15 @@ namespace dmpc::apps {
 inline constexpr int refined_samples = core::first_refined_samples(core::ErrorKind::edges);
 
 /// Presets of the number of samples and, except with path tracing, of the cutoff. On average draft is within 5 of 255 steps of
-/// the converged picture, standard within 2.
-enum class Quality : std::uint8_t { draft, standard };
+/// the converged picture, good within 2.
+enum class Quality : std::uint8_t { draft, good };
 
 struct QualityChoice {
   double error = 0;   ///< core::RefinementOptions::error
   double cutoff = 0;  ///< core::ShadeOptions::cutoff
 };
 /// Returns the settings of a quality, unless options override them. The errors allow for an estimate that is a fifth too low. The
-/// cutoffs are the largest ones whose own error on the SPD's scenes is below a quarter of an 8-bit step (standard) or one such
+/// cutoffs are the largest ones whose own error on the SPD's scenes is below a quarter of an 8-bit step (good) or one such
 /// step (draft); `bench error` shows their cost and effect.
 QualityChoice choice_of(Quality quality);
 
@@ -59,6 +59,7 @@ struct PictureOptions {
   bool is_refined_unasked = false;       ///< refined to the default error because of presents_meshes
   bool is_by_paths_unasked = false;      ///< path tracing because of presents_meshes
   bool is_one_path_unasked = false;      ///< path tracing without a given number of samples
+  bool is_one_ray_unasked = false;       ///< one ray a pixel because neither samples nor a quality are given
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;  ///< hits of this depth cast shadow rays only; 1 to 255; with path tracing the transport's
   core::Convention convention = core::Convention::haines;

@@ -107,6 +107,17 @@ std::string questions_text(const svm::Report& report) {
          counted(sent.packets, "packet") + " of " + fixed(fill, 1) + "; all answered";
 }
 
+/// Why a picture has a larger error than was requested.
+std::string end_text(const RenderOptions& options, const core::RefinementResult& result) {
+  if (result.is_cut_short) {
+    return ", ended by --time: --passes=" + std::to_string(result.passes) + " in its place repeats the picture";
+  }
+  return result.passes == options.picture.refinement.passes && result.passes < core::passes_max
+             ? ", more than requested: ended by --passes"
+             : ", more than requested: no pixel may have more than --samples-max=" +
+                   std::to_string(options.picture.refinement.samples_max);
+}
+
 /// Returns a whole line on adaptive sampling, or nothing.
 std::string sampling_line(const RenderOptions& options, const Account& account) {
   if (!options.picture.is_refined) {
@@ -116,7 +127,7 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
   const core::RefinementResult& result = account.refinement;
   return "samples  " + fixed(mean, 2) + " a pixel, in " + std::to_string(result.passes) +
          (result.passes == 1 ? " pass" : " passes") + "; estimated error " + fixed(255 * result.error, 3) + "/255" +
-         (result.error > options.picture.refinement.error ? ", more than requested: no pixel may have more samples" : "") + "\n";
+         (result.error > options.picture.refinement.error ? end_text(options, result) : "") + "\n";
 }
 
 /// Returns the text after the picture's name: the transport, if not the default, and samples chosen by default.
@@ -127,6 +138,7 @@ std::string picture_text(const PictureOptions& picture) {
   return transport + (picture.is_refined_unasked ? error : "") +
          (picture.is_by_paths_unasked  ? " (--transport=whitted for hard light)"
           : picture.is_refined_unasked ? " (--samples=1 for one ray a pixel)"
+          : picture.is_one_ray_unasked ? " (one ray a pixel: --quality=good smooths edges)"
                                        : "");
 }
 

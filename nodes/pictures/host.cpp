@@ -55,7 +55,13 @@ std::uint32_t Host::take_light(std::uint32_t first, std::uint32_t more, const co
 }
 
 bool Host::next_pass() {
-  if (!refinement_.next_pass(*film_)) {
+  if (!refinement_.next_pass(*film_, continuation_.ends_before)) {
+    if (refinement_.result().is_cut_short && may_be_kept()) {
+      core::Film film = *film_;
+      core::Refinement refinement = refinement_;
+      refinement.begin_chosen(film);
+      continuation_.keep(film, refinement, core::PixelMask(static_cast<std::uint32_t>(film.pixel_count())));
+    }
     return false;
   }
   std::fill(with_light_.begin(), with_light_.end(), 0);

@@ -28,8 +28,6 @@ struct Loss {
 
 const std::vector<Loss>& losses() {
   static const std::vector<Loss> all = {
-      {"materials that shine by themselves, and light other things by paths, not by --transport=whitted",
-       [](const auto& m) { return !(emission_of(m) == Vec3d{}); }},
       {"materials whose own light is a texture's, shown without it", [](const auto& m) { return m.has_light_texture; }},
       {"materials with a clear coat, shown without it", [](const auto& m) { return m.has_clear_coat; }},
       {"materials that colour what shines through them (Tf), shown without that",

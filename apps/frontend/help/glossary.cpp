@@ -97,6 +97,10 @@ constexpr std::array entries = {
     GlossaryEntry{"topology", "Which nodes are neighbours: mesh, hypercube, ring and so on."},
     GlossaryEntry{"virtual time", "The modelled machine's clock. It does not depend on the computer that dmpc runs on."},
     GlossaryEntry{"voxels", "A plain grid of small cells, each with a list of the primitives in it, in place of a grid of BVHs."},
+    GlossaryEntry{
+        "wait",
+        "The time in which a node can do nothing until something arrives: a page, an answer, a ray, or room for its film "
+        "at the host."},
     GlossaryEntry{"wall clock", "Time on the computer that dmpc runs on."},
     GlossaryEntry{
         "work item",

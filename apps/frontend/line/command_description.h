@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dmpc::apps {
@@ -33,6 +34,12 @@ struct OptionDescription {
   }
 };
 
+/// Options that matter first, below a title. A row is an option's name, as "--nodes N", and what it does in a few words.
+struct BriefGroup {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> rows;
+};
+
 /// A command, or the program itself.
 struct CommandDescription {
   std::string name;      ///< without the names of the commands that contain it
@@ -41,6 +48,7 @@ struct CommandDescription {
   std::vector<OptionDescription> arguments;
   std::vector<OptionDescription> options;  ///< grouped; the first is --help
   std::vector<CommandDescription> commands;
+  std::vector<BriefGroup> brief;  ///< what --help shows, and --help=all does not; none: all
 };
 
 /// By the name of the value in help.

@@ -1,6 +1,7 @@
 #include "apps/frontend/line/command_line.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "apps/frontend/line/help_text.h"
 #include "apps/frontend/line/parsed_number.h"
@@ -50,6 +51,7 @@ struct DeclaredCommand {
   std::vector<Option> options = {};  ///< and arguments, as they were declared
   std::vector<std::unique_ptr<DeclaredCommand>> commands = {};
   std::vector<std::function<void()>> checks = {};
+  std::vector<BriefGroup> brief = {};
 };
 
 namespace {
@@ -83,7 +85,7 @@ std::int64_t whole_number(const std::string& option, const std::string& text, st
 }
 
 CommandDescription described(const DeclaredCommand& command, const Suggestions& known) {
-  CommandDescription all{.name = command.name, .text = command.text, .examples = command.examples};
+  CommandDescription all{.name = command.name, .text = command.text, .examples = command.examples, .brief = command.brief};
   for (const DeclaredCommand::Option& option : command.options) {
     OptionDescription& one = (option.is_argument() ? all.arguments : all.options).emplace_back(option.described);
     one.is_list = one.is_list || value_alone(one).find(',') != std::string::npos;
@@ -210,10 +212,14 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
 void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
                              const TakeText& take, const std::string& description) {
   const auto take_word = [option = long_name(name), words, take](const std::string& word) {
-    if (!is_among(words, word)) {
+    const std::string renamed = renamed_value(option + "=" + word);
+    if (!renamed.empty()) {
+      static const std::ostream& once = std::cerr << "dmpc: " << option << '=' << word << " is called " << renamed << " now\n";
+      static_cast<void>(once);
+    } else if (!is_among(words, word)) {
       refuse_word(option, word, words);
     }
-    take(word);
+    take(renamed.empty() ? word : renamed);
   };
   add_text(name, joined(words, "|") + " [" + shown_default + "]", take_word, description);
 }
@@ -227,6 +233,8 @@ void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::
 }
 
 void OptionSet::set_examples(const std::string& text) { command_->examples = text; }
+
+void OptionSet::set_brief_help(const std::vector<BriefGroup>& groups) { command_->brief = groups; }
 
 void OptionSet::check_in_the_end(const std::function<void()>& check) { command_->checks.push_back(check); }
 
@@ -254,7 +262,7 @@ OptionSet CommandLine::add_command(const std::string& name, const std::string& d
 std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::string> arguments) {
   const TypedLine line = read_line(describe(), arguments);
   if (line.asks_for_help) {
-    return HelpText{help(words_between(line.command, ' '))};
+    return HelpText{help(words_between(line.command, ' '), line.asks_for_all_help)};
   }
   if (line.asks_for_version) {
     return HelpText{version_ + "\n"};
@@ -273,7 +281,7 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   }
 }
 
-std::string CommandLine::help(const std::vector<std::string>& command) const {
+std::string CommandLine::help(const std::vector<std::string>& command, bool asks_for_all) const {
   const CommandDescription program = describe();
   const CommandDescription* here = &program;
   std::string path = program.name;
@@ -283,7 +291,7 @@ std::string CommandLine::help(const std::vector<std::string>& command) const {
       path += " " + name;
     }
   }
-  return help_text(*here, path);
+  return asks_for_all ? help_text(*here, path) : brief_help_text(*here, path);
 }
 
 void CommandLine::suggest(const std::string& name, const Suggestion& suggestion) { suggestions_[name] = suggestion; }

@@ -76,6 +76,8 @@ class OptionSet {
 
   /// Sets the end of the help; without it, the end of the parent command's help is shown.
   void set_examples(const std::string& text);
+  /// Sets what --help shows; --help=all shows everything.
+  void set_brief_help(const std::vector<BriefGroup>& groups);
   /// Called when all options of a line with this command are read, after earlier checks; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
   /// Whether the user gave the option, if it is one of this command; for check_in_the_end().
@@ -114,7 +116,7 @@ class CommandLine {
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
   /// What --help prints about a command, {"study", "balance"}, or about the program.
-  std::string help(const std::vector<std::string>& command) const;
+  std::string help(const std::vector<std::string>& command, bool asks_for_all) const;
 
   /// Sets the suggestion for a value that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
   void suggest(const std::string& name, const Suggestion& suggestion);

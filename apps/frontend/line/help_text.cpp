@@ -125,4 +125,19 @@ std::string help_text(const CommandDescription& command, const std::string& path
   return text + "\n" + (command.examples.empty() ? "" : command.examples + "\n");
 }
 
+std::string brief_help_text(const CommandDescription& command, const std::string& path) {
+  if (command.brief.empty()) {
+    return help_text(command, path);
+  }
+  std::string text = command.text + "\n" + usage_line(command, path);
+  for (const BriefGroup& group : command.brief) {
+    text += "\n" + group.title + ":\n";
+    for (const auto& [name, meaning] : group.rows) {
+      text += explained(name, meaning);
+    }
+  }
+  return text + "\n" + path + " --help=all shows all " + std::to_string(command.options.size()) +
+         " options and examples, dmpc help WORD explains a word.\n";
+}
+
 }  // namespace dmpc::apps

@@ -19,7 +19,10 @@ void print_help(std::ostream& output, const std::string& text);
 /// Column in which explanations begin.
 inline constexpr std::size_t help_column = 36;
 
-/// `path`: the program's name and the command's, "dmpc study balance".
+/// Everything about a command. `path`: the program's name and the command's, "dmpc study balance".
 std::string help_text(const CommandDescription& command, const std::string& path);
+
+/// The options that matter first, or everything if the command does not say which do.
+std::string brief_help_text(const CommandDescription& command, const std::string& path);
 
 }  // namespace dmpc::apps

@@ -112,7 +112,9 @@ class Reader {
   /// Help is given about as many commands as are understood, whatever else is wrong.
   bool asks_for_help() {
     const auto end = std::find(rest_.begin(), rest_.end(), "--");
-    if (std::find_if(rest_.begin(), end, [](const std::string& word) { return word == "--help" || word == "-h"; }) == end) {
+    line_.asks_for_all_help = std::find(rest_.begin(), end, "--help=all") != end;
+    if (!line_.asks_for_all_help &&
+        std::find_if(rest_.begin(), end, [](const std::string& word) { return word == "--help" || word == "-h"; }) == end) {
       return false;
     }
     while (!rest_.empty() && enter(rest_.front())) {

@@ -11,9 +11,10 @@ namespace dmpc::apps {
 
 /// A line that has the form of a command.
 struct TypedLine {
-  std::string command;            ///< "study balance"
-  bool asks_for_help = false;     ///< for `command`, which may be empty; the rest of the line is ignored
-  bool asks_for_version = false;  ///< the program's version
+  std::string command;             ///< "study balance"
+  bool asks_for_help = false;      ///< for `command`, which may be empty; the rest of the line is ignored
+  bool asks_for_all_help = false;  ///< as --help=all does
+  bool asks_for_version = false;   ///< the program's version
   /// The line in canonical form: the commands, each option as --name or --name=value, --, and all arguments.
   std::vector<std::string> words;
 };

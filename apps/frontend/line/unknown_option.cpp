@@ -85,6 +85,8 @@ std::optional<ForeignOption> foreign_option(const std::string& name) {
   return std::nullopt;
 }
 
+std::string renamed_value(const std::string& option_and_value) { return option_and_value == "--quality=default" ? "good" : ""; }
+
 std::string said_instead_of(const std::string& name) {
   const auto* const found = std::find_if(std::begin(gone), std::end(gone), [&](const Gone& each) { return name == each.name; });
   return found == std::end(gone) ? "" : found->instead;

@@ -20,4 +20,7 @@ std::optional<ForeignOption> foreign_option(const std::string& name);
 /// a value of an option, "--no-skip=empty-space", with its effect: a sentence without its dot. Empty for any other option.
 std::string said_instead_of(const std::string& name);
 
+/// Today's word for a value that was renamed, "good" for "--quality=default"; empty for any other.
+std::string renamed_value(const std::string& option_and_value);
+
 }  // namespace dmpc::apps

@@ -26,7 +26,8 @@ std::string bar(std::uint64_t done, std::uint64_t total) {
   return text;
 }
 
-/// Returns "1:02:03" or "2:03".
+}  // namespace
+
 std::string clock_text(double seconds) {
   const auto whole = static_cast<std::uint64_t>(std::llround(std::min(seconds, 1e9)));
   std::ostringstream text;
@@ -37,8 +38,6 @@ std::string clock_text(double seconds) {
   text << whole / 60 % 60 << ':' << std::setw(2) << whole % 60;
   return text.str();
 }
-
-}  // namespace
 
 std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds, const std::string& unit) {
   std::ostringstream text;

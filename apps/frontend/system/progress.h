@@ -8,6 +8,9 @@
 
 namespace dmpc::apps {
 
+/// Returns "1:02:03" or "2:03".
+std::string clock_text(double seconds);
+
 /// Returns " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end; `unit` is what is counted. `done` <=
 /// `total`, `total` > 0, `seconds` >= 0 since the start. Unknown values are left out: the time left is shown from one second on,
 /// once a hundredth is done or ten seconds have passed.

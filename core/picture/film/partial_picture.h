@@ -51,6 +51,8 @@ struct Continuation {
   std::function<void(const Film& film, const Refinement& pass, const PixelMask& done)> keep = {};
   /// Called for every pixel of the pass whose light has arrived, when it is on the film. May be empty.
   std::function<void(const Film& film, const Refinement& pass, std::uint32_t pixel)> watch = {};
+  /// Called between passes. If it ends the picture, the state before the pass that was chosen is kept.
+  EndsBefore ends_before = {};
 };
 
 }  // namespace dmpc::core

@@ -75,6 +75,7 @@ Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, 
                        FilmScale scale)
     : scale_(scale.factor()),
       error_(options.error * scale_),
+      passes_(options.passes),
       kind_(options.kind),
       level_max_(core::level_max(options, samples)),
       pass_(static_cast<std::uint32_t>(width * height), samples),
@@ -110,7 +111,7 @@ void Refinement::add_samples(Film& film) const {
   }
 }
 
-bool Refinement::next_pass(Film& film) {
+bool Refinement::next_pass(Film& film, const EndsBefore& ends_before) {
   add_samples(film);
   if (!estimate_) {
     return false;
@@ -121,7 +122,13 @@ bool Refinement::next_pass(Film& film) {
   }
   estimate_->end_pass(film, pass_);
   find_errors(film);
-  return result_.error > error_ && result_.passes < passes_max && choose(film);
+  const std::uint64_t chosen = result_.error > error_ && result_.passes < passes_ ? choose() : 0;
+  result_.is_cut_short = chosen > 0 && ends_before && ends_before({result(), film.samples(), chosen});
+  if (chosen == 0 || result_.is_cut_short) {
+    return false;
+  }
+  begin_chosen(film);
+  return true;
 }
 
 /// Doubles the samples of all pixels, on the other plane.
@@ -147,26 +154,34 @@ void Refinement::find_errors(const Film& film) {
   result_.error = std::sqrt(sum / static_cast<double>(square_errors_.size()));
 }
 
-/// Chooses the next pass, for an error that is too large.
-bool Refinement::choose(Film& film) {
+/// Chooses the next pass, for an error that is too large. Returns the number of its samples.
+std::uint64_t Refinement::choose() {
   for (SampleStep& step : pass_.steps()) {
     const std::uint32_t level = std::max(step.from(), step.to());
     step = {level, level};
   }
   const double wanted = aim * error_ * error_, too_much = result_.error * result_.error - wanted;
-  const std::uint64_t samples = take_best(promises().threshold(too_much * static_cast<double>(square_errors_.size())));
-  if (samples > 0) {
-    explore(samples);
-    for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
-      if (pass_.has(pixel)) {
-        gatherings_saturated_ += film.gather_planes(pixel) ? 1 : 0;
-      }
-    }
-    estimate_->begin_pass();
-    ++result_.passes;
+  const std::uint64_t best = take_best(promises().threshold(too_much * static_cast<double>(square_errors_.size())));
+  if (best == 0) {
+    return 0;
   }
+  explore(best);
+  std::uint64_t samples = 0;
+  for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
+    samples += pass_.samples(pixel).count;
+  }
+  return samples;
+}
+
+void Refinement::begin_chosen(Film& film) {
+  for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
+    if (pass_.has(pixel)) {
+      gatherings_saturated_ += film.gather_planes(pixel) ? 1 : 0;
+    }
+  }
+  estimate_->begin_pass();
+  ++result_.passes;
   pixel_count_ = pass_.pixel_count();
-  return samples > 0;
 }
 
 /// The gain per sample of continuing from a level, except for a constant factor.

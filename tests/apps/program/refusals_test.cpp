@@ -164,6 +164,9 @@ const Refusal values[] = {
 const Refusal pairs[] = {
     {"render --error=0.01", "--error goes with --samples=auto"},
     {"render --samples=2 --samples-max=9", "--samples-max goes with --samples=auto"},
+    {"render --time=3", "--time goes with --samples=auto"},
+    {"render --passes=3", "--passes goes with --samples=auto"},
+    {"paths --samples=auto --passes=1", "--passes={}: by paths expected at least 2"},
     {"render --voxels=article", "--voxels does not go with --structure=grid"},
     {"render --strategy=forest --structure=voxels|grid", "--structure={} does not go with --strategy=forest"},
     {"render --strategy=forest --record-order=scattered", "--record-order=scattered does not go with"},

@@ -51,7 +51,7 @@ TEST_CASE("a picture so dark that the film's steps show in it says so, and a bla
 }
 
 TEST_CASE("a camera that sees nothing is told where the scene lies, and one that shows the whole") {
-  const std::string note = unseen_note({{-1, -2, -3}, {1, 2, 3}}, {});
+  const std::string note = small_note(0, {{-1, -2, -3}, {1, 2, 3}}, {});
   CHECK(contains(note, "which lies between -1,-2,-3 and 1,2,3: "));
   const CameraChoice camera = parse_camera(note.substr(note.find("--camera=") + 9));
   CHECK(camera.at == Vec3d{});
@@ -60,7 +60,7 @@ TEST_CASE("a camera that sees nothing is told where the scene lies, and one that
 }
 
 TEST_CASE("a scene that is a single point has a camera before it") {
-  const std::string note = unseen_note({{5, 5, 5}, {5, 5, 5}}, {2, true});
+  const std::string note = small_note(0, {{5, 5, 5}, {5, 5, 5}}, {2, true});
   const CameraChoice camera = parse_camera(note.substr(note.find("--camera=") + 9));
   CHECK(length(camera.from - camera.at) > 1);
   CHECK(camera.up == Vec3d{0, 0, -1});

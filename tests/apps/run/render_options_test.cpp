@@ -108,13 +108,35 @@ TEST_CASE(
   CHECK(options.refinement.error == doctest::Approx(1.0 / 255));
   CHECK(render({"--error=2/255", "--samples=auto"}).picture.refinement.error == doctest::Approx(2.0 / 255));
   CHECK(render({"--samples=auto", "--transport=paths"}).picture.refinement.error == 0.01);
-  CHECK(render({"--quality=default", "--transport=paths"}).picture.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(render({"--quality=good", "--transport=paths"}).picture.refinement.error == doctest::Approx(1.0 / 255));
   CHECK(render({"--samples=auto", "--samples-max=64"}).picture.refinement.samples_max == 64);
   CHECK_FALSE(render().picture.refinement.is_wanted());
 }
 
+TEST_CASE("a mesh file has at most 256 samples a pixel unless said") {
+  const auto samples_max = [](const char* scene, const char* said) {
+    const std::vector<std::string> line{"render", scene, said, "-o", "a.png"};
+    return parse_command_line(line).options<RenderOptions>().picture.refinement.samples_max;
+  };
+  CHECK(samples_max("a.obj", "--nodes=2") == 256);
+  CHECK(samples_max("a.obj", "--transport=whitted") == 256);
+  CHECK(samples_max("a.obj", "--samples-max=4096") == 4096);
+  CHECK(samples_max("teapot-12", "--samples=auto") == 4096);
+}
+
+TEST_CASE("a refined picture may end by time or by the number of its passes") {
+  CHECK_FALSE(render().seconds_max);
+  CHECK(render({"--samples=auto", "--time=2.5"}).seconds_max == 2.5);
+  CHECK(render({"--samples=auto"}).picture.refinement.passes == core::passes_max);
+  CHECK(render({"--samples=auto", "--passes=3"}).picture.refinement.passes == 3);
+}
+
+TEST_CASE("the name that a quality had is taken for its name") {
+  CHECK(render({"--quality=default"}).picture.quality == Quality::good);
+}
+
 TEST_CASE("a quality chooses what no other option has said") {
-  const PictureOptions standard = render({"--quality=default"}).picture, draft = render({"--quality=draft"}).picture;
+  const PictureOptions standard = render({"--quality=good"}).picture, draft = render({"--quality=draft"}).picture;
   CHECK(standard.is_refined);
   CHECK(standard.refinement.error == doctest::Approx(1.0 / 255));
   CHECK(draft.refinement.error > 2 * standard.refinement.error);
@@ -196,11 +218,11 @@ TEST_CASE("a mesh file by Whitted's transport is refined to the default error un
   CHECK(mesh({}).is_refined);
   CHECK(mesh({}).is_refined_unasked);
   CHECK(mesh({}).samples == render({"--samples=auto"}).picture.samples);
-  CHECK(mesh({}).refinement.error == render({"--quality=default"}).picture.refinement.error);
+  CHECK(mesh({}).refinement.error == render({"--quality=good"}).picture.refinement.error);
   CHECK(mesh({}).cutoff == 0);
   CHECK_FALSE(mesh({"--samples=1"}).is_refined);
   CHECK(mesh({"--quality=draft"}).refinement.error == render({"--quality=draft"}).picture.refinement.error);
-  CHECK_FALSE(mesh({"--quality=default"}).is_refined_unasked);
+  CHECK_FALSE(mesh({"--quality=good"}).is_refined_unasked);
   CHECK(mesh({"--error=0.5"}).refinement.error == 0.5);
   CHECK_FALSE(mesh({"--error=0.5"}).is_refined_unasked);
   for (const char* const scene : {"teapot-12", "a.nff", "./a"}) {

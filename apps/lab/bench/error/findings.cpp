@@ -106,15 +106,15 @@ std::string error_text(const SceneResult& result, const Measurement& measurement
 }
 
 std::string quality_text(const SceneResult& result) {
-  const Measurement *const draft = measured(result, Knob::quality, "draft"), *const standard =
-                                                                                 measured(result, Knob::quality, "default");
-  if (draft == nullptr || standard == nullptr) {
+  const Measurement* const draft = measured(result, Knob::quality, "draft");
+  const Measurement* const good = measured(result, Knob::quality, "good");
+  if (draft == nullptr || good == nullptr) {
     return "";
   }
-  const double rays = static_cast<double>(draft->rays) / static_cast<double>(std::max<std::uint64_t>(standard->rays, 1));
-  return result.scene + ": default quality has an error of " + error_text(result, *standard) + ", draft " +
-         error_text(result, *draft) + " for " + fixed(rays, 3) + " times the rays (" +
-         fixed(draft->least_seconds() / standard->least_seconds(), 3) + " times the seconds).";
+  const double rays = static_cast<double>(draft->rays) / static_cast<double>(std::max<std::uint64_t>(good->rays, 1));
+  return result.scene + ": good quality has an error of " + error_text(result, *good) + ", draft " + error_text(result, *draft) +
+         " for " + fixed(rays, 3) + " times the rays (" + fixed(draft->least_seconds() / good->least_seconds(), 3) +
+         " times the seconds).";
 }
 
 /// A point's time as a multiple of that of uniform samples with the same error: `at_least` if one sample has less error.

@@ -80,7 +80,7 @@ class Sweep {
         return add(Knob::arithmetic, "float", base_);
       case Knob::quality:
         add(Knob::quality, "draft", with_quality(Quality::draft));
-        return add(Knob::quality, "default", with_quality(Quality::standard));
+        return add(Knob::quality, "good", with_quality(Quality::good));
       case Knob::bounces:
         return add_up_to(*base_.bounces, bounce_counts,
                          [&](int bounces) { add(knob, bounces, turned(&Setting::bounces, std::optional(bounces))); });

@@ -177,7 +177,7 @@ TEST_CASE("what of materials is not shown is said once a kind, of those alone th
            paint + "newmtl other\nKe 1 1 1\n");
   for (const char* note :
        {"textures not used, since they are not of a surface's colour: 3",
-        "materials that shine by themselves, and light other things by paths, not by --transport=whitted: 2",
+        "materials that shine, which light other things by paths alone: 2",
         "materials whose own light is a texture's, shown without it: 1", "materials with a clear coat, shown without it: 1",
         "materials that colour what shines through them (Tf), shown without that: 1",
         "materials with colours by spectral curves or CIE XYZ, which are not followed: 1",

@@ -104,7 +104,7 @@ constexpr Slip slips[] = {
     {"render teapot-12 -o a.png --replacement=LRU", "Did you mean lru?"},
     {"render teapot-12 -o a.png --runner=virtal", "Did you mean virtual?"},
     {"render teapot-12 -o a.png --tracer=embre", "Did you mean embree?"},
-    {"render teapot-12 -o a.png --quality=high", "--quality=high: expected draft or default"},
+    {"render teapot-12 -o a.png --quality=high", "--quality=high: expected draft or good"},
     {"render teapot-12 -o a.png --convention=hanes", "Did you mean haines?"},
     {"render teapot-12 -o a.png --no-skip=anyhit", "Did you mean any-hit?"},
     {"render teapot-12 -o a.png --heatmap=fault:f.png", "Did you mean faults?"},

@@ -120,6 +120,35 @@ TEST_CASE("where both samples and all neighbours agree one pass is enough") {
   CHECK(refinement.result().error == 0);
 }
 
+TEST_CASE("a picture that is cut short is the one of as many passes, and can be gone on with") {
+  const auto shone = [](Film& film, Refinement& refinement, const EndsBefore& ends_before) {
+    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+      shine(film, pixel, 1, pixel % 2 == 0 ? 0.5F : 1);
+    }
+    return refinement.next_pass(film, ends_before);
+  };
+  Film cut(6, 6), whole(6, 6), few(6, 6);
+  Refinement of_cut({.error = 0.01}, 2, 6, 6), of_whole = of_cut, of_few({.error = 0.01, .passes = 1}, 2, 6, 6);
+  REQUIRE(shone(whole, of_whole, {}));
+  CHECK_FALSE(shone(few, of_few, {}));
+  CHECK_FALSE(of_few.result().is_cut_short);
+  PassEnd end;
+  CHECK_FALSE(shone(cut, of_cut, [&end](const PassEnd& at) {
+    end = at;
+    return true;
+  }));
+  CHECK(of_cut.result().is_cut_short);
+  CHECK(of_cut.result().passes == 1);
+  CHECK(end.result.error == of_cut.result().error);
+  CHECK(end.samples_done == 72);
+  CHECK(end.samples_chosen > 0);
+  CHECK(cut.hash() == few.hash());
+  of_cut.begin_chosen(cut);
+  CHECK(cut.hash() == whole.hash());
+  CHECK(of_cut.pass() == of_whole.pass());
+  CHECK(of_cut.result().passes == 2);
+}
+
 TEST_CASE("the square error of a pixel of two samples is by a half less than what its mean has changed by from one") {
   Film film(1, 1);
   Refinement refinement({.error = 0.01}, 2, 1, 1);

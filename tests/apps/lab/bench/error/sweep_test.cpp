@@ -73,9 +73,9 @@ TEST_CASE("by paths a sweep aims at nothing that shines, at some of it and at wh
 
 TEST_CASE("the qualities are what the command line's are") {
   const auto points = sweep({}, {.knobs = {Knob::quality}});
-  CHECK(texts(points) == Texts{"draft", "default"});
+  CHECK(texts(points) == Texts{"draft", "good"});
   CHECK(points[0].setting.error == apps::choice_of(apps::Quality::draft).error);
-  CHECK(points[1].setting.cutoff == apps::choice_of(apps::Quality::standard).cutoff);
+  CHECK(points[1].setting.cutoff == apps::choice_of(apps::Quality::good).cutoff);
   CHECK(points[1].setting.is_refined());
 }
 
