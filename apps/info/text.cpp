@@ -194,6 +194,7 @@ Table memory_table(const Forecast& forecast) {
   table.add_note(
       "both with the default options of a render on threads: larger caches, batches and queues, chaos, counted pages and "
       "--resume take more");
+  table.add_note("with --runner=pool the same counts, but pages lie in the host's database, which stays; dataflow has copies");
   table.add_note(
       "copies: of a primitive with dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.cuts == dataflow::CutOrder::longer_axis ? "" : " --cuts=" + std::string(name_of(forecast.cuts))) +

@@ -39,6 +39,16 @@ std::string memory_text(const Account& account) {
   return text;
 }
 
+/// Returns nothing where nodes have what they count.
+std::string reference_text(const RenderRecord& record) {
+  const nodes::ComputerRequest& computer = record.options.computer;
+  const bool refer = !computer.machine && computer.immutable() == nodes::Immutable::is_referred_to;
+  return refer && record.options.strategy != Strategy::dataflow
+             ? "; pages are counted as copies, but lie in the host's database, " +
+                   bytes_text(record.database.page_count() * record.database.page_size())
+             : "";
+}
+
 /// Returns a whole line on the ranks and the traffic between them, or nothing.
 std::string ranks_line(const Account& account) {
   if (account.ranks.empty()) {
@@ -209,7 +219,7 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << counted(record.database.header().primitive_count, "primitive") << " in "
          << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
-         << special.computer << "\nmemory   " << memory_text(account) << '\n'
+         << special.computer << "\nmemory   " << memory_text(account) << reference_text(record) << '\n'
          << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(record, account) << "time     "
          << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", " << account.film.width()
