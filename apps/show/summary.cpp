@@ -11,6 +11,7 @@
 #include "apps/frontend/run/time_parts.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/ray_hops.h"
+#include "apps/show/advice.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {
@@ -21,6 +22,7 @@ namespace {
 struct StrategyLines {
   std::string computer;  ///< the rest of that line
   std::string figures;   ///< whole lines, with their ends
+  std::string advice;    ///< likewise
 };
 
 std::string memory_text(const Account& account) {
@@ -148,7 +150,7 @@ StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) 
             "asked    " + questions_text(report) + "\n"};
   }
   return {paged ? grouped(report.plan.frames) + " cached pages a node, " + in_flight : in_flight,
-          paged ? "pages    " + pages_text(report) + "\n" : ""};
+          paged ? "pages    " + pages_text(report) + "\n" : "", advice_lines(options, report)};
 }
 
 std::string travel_text(const dataflow::Report& report) {
@@ -224,7 +226,8 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << sampling_line(record.options, account) << special.figures << virtual_lines(record, account) << "time     "
          << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", " << account.film.width()
          << "x" << account.film.height() << ", film " << hash_text(record.film_hash) << picture_text(record.options.picture)
-         << '\n';
+         << '\n'
+         << special.advice;
 }
 
 }  // namespace dmpc::apps
