@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nodes/chaos.h"
+#include "nodes/local_memory.h"
 #include "nodes/machine.h"
 
 namespace dmpc::nodes {
@@ -33,6 +34,12 @@ struct ComputerRequest {
 
   /// The machine; nullptr if nodes are threads. Valid as long as this.
   const Machine* model() const { return machine ? &*machine : nullptr; }
+  /// How nodes store bytes that never change. Those of a modelled machine or a pool, which share the real computer's caches,
+  /// refer to them; those with threads of their own, on ranks, and under chaos, which delays bytes, copy them.
+  Immutable immutable() const {
+    const bool is_plain_pool = pool_threads && !chaos && ranks == nullptr;
+    return machine || is_plain_pool ? Immutable::is_referred_to : Immutable::is_copied;
+  }
 };
 
 }  // namespace dmpc::nodes

@@ -14,9 +14,9 @@
 
 namespace dmpc::nodes {
 
-/// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches and memory, the
-/// memory is counted, but instead of copies there is a table, outside of the node's memory, of each piece's address. Not
-/// thread-safe; belongs to one node.
+/// Pieces of equal size, by number. If the memory refers to them (ComputerRequest::immutable()), as on a modelled machine, where
+/// all nodes share the real computer's caches and memory, the memory is counted, but instead of copies there is a table, outside
+/// of the node's memory, of each piece's address. Not thread-safe; belongs to one node.
 class ImmutablePieces {
  public:
   /// Takes `room_bytes`: for all pieces, and what must be readable behind the last one. As much is readable behind each source
@@ -63,7 +63,7 @@ class ImmutablePieces {
  private:
   std::span<std::byte> room_;
   std::size_t piece_bytes_;
-  std::unique_ptr<const std::byte*[]> places_;  ///< on a modelled machine
+  std::unique_ptr<const std::byte*[]> places_;  ///< if they are referred to
 };
 
 /// One piece, the first `bytes` of `source`: its final address, with `overread_bytes` readable behind it.

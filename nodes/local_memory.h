@@ -47,7 +47,7 @@ class Category {
 /// Bytes by category: what a program needs, known before anything is allocated.
 struct MemoryPlan {
   std::array<std::size_t, category_count> bytes{};  ///< by Category::number()
-  std::size_t immutable_bytes = 0;  ///< part of these, for ImmutablePieces, which a modelled machine's nodes do not fill
+  std::size_t immutable_bytes = 0;                  ///< part of these, for ImmutablePieces: not filled where they are referred to
 
   /// Bytes of one category.
   std::size_t& operator[](Category category) { return bytes[index_of(category)]; }
@@ -66,7 +66,7 @@ struct MemoryPlan {
 
 inline MemoryPlan operator+(MemoryPlan sum, const MemoryPlan& more) { return sum += more; }
 
-/// How a memory stores bytes that never change and outlive the run: as copies, or, where the nodes are modelled, by address. Both
+/// How a memory stores bytes that never change and outlive the run: as copies or by address (ComputerRequest::immutable()). Both
 /// take the same bytes of the plan, and programs see no difference.
 enum class Immutable : std::uint8_t { is_copied, is_referred_to };
 

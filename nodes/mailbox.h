@@ -115,18 +115,17 @@ class BasicMailbox {
   [[nodiscard]] bool add(Batch& batch, const PacketHeader& header, std::span<const std::byte> payload,
                          std::span<const std::byte> front = {}) {
     core::expect(header.bytes == front.size() + payload.size(), "a header says how long its payload is");
-    const bool is_small = header.bytes <= small_payload_bytes_;
-    core::expect(is_small || header.bytes <= bulk_payload_bytes_, "a payload fits the slots of its class");
-    Pool& pool = is_small ? small_ : bulk_;
-    const SlotIndex slot = pool.take();
-    if (slot == no_slot) {
-      return false;
-    }
-    fill(pool.slot(slot), header, front, payload);
-    links_[slot].store(batch.newest_, std::memory_order_relaxed);
-    batch.oldest_ = batch.is_empty() ? slot : batch.oldest_;
-    batch.newest_ = slot;
-    return true;
+    return put(batch, header, front, payload);
+  }
+
+  /// As add(), for a payload of `front` and `immutable`, bytes that never change and outlive the mailbox: the slot, which is the
+  /// one that they would take, gets the address of `immutable` (at least 16 bytes).
+  [[nodiscard]] bool add_in_place(Batch& batch, PacketHeader header, std::span<const std::byte> front,
+                                  std::span<const std::byte> immutable) {
+    core::expect(header.bytes == front.size() + immutable.size(), "a header says how long its payload is");
+    core::expect(immutable.size() >= sizeof(immutable), "an immutable end is no shorter than its address");
+    header.end_in_place = 1;
+    return put(batch, header, std::as_bytes(std::span(&immutable, 1)), front);
   }
 
   /// Gives all packets of the batch to the receiver, in their order, and wakes it if it sleeps. `awake` as push()'s.
@@ -281,6 +280,22 @@ class BasicMailbox {
 
   Pool& pool_of(SlotIndex slot) { return slot < small_slots_ ? small_ : bulk_; }
 
+  [[nodiscard]] bool put(Batch& batch, const PacketHeader& header, std::span<const std::byte> front,
+                         std::span<const std::byte> payload) {
+    const bool is_small = header.bytes <= small_payload_bytes_;
+    core::expect(is_small || header.bytes <= bulk_payload_bytes_, "a payload fits the slots of its class");
+    Pool& pool = is_small ? small_ : bulk_;
+    const SlotIndex slot = pool.take();
+    if (slot == no_slot) {
+      return false;
+    }
+    fill(pool.slot(slot), header, front, payload);
+    links_[slot].store(batch.newest_, std::memory_order_relaxed);
+    batch.oldest_ = batch.is_empty() ? slot : batch.oldest_;
+    batch.newest_ = slot;
+    return true;
+  }
+
   static void fill(std::span<std::byte> slot, const PacketHeader& header, std::span<const std::byte> front,
                    std::span<const std::byte> payload) {
     Atomics::writes(slot.data());
@@ -297,7 +312,14 @@ class BasicMailbox {
     Atomics::reads(slot.data());
     PacketHeader header;
     std::memcpy(&header, slot.data(), sizeof(header));
-    return {NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)};
+    const std::span<const std::byte> payload = slot.subspan(sizeof(header));
+    if (header.end_in_place == 0) {
+      return {NodeId{header.source}, header.kind, payload.first(header.bytes)};
+    }
+    std::span<const std::byte> immutable;
+    std::memcpy(&immutable, payload.data(), sizeof(immutable));
+    const std::size_t front_bytes = header.bytes - immutable.size();
+    return {NodeId{header.source}, header.kind, payload.subspan(sizeof(immutable), front_bytes), immutable};
   }
 
   /// One attempt to put `batch` on the inbox whose word was `head`; updates `head` if that failed.

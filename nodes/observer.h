@@ -100,7 +100,7 @@ struct Passing {
   std::span<const std::byte> payload;
   /// For a sent packet the first two; for a received one all on a modelled machine, otherwise only the last.
   MessageTimes times;
-  std::size_t immutable_bytes = 0;  ///< that follow `payload` by address (modelled machines, nodes/packet.h)
+  std::size_t immutable_bytes = 0;  ///< that follow `payload` by address (nodes/packet.h)
 
   std::size_t payload_bytes() const { return payload.size() + immutable_bytes; }
   /// The first word of the payload, which many protocols use as a number; 0 if there is none.

@@ -20,7 +20,7 @@ struct PacketHeader {
   std::uint32_t bytes = 0;   ///< payload, including its immutable end
   std::uint16_t source = 0;  ///< index of the sending NodeId
   PacketKind kind = 0;
-  std::uint8_t padding = 0;
+  std::uint8_t end_in_place = 0;  ///< 1: a mailbox's slot has the address of the immutable end, not its bytes
 };
 static_assert(sizeof(PacketHeader) == 8 && std::is_trivially_copyable_v<PacketHeader>);
 

@@ -47,7 +47,7 @@ std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifica
   if (computer.ranks != nullptr) {
     return std::make_unique<RanksRunner>(specifications, *computer.ranks, computer.chaos, observer, computer.pool_threads);
   }
-  return std::make_unique<ThreadsRunner>(specifications, computer.chaos, observer, computer.pool_threads);
+  return std::make_unique<ThreadsRunner>(specifications, computer.chaos, observer, computer.pool_threads, computer.immutable());
 }
 
 }  // namespace dmpc::nodes

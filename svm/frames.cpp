@@ -106,7 +106,7 @@ PictureComputer::PictureComputer(const Plan& plan, const MakeProgram& make_progr
           },
           options.computer, options.watching),
       before_(plan.node_count()) {
-  if (options.watching.distributed && !options.computer.machine) {  // whose nodes refer to the database
+  if (options.watching.distributed && options.computer.immutable() == nodes::Immutable::is_copied) {
     options.watching.distributed();
   }
 }

@@ -55,7 +55,7 @@ class Frames {
  private:
   const core::Database& database_;
   RunOptions options_;
-  core::RenderSettings settings_;  ///< the current frame's; nodes of a modelled machine refer to it
+  core::RenderSettings settings_;  ///< the current frame's; nodes may refer to it
   core::FineDetail detail_;
   Plan plan_;
   nodes::ByteSource bytes_;

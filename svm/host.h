@@ -25,7 +25,7 @@ namespace dmpc::svm {
 /// replies to requests for them from its own memory, as a node would.
 class HostProgram final : public pictures::Host {
  public:
-  /// As pictures::Host. `plan` outlives the program, and on modelled machines the database of its request does.
+  /// As pictures::Host. `plan` outlives the program, and the database of its request does if nodes refer to it.
   HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress,
               const core::Continuation& continuation = {});
   /// The memory that the constructor takes.

@@ -15,7 +15,7 @@
 
 namespace dmpc::svm {
 
-/// A core::Records that is never absent; on a modelled machine the copy is counted, but shared by all nodes. Thread safety:
+/// A core::Records that is never absent; where nodes refer to the database the copy is counted, but is that one. Thread safety:
 /// belongs to one node.
 class LocalCopy : public PlainRecords {
  public:

@@ -31,7 +31,7 @@ core::GridTracer<Records> tracer_over(Records& records, const core::RenderSettin
 }
 
 /// `reference_logs`, one per node, are set if references are to be recorded. `Bundles`: whether programs of bundles are made
-/// where the plan has them. All arguments outlive the result and its calls; except on modelled machines `database` and the plan's
+/// where the plan has them. All arguments outlive the result and its calls; `database`, unless nodes refer to it, and the plan's
 /// resident pages may end once all programs are made.
 template <class Records, bool Bundles = false>
 MakeProgram maker_over(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,

@@ -6,6 +6,7 @@
 #include "apps/frontend/line/shown_text.h"
 #include "apps/frontend/table/table.h"
 #include "apps/info/record.h"
+#include "apps/run/many_nodes.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/scene_setup.h"
 #include "apps/scene/subject.h"
@@ -194,6 +195,11 @@ Table memory_table(const Forecast& forecast) {
   table.add_note(
       "both with the default options of a render on threads: larger caches, batches and queues, chaos, counted pages and "
       "--resume take more");
+  table.add_note("with --runner=pool the same counts, but pages lie in the host's database, which stays; dataflow has copies");
+  if (!forecast.computers.empty() && forecast.computers.back().nodes >= many_nodes_min) {
+    table.add_note("svm, " + std::to_string(many_nodes_min) + " nodes or more on few processors: render takes less time with " +
+                   many_nodes_options);
+  }
   table.add_note(
       "copies: of a primitive with dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.cuts == dataflow::CutOrder::longer_axis ? "" : " --cuts=" + std::string(name_of(forecast.cuts))) +

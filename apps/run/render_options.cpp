@@ -35,9 +35,9 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
        {"pool", RunnerKind::pool},
        {"virtual", RunnerKind::virtual_time},
        {"mpi", RunnerKind::mpi}},
-      "threads: one thread per node. pool: a few threads run all nodes in turn, which takes less processor time if nodes "
-      "outnumber processors. virtual: a model of a machine with its own time, the same in every run. mpi: threads of all "
-      "processes that mpirun or srun started; rank 0 reads, prints and writes");
+      "threads: one thread per node. pool: a few threads run all nodes in turn and share one copy of each page, which takes less "
+      "processor time if nodes outnumber processors. virtual: a model of a machine with its own time, the same in every run. "
+      "mpi: threads of all processes that mpirun or srun started; rank 0 reads, prints and writes");
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
                      "Threads that run all nodes of a process in turn (pool; with mpi in place of one thread per node)");
   options.add_number("--rank-timeout", render.runner.timeout_seconds, 1, 86400, "600",

@@ -11,6 +11,7 @@
 #include "apps/frontend/run/time_parts.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/ray_hops.h"
+#include "apps/show/advice.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {
@@ -21,6 +22,7 @@ namespace {
 struct StrategyLines {
   std::string computer;  ///< the rest of that line
   std::string figures;   ///< whole lines, with their ends
+  std::string advice;    ///< likewise
 };
 
 std::string memory_text(const Account& account) {
@@ -37,6 +39,16 @@ std::string memory_text(const Account& account) {
     }
   }
   return text;
+}
+
+/// Returns nothing where nodes have what they count.
+std::string reference_text(const RenderRecord& record) {
+  const nodes::ComputerRequest& computer = record.options.computer;
+  const bool refer = !computer.machine && computer.immutable() == nodes::Immutable::is_referred_to;
+  return refer && record.options.strategy != Strategy::dataflow
+             ? "; pages are counted as copies, but lie in the host's database, " +
+                   bytes_text(record.database.page_count() * record.database.page_size())
+             : "";
 }
 
 /// Returns a whole line on the ranks and the traffic between them, or nothing.
@@ -150,7 +162,7 @@ StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) 
             "asked    " + questions_text(report) + "\n"};
   }
   return {paged ? grouped(report.plan.frames) + " cached pages a node, " + in_flight : in_flight,
-          paged ? "pages    " + pages_text(report) + "\n" : ""};
+          paged ? "pages    " + pages_text(report) + "\n" : "", advice_lines(options, report)};
 }
 
 std::string travel_text(const dataflow::Report& report) {
@@ -221,12 +233,13 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << counted(record.database.header().primitive_count, "primitive") << " in "
          << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
-         << special.computer << "\nmemory   " << memory_text(account) << '\n'
+         << special.computer << "\nmemory   " << memory_text(account) << reference_text(record) << '\n'
          << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(record, account) << "time     "
          << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", " << account.film.width()
          << "x" << account.film.height() << ", film " << hash_text(record.film_hash) << picture_text(record.options.picture)
-         << '\n';
+         << '\n'
+         << special.advice;
 }
 
 }  // namespace dmpc::apps

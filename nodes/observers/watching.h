@@ -36,8 +36,8 @@ struct Watching {
   /// The costs of each item are added to it, for the kinds that nodes count. It has as many items as the program's work.
   HeatMap* heat = nullptr;
   Observer* observer = nullptr;  ///< sees the run happen
-  /// Called on the calling thread when the nodes hold all data, which are not read again, before any node starts; not if nodes of
-  /// a modelled machine refer to them (ImmutablePieces). A run that has it starts at most once.
+  /// Called on the calling thread when the nodes hold all data, which are not read again, before any node starts; not if nodes
+  /// refer to them (ComputerRequest::immutable()). A run that has it starts at most once.
   std::function<void()> distributed = {};
   WatchingElsewhere elsewhere = {};  ///< on ranks, where those above observe only rank 0's nodes
 

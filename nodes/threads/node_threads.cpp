@@ -58,17 +58,19 @@ std::string deadlock_text(const std::optional<Chaos>& chaos) {
 }
 
 NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
-                         const Outlet* outlet, const std::optional<std::uint32_t>& pool_threads)
+                         const Outlet* outlet, const std::optional<std::uint32_t>& pool_threads, Immutable immutable)
     : chaos_(chaos),
       observer_(observer),
       outlet_(outlet),
+      immutable_(immutable),
       awake_(thread_count(pool_threads, count_here(outlet, specifications.size()))),
       uncounted_(0) {
   core::expect(!specifications.empty(), "a computer has at least the host");
   core::expect(pool_threads != 0U, "a pool has a thread");
+  core::expect(immutable == Immutable::is_copied || (!chaos && outlet == nullptr), "what is delayed, or leaves, is bytes");
   core::expect(outlet == nullptr || outlet->is_here.size() == specifications.size(), "each node is here or elsewhere");
   const auto peer_count = static_cast<std::uint32_t>(specifications.size());
-  const ThreadComputer computer{peer_count, *this, chaos_, observer_, start_ns_, std::thread::hardware_concurrency()};
+  const ThreadComputer computer{peer_count, *this, chaos_, observer_, start_ns_, immutable_, std::thread::hardware_concurrency()};
   by_index_.resize(peer_count);
   for (std::uint32_t i = 0; i < peer_count; ++i) {
     if (nodes::is_here(outlet, i)) {
@@ -106,6 +108,21 @@ void NodeThreads::deliver(NodeId target, const PacketHeader& header, std::span<c
   }
   core::expect(mailbox_towards(target).push(sent, payload, count_towards(target), front),
                "credits leave room in the target's mailbox");
+}
+
+bool NodeThreads::deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
+                                   std::span<const std::byte> immutable) {
+  if (immutable_ == Immutable::is_copied) {
+    return false;
+  }
+  ThreadProcessor& source = *by_index_[header.source];
+  const bool follows = source.waiting_count > 0 && source.waiting_for == target;
+  Mailbox& mailbox = mailbox_towards(target);
+  Mailbox::Batch alone;
+  core::expect(mailbox.add_in_place(follows ? source.waiting : alone, header, front, immutable),
+               "credits leave room in the target's mailbox");
+  follows ? hand_over(source) : mailbox.hand_over(alone, awake_);
+  return true;
 }
 
 void NodeThreads::Bringing::bring(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
@@ -277,7 +294,7 @@ NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
     return Next::pass;
   }
   self.mailbox.drain([this, &self](const Packet& packet) {
-    self.node.counters().received[packet.kind].add(packet.payload.size());
+    self.node.counters().received[packet.kind].add(packet.payload_bytes());
     if (observer_ != nullptr) {
       return receive_observed(self, packet);
     }
@@ -330,7 +347,8 @@ void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) 
                        .kind = packet.kind,
                        .call = span.call,
                        .payload = packet.payload,
-                       .times = {.received_ns = span.begin_ns}});
+                       .times = {.received_ns = span.begin_ns},
+                       .immutable_bytes = packet.immutable.size()});
   self.program->receive(packet);
   end_span(self, span);
   self.service_idle_ns += self.is_waiting ? span.own_ns : 0;

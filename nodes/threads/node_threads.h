@@ -53,12 +53,16 @@ std::string deadlock_text(const std::optional<Chaos>& chaos);
 class NodeThreads final : public Network {
  public:
   /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if given, is called on the nodes'
-  /// threads; it and the outlet outlive this. `pool_threads`: as in ComputerRequest.
+  /// threads; it and the outlet outlive this. `pool_threads` and `immutable`: as in ComputerRequest; with chaos or an outlet
+  /// immutable bytes are copied.
   NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
-              const Outlet* outlet = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
+              const Outlet* outlet = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt,
+              Immutable immutable = Immutable::is_copied);
   ~NodeThreads() override;
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
+  bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
+                        std::span<const std::byte> immutable) override;
 
   /// Starts the threads; if one cannot start that is a failure. `start_ns`: the start of the run, by CLOCK_MONOTONIC.
   void start(std::uint64_t start_ns);
@@ -147,6 +151,7 @@ class NodeThreads final : public Network {
   std::optional<Chaos> chaos_;
   Observer* observer_;
   const Outlet* outlet_;
+  Immutable immutable_;
   std::uint64_t start_ns_ = 0;  ///< start of the run; written before the threads start
   AwakeCount awake_;            ///< nodes or worker threads, and the bringer while it brings
   AwakeCount uncounted_;        ///< for the outbox, whose receiver is no node: never read

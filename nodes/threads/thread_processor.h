@@ -44,30 +44,45 @@ struct ThreadComputer {
   const std::optional<Chaos>& chaos;
   Observer* observer;
   const std::uint64_t& start_ns;  ///< start of the run
-  std::size_t core_count;         ///< 0: not known
+  Immutable immutable;
+  std::size_t core_count;  ///< 0: not known
 };
 
 /// Between a program and the network, with chaos or not: reports to an observer what is sent, when the program sends it.
 class Telling final : public Network {
  public:
   /// `call` is the number of the program's. All outlive this.
-  Telling(Observer& observer, const std::uint64_t& start_ns, const std::uint64_t& call, Network& next)
-      : observer_(&observer), start_ns_(&start_ns), call_(&call), next_(&next) {}
+  Telling(const ThreadComputer& computer, const std::uint64_t& call, Network& next)
+      : observer_(computer.observer), start_ns_(&computer.start_ns), immutable_(computer.immutable), call_(&call), next_(&next) {}
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    tell(target, header, payload, 0);
+    next_->deliver(target, header, payload);
+  }
+  bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
+                        std::span<const std::byte> immutable) override {
+    if (immutable_ == Immutable::is_copied) {
+      return false;
+    }
+    tell(target, header, front, immutable.size());
+    return next_->deliver_in_place(target, header, front, immutable);
+  }
+
+ private:
+  void tell(NodeId target, const PacketHeader& header, std::span<const std::byte> payload, std::size_t immutable_bytes) const {
     const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC) - *start_ns_;
     observer_->sent({.node = NodeId{header.source},
                      .peer = target,
                      .kind = header.kind,
                      .call = *call_,
                      .payload = payload,
-                     .times = {.sending_ns = now_ns, .left_ns = now_ns}});
-    next_->deliver(target, header, payload);
+                     .times = {.sending_ns = now_ns, .left_ns = now_ns},
+                     .immutable_bytes = immutable_bytes});
   }
 
- private:
   Observer* observer_;
   const std::uint64_t* start_ns_;
+  Immutable immutable_;
   const std::uint64_t* call_;
   Network* next_;
 };
@@ -75,7 +90,7 @@ class Telling final : public Network {
 /// One node with all that belongs to it. On its own cache lines, so that neighbours do not disturb each other's counters.
 struct alignas(cache_line_bytes) ThreadProcessor {
   ThreadProcessor(const NodeSpecification& specification, NodeId id, const ThreadComputer& computer)
-      : memory(specification.plan),
+      : memory(specification.plan, computer.immutable),
         mailbox(specification.mailbox, memory),
         held(delayed_packets_of(computer.chaos, specification, id, memory, computer.network)),
         batching(specification.batching),
@@ -94,7 +109,7 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   /// The first network on the way of the program's packets.
   Network& way_out(const ThreadComputer& computer) {
     Network& next = held ? *held : computer.network;
-    return computer.observer == nullptr ? next : telling.emplace(*computer.observer, computer.start_ns, call, next);
+    return computer.observer == nullptr ? next : telling.emplace(computer, call, next);
   }
 
   /// Whether this node, being slow, skips the next quantum.

@@ -9,8 +9,8 @@
 namespace dmpc::nodes {
 
 ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos,
-                             Observer* observer, const std::optional<std::uint32_t>& pool_threads)
-    : nodes_(specifications, chaos, observer, nullptr, pool_threads), disturbance_(chaos) {}
+                             Observer* observer, const std::optional<std::uint32_t>& pool_threads, Immutable immutable)
+    : nodes_(specifications, chaos, observer, nullptr, pool_threads, immutable), disturbance_(chaos) {}
 
 RunEnd ThreadsRunner::run(std::stop_token stop) {
   if (std::exchange(is_started_, true)) {

@@ -20,9 +20,10 @@ class ThreadsRunner final : public Runner {
  public:
   /// `specifications`: the nodes in order, then the host. With `chaos` the computer delays and reorders packets, and some of its
   /// nodes are slow; the strategy shrinks the credits (shrunk_credits()). `observer`, if given, is called on the nodes' threads.
-  /// `pool_threads`: as in ComputerRequest.
+  /// `pool_threads` and `immutable`: as in ComputerRequest.
   explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt,
-                         Observer* observer = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
+                         Observer* observer = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt,
+                         Immutable immutable = Immutable::is_copied);
 
   /// Starts the threads. After a stop is requested every thread ends within a quantum. A deadlock is detected exactly, without a
   /// timeout: all nodes sleep and nothing is in flight.

@@ -124,7 +124,7 @@ class Pager : public PlainRecords {
   PageId last_page_ = no_page;
   const std::byte* last_bytes_ = nullptr;
   std::uint64_t* last_hits_ = nullptr;
-  std::optional<PagesInPlace> in_place_;  ///< on a modelled machine: instead of translations
+  std::optional<PagesInPlace> in_place_;  ///< if pages are referred to: instead of translations
   std::span<Translation> translations_;
   HomePages homes_;
   Cache resident_;  ///< for pages that never leave it

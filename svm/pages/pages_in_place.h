@@ -1,4 +1,4 @@
-// The places of pages on a modelled machine, all of whose nodes share the real computer's caches.
+// The places of pages where nodes refer to one database and share the real computer's caches.
 #pragma once
 
 #include <algorithm>

@@ -142,6 +142,32 @@ TEST_CASE("the classes have slots of their own") {
   CHECK(box.take() == Taken{{1, 5}, {1, 5}, {1, 6}});
 }
 
+TEST_CASE("the address of an immutable end takes the slot of its bytes, and the packet comes out with the end where it is") {
+  const std::vector<std::byte> front(4, std::byte{3}), page(1024, std::byte{5});
+  OneMailbox box({.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = front.size() + page.size()});
+  Mailbox::Batch batch;
+  const auto add = [&](std::span<const std::byte> end) {
+    const auto bytes = static_cast<std::uint32_t>(front.size() + end.size());
+    return box.mailbox.add_in_place(batch, {.bytes = bytes, .source = 7, .kind = 9}, front, end);
+  };
+  CHECK(add(page));
+  CHECK(add(page));
+  CHECK_FALSE(add(page));
+  CHECK(add(std::span(page).first(16)));  // of both a small slot has room
+  CHECK_THROWS_AS(static_cast<void>(add(std::span(page).first(15))), core::InternalError);
+  box.mailbox.hand_over(batch, box.awake);
+  CHECK(box.push(7, {std::byte{6}}, 9));
+  std::vector<std::size_t> ends;
+  box.mailbox.drain([&](const Packet& packet) {
+    CHECK(packet.source == NodeId{7});
+    CHECK(packet.kind == 9);
+    CHECK((packet.immutable.empty() || packet.immutable.data() == page.data()));
+    CHECK((packet.immutable.empty() || std::equal(packet.payload.begin(), packet.payload.end(), front.begin(), front.end())));
+    ends.push_back(packet.immutable.size());
+  });
+  CHECK(ends == std::vector<std::size_t>{1024, 1024, 16, 0});
+}
+
 TEST_CASE("a payload that just fits a small slot takes one, and one byte more takes a bulk slot") {
   OneMailbox box({.small_slots = 0, .bulk_slots = 4, .bulk_payload_bytes = 64});
   CHECK_FALSE(box.push(1, std::vector<std::byte>(small_payload_bytes)));

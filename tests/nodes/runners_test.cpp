@@ -1,6 +1,7 @@
 // What programs see of a computer and how a run ends, whatever drives the nodes: a thread each, a pool of threads, virtual time.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <numeric>
@@ -146,6 +147,43 @@ TEST_CASE("a stop request before the start ends the run of any computer at once,
     CHECK(runner->node(0).counters().quanta < 100);
     CHECK_THROWS_AS(runner->run({}), core::InternalError);
   });
+}
+
+/// Adds up what it is told; each node's on its own, since several may tell at a time.
+class PassedBytes final : public Observer {
+ public:
+  void ended(const Span& /*span*/, const Program& /*program*/) override {}
+  void sent(const Passing& packet) override { bytes_sent[index_of(packet.node)] += packet.payload_bytes(); }
+  void received(const Passing& packet) override { bytes_received[index_of(packet.node)] += packet.payload_bytes(); }
+
+  std::array<std::size_t, 3> bytes_sent{}, bytes_received{};
+};
+
+TEST_CASE("bytes that never change are referred to in a pool and on a machine, else copied, and count and arrive alike") {
+  const ComputerRequest threads, pool{.pool_threads = 1}, larger_pool{.pool_threads = 2}, machine{.machine = toy_model()},
+      disturbed_pool{.chaos = Chaos{.seed = 1, .held_percent = 100}, .pool_threads = 2};
+  for (const ComputerRequest& computer : {threads, disturbed_pool, pool, larger_pool, machine}) {
+    CAPTURE(computer.pool_threads.value_or(0));
+    auto specifications = disturbed(equal_nodes(3, {.small_slots = 3}, making<SendsLasting>()));
+    specifications[0].batching = {.kinds = 1U << 1U, .packets = 10};
+    PassedBytes passed;
+    for (Observer* const observer : {static_cast<Observer*>(nullptr), static_cast<Observer*>(&passed)}) {
+      const auto runner = make_runner(specifications, computer, observer);
+      CHECK(runner->run({}) == RunEnd::finished);
+      const auto& receiver = program_of<SendsLasting>(*runner, 1);
+      CHECK(receiver.kinds == std::vector<PacketKind>{1, 2, 3});
+      CHECK(receiver.is_whole);
+      CHECK(receiver.is_in_place == (computer.immutable() == Immutable::is_referred_to));
+      CHECK(runner->node(0).counters().sent[2].bytes == sizeof(PacketHeader) + 48);
+      CHECK(runner->node(1).counters().received[2].bytes == sizeof(PacketHeader) + 48);
+    }
+    CHECK(passed.bytes_sent == std::array<std::size_t, 3>{56, 0, 0});
+    CHECK(passed.bytes_received == std::array<std::size_t, 3>{0, 56, 0});
+  }
+  CHECK(threads.immutable() == Immutable::is_copied);
+  CHECK(disturbed_pool.immutable() == Immutable::is_copied);
+  CHECK(pool.immutable() == Immutable::is_referred_to);
+  CHECK(machine.immutable() == Immutable::is_referred_to);
 }
 
 TEST_CASE("a memory is sealed before the run of any computer begins, and is as full on each") {

@@ -5,11 +5,13 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/runner.h"
 #include "tests/nodes/toy_machine.h"
 
@@ -139,6 +141,40 @@ class Patient : public ToyProgram {
   std::uint32_t sent_ = 0;
   bool is_host_;
   std::vector<std::uint32_t> received_;
+};
+
+inline constexpr std::array<std::byte, 44> lasting{std::byte{1}, std::byte{2}};
+
+/// Node 0 sends node 1 a packet that may wait, one with an immutable end, and a third; node 1 notes what it sees.
+class SendsLasting : public ToyProgram {
+ public:
+  explicit SendsLasting(nodes::Node& node) : ToyProgram(node) { node.grant(nodes::NodeId{1}, 0, 3); }
+  void receive(const nodes::Packet& packet) override {
+    kinds.push_back(packet.kind);
+    if (packet.kind == 2) {
+      is_in_place = packet.immutable.data() == lasting.data();
+      const std::span<const std::byte> end = packet.behind(sizeof(std::uint32_t));
+      is_whole = std::equal(end.begin(), end.end(), lasting.begin(), lasting.end());
+    }
+  }
+  bool work() override {
+    if (index() == 0 && !has_sent_) {
+      has_sent_ = true;
+      const std::uint32_t front = 3;
+      std::array<std::byte, sizeof(front) + sizeof(lasting)> room;
+      node().send_reserved(nodes::NodeId{1}, 0, 1, front);
+      core::expect(node().try_send(nodes::NodeId{1}, 0, 2, std::as_bytes(std::span(&front, 1)), lasting, room), "it has credits");
+      node().send_reserved(nodes::NodeId{1}, 0, 3, front);
+    }
+    return false;
+  }
+  bool finished() const override { return index() == 0 ? has_sent_ : index() > 1 || kinds.size() == 3; }
+
+  std::vector<nodes::PacketKind> kinds;
+  bool is_in_place = false, is_whole = false;
+
+ private:
+  bool has_sent_ = false;
 };
 
 }  // namespace dmpc::tests

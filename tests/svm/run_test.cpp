@@ -321,16 +321,56 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
   CHECK(svm::run_svm(small.database, small.settings, options, {}).film.hash() == hash);
 }
 
-TEST_CASE("nobody is told to forget the database where modelled nodes refer to it") {
+TEST_CASE("nobody is told to forget the database where modelled nodes, or a pool's, refer to it") {
+  const nodes::ComputerRequest modelled{.node_count = 3, .machine = nodes::Machine{}}, pool{.node_count = 3, .pool_threads = 2};
   for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
-    const BuiltScene small("rings-2", 512, 8);
-    svm::RunOptions options{.computer = {.node_count = 3, .machine = nodes::Machine{}}};
-    options.watching.distributed = [] { FAIL("the nodes have no copies"); };
-    const svm::Report report = strategy == svm::svm_strategy() ? svm::run_svm(small.database, small.settings, options, {})
-                                                               : svm::run_replicated(small.database, small.settings, options, {});
-    for (const svm::NodeReport& node : report.nodes) {
-      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    for (const nodes::ComputerRequest& computer : {modelled, pool}) {
+      const BuiltScene small("rings-2", 512, 8);
+      svm::RunOptions options{.computer = computer};
+      options.watching.distributed = [] { FAIL("the nodes have no copies"); };
+      const svm::Report report = svm::run_by(*strategy, small.database, small.settings, options, {});
+      for (const svm::NodeReport& node : report.nodes) {
+        CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+      }
     }
+  }
+}
+
+/// What a run counts if nothing depends on its schedule.
+struct Counted {
+  explicit Counted(const svm::Report& report) : film(report.film.hash()) {
+    for (const svm::NodeReport& node : report.nodes) {
+      const svm::PageCounters& of = node.program.pages;
+      pages.push_back({of.references, of.home_hits, of.cache_hits, of.misses, of.faults, of.evictions, of.served});
+      memory.push_back(node.memory_used.bytes);
+      for (const nodes::TrafficByKind* const traffic : {&node.counters.sent, &node.counters.received}) {
+        for (const nodes::Traffic& kind : *traffic) {
+          packets.push_back({kind.packets, kind.bytes});
+        }
+      }
+    }
+  }
+  bool operator==(const Counted&) const = default;
+
+  std::uint64_t film;
+  std::vector<std::array<std::uint64_t, 7>> pages;
+  std::vector<std::array<std::uint64_t, 2>> packets;
+  std::vector<std::array<std::size_t, nodes::category_count>> memory;
+};
+
+TEST_CASE("nodes of a pool, which refer to pages, count what nodes with copies count: references, faults, bytes, memory") {
+  const BuiltScene small("rings-2", 512, 24);
+  for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host}) {
+    svm::RunOptions options = fixed_order(5);
+    options.pages.cache_pages = 8;
+    options.pages.homes = homes;
+    const Counted copying(svm::run_svm(small.database, small.settings, options, {}));
+    for (const std::uint32_t threads : {1U, 3U}) {
+      options.computer.pool_threads = threads;
+      CHECK(Counted(svm::run_svm(small.database, small.settings, options, {})) == copying);
+    }
+    options.computer.chaos = nodes::chaos_of(3);
+    CHECK(Counted(svm::run_svm(small.database, small.settings, options, {})).pages == copying.pages);
   }
 }
 

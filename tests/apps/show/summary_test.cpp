@@ -29,6 +29,19 @@ TEST_CASE("the closing lines name scene, computer, memory, rays, pages, times an
   }
 }
 
+TEST_CASE("the closing lines of a pool tell that pages are counted as copies, unless there are some") {
+  const auto tells = [](RenderOptions options, std::uint32_t pool_threads) {
+    options.computer.pool_threads = pool_threads == 0 ? std::nullopt : std::optional(pool_threads);
+    return contains(summary(options), "; pages are counted as copies, but lie in the host's database, ");
+  };
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::forest}) {
+    CHECK(tells(small(strategy), 2));
+    CHECK_FALSE(tells(small(strategy), 0));
+    CHECK_FALSE(tells(modelled(strategy), 0));
+  }
+  CHECK_FALSE(tells(small(Strategy::dataflow), 2));
+}
+
 TEST_CASE("the closing lines of replicated do without pages") {
   const std::string text = summary(small(Strategy::replicated));
   CHECK_FALSE(contains(text, "pages    "));

@@ -163,6 +163,15 @@ TEST_CASE("within a rank a pool drives the rank's nodes") {
   }
 }
 
+TEST_CASE("pools on ranks copy what never changes, whether it leaves its rank or not") {
+  for (const std::uint32_t ranks : {1U, 2U}) {
+    run_on_ranks(ranks, 1, equal_nodes(3, {.small_slots = 3}, making<SendsLasting>()), std::nullopt, [](RanksRunner& runner) {
+      CHECK((!runner.is_here(1) || program_of<SendsLasting>(runner, 1).is_whole));
+      CHECK((!runner.is_here(1) || !program_of<SendsLasting>(runner, 1).is_in_place));
+    });
+  }
+}
+
 TEST_CASE("ranks with pools are disturbed by chaos as others are") {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     run_on_ranks(3, 2, disturbed(equal_nodes(12, TokenRound::mailbox, making<TokenRound>(5U))), chaos_of(seed),
