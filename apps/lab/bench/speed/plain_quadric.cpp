@@ -23,9 +23,7 @@ double first_root(double a, double b, double c, double from, double to, const Ac
   }
   const double q = -b - std::copysign(std::sqrt(quarter), b);
   const double one = q / a, other = c / q, first = std::min(one, other), second = std::max(one, other);
-  return first > from && first < to && accept(first)     ? first
-         : second > from && second < to && accept(second) ? second
-                                                           : none;
+  return first > from && first < to && accept(first) ? first : second > from && second < to && accept(second) ? second : none;
 }
 
 }  // namespace
