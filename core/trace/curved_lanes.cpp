@@ -152,7 +152,10 @@ void hit_curved(RayBundle& bundle, const std::byte* record, Address leaf, RayMas
     t_most[ray] = std::min(bundle.best.t[ray], bundle.t_max[ray]);
   }
   Row<RayMask> reached;
-  reach(curved, bundle.rays.data(), rays, t_most.data(), reached.data());
+  rays = reach(curved, bundle.rays.data(), rays, t_most.data(), reached.data());
+  if (rays == 0) {
+    return;
+  }
   CurvedPairs pairs(bundle, curved, reinterpret_cast<const std::uint32_t*>(ids_of(header, record)), leaf, width);
   for (; rays != 0; rays &= rays - 1) {
     const auto ray = static_cast<std::size_t>(std::countr_zero(rays));

@@ -9,9 +9,11 @@
 
 namespace dmpc::core {
 
+inline const VectorWidth fastest_width = vector_width();
+
 /// Merges hits with the leaf at `record` (with address `leaf`) into `best` and `found`, with the bits that test_leaf() finds for
 /// each of the rays.
 void hit_curved(RayBundle& bundle, const std::byte* record, Address leaf, RayMask rays, CurvedReach reach = reach_curved,
-                VectorWidth width = vector_width());
+                VectorWidth width = fastest_width);
 
 }  // namespace dmpc::core

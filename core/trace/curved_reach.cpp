@@ -135,7 +135,8 @@ HWY_INLINE RayMask passed(const Line& ray, const Bodies& bodies) {
 HWY_INLINE bool is_usual(const Ray& ray) { return std::fabs(dot(ray.direction, ray.direction) - 1) < 0x1p-20F; }
 
 template <bool AreCones>
-HWY_INLINE void reach_all(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached) {
+HWY_INLINE RayMask reach_all(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached) {
+  RayMask having = 0;
   for (std::size_t first = 0; first < curved.count; first += lanes_of<Lanes>()) {
     const Bodies bodies = AreCones ? cones(curved, first) : spheres(curved, first);
     const RayMask there = first_bits(std::min(curved.count - first, lanes_of<Lanes>()));
@@ -143,13 +144,15 @@ HWY_INLINE void reach_all(const CurvedRows& curved, const Ray* rays, RayMask ask
       const auto ray = static_cast<std::size_t>(std::countr_zero(rest));
       const RayMask passes = is_usual(rays[ray]) ? passed<AreCones>(Line(rays[ray], t_most[ray]), bodies) : 0;
       reached[ray] = (first == 0 ? 0 : reached[ray]) | (there & ~passes) << first;
+      having |= (reached[ray] != 0 ? RayMask{1} : RayMask{0}) << ray;
     }
   }
+  return having;
 }
 
-void reach(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached) {
-  curved.kind == PrimitiveKind::cone ? reach_all<true>(curved, rays, asked, t_most, reached)
-                                     : reach_all<false>(curved, rays, asked, t_most, reached);
+RayMask reach(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached) {
+  return curved.kind == PrimitiveKind::cone ? reach_all<true>(curved, rays, asked, t_most, reached)
+                                            : reach_all<false>(curved, rays, asked, t_most, reached);
 }
 
 }  // namespace

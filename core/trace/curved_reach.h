@@ -19,8 +19,8 @@ struct CurvedRows {
 };
 
 /// For each ray of `asked`, a bit for each primitive that it may hit at a t in (0, t_most[ray]]: all that it hits there, and some
-/// more. The same on every processor only up to rounding.
-using CurvedReach = void (*)(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached);
+/// more. Returns the rays that have any. The same on every processor only up to rounding.
+using CurvedReach = RayMask (*)(const CurvedRows& curved, const Ray* rays, RayMask asked, const float* t_most, RayMask* reached);
 /// The fastest for this processor.
 extern const CurvedReach reach_curved;
 /// That for instruction set number `rank` that this processor has, the fastest first; nullptr if it has no more.
