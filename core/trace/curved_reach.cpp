@@ -25,8 +25,9 @@ using Lanes = hn::CappedTag<float, leaf_lanes>;
 using Vector = hn::Vec<Lanes>;
 
 /// Distances between ray and surface in floats are off by less than this share of their largest coordinates: 28 u for the line's
-/// nearest point, of which 2 are the rests of each coordinate's rounding.
-constexpr float place_rounding = 32 * 0x1p-24F, least_rounding = 2 * static_cast<float>(coordinate_step);
+/// nearest point, of which 2 are the rests of each coordinate's rounding, and 12 u for the direction of a cone's axis, which
+/// turns the normal of ray and axis by the more the less they differ, but then the point is next to the axis.
+constexpr float place_rounding = 48 * 0x1p-24F, least_rounding = 2 * static_cast<float>(coordinate_step);
 /// The height of a cone over its radius, unless it is flat (flat_cone_share) or odd.
 constexpr float least_height = 0x1p-8F, endless = std::numeric_limits<float>::infinity();
 /// For sums, squares and roots.
@@ -48,7 +49,6 @@ struct Bodies {
   Vector reach;  ///< radius of the sphere around it, and what its own coordinates add to the error of distances
   Place axis;
   Vector width;  ///< radius of the cylinder, in the same way
-  Vector slack;  ///< error of the product of a way within the sphere and the normal of ray and axis
 };
 
 HWY_INLINE Place place_at(const CurvedRows& curved, std::size_t row, std::size_t first) {
@@ -91,7 +91,6 @@ HWY_INLINE Bodies cones(const CurvedRows& curved, std::size_t first) {
       hn::IfThenElseZero(hn::AndNot(is_flat, hn::Lt(height, hn::Mul(radius, set(least_height)))), set(endless));
   bodies.reach = hn::Max(rounded_up(hn::Sqrt(hn::MulAdd(square, set(0.25F), hn::Mul(radius, radius))), size), unknown);
   bodies.width = hn::Max(rounded_up(radius, size), unknown);
-  bodies.slack = hn::Mul(hn::Mul(bodies.reach, hn::Add(height, size)), set(16 * 0x1p-24F));
   return bodies;
 }
 
@@ -125,8 +124,7 @@ HWY_INLINE RayMask passed(const Line& ray, const Bodies& bodies) {
   const Place& axis = bodies.axis;
   const Place across{hn::MulSub(d.y, axis.z, hn::Mul(d.z, axis.y)), hn::MulSub(d.z, axis.x, hn::Mul(d.x, axis.z)),
                      hn::MulSub(d.x, axis.y, hn::Mul(d.y, axis.x))};
-  const Vector off = hn::Max(hn::Sub(hn::Abs(product(nearest, across)), bodies.slack), hn::Zero(tag));
-  const Vector width = hn::Add(bodies.width, ray.rounding);
+  const Vector off = product(nearest, across), width = hn::Add(bodies.width, ray.rounding);
   const auto passes_axis = hn::Gt(hn::Mul(off, off), hn::Mul(hn::Mul(width, width), product(across, across)));
   return bits_of(tag, hn::Or(passes, passes_axis));
 }
