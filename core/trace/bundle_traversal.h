@@ -12,6 +12,7 @@
 #include "core/record/records.h"
 #include "core/trace/bundle.h"
 #include "core/trace/bundle_kernel.h"
+#include "core/trace/curved_lanes.h"
 #include "core/trace/instance_bundle.h"
 #include "core/trace/kernel.h"
 #include "core/trace/operations.h"
@@ -331,8 +332,11 @@ class BundleTraversal {
       if (header.shared_lanes != 0) {
         test_shared(record, leaf, rays);
       }
-    } else {
+    } else if (header.kind == PrimitiveKind::triangle) {
       test_apart(record, leaf, rays);
+    } else {
+      operations_.primitive_tests[static_cast<std::size_t>(header.kind)] += std::uint64_t{wanted} * header.count;
+      hit_curved(bundle_, record, leaf, rays);
     }
     if (bundle_.any && bundle_.found != found) {
       operations_.skipped.any_hit += intersectors_.count_wanted(bundle_, bundle_.found & ~found);

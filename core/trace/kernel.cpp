@@ -239,21 +239,6 @@ const char* simd_name() {
   return names[static_cast<std::size_t>(vector_width())];
 }
 
-namespace {
-
-/// A bit for each lane that the ray hits at a t in (0, t_most].
-template <class Intersect>
-std::uint32_t hit_each(std::size_t count, float t_most, float* times, const Intersect& intersect) {
-  std::uint32_t hits = 0;
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    times[lane] = intersect(lane);
-    hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most, lane);
-  }
-  return hits;
-}
-
-}  // namespace
-
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most,
                                float* times) {
   const auto header = read<LeafHeader>(record);
@@ -270,10 +255,17 @@ std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, s
   return hits;
 }
 
-std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times) {
-  const auto sphere = [&](std::size_t lane) { return intersect_sphere(ray, rows, count, lane); };
-  const auto cone = [&](std::size_t lane) { return intersect_cone(ray, rows, count, lane); };
-  return kind == PrimitiveKind::sphere ? hit_each(count, t_most, times, sphere) : hit_each(count, t_most, times, cone);
+std::uint32_t hit_curved(const Ray& ray, const CurvedRows& curved, float t_most, float* times) {
+  const auto intersect = curved.kind == PrimitiveKind::sphere ? intersect_sphere : intersect_cone;
+  std::uint32_t hits = 0;
+  RayMask reached = 0;
+  reach_curved(curved, &ray, 1, &t_most, &reached);
+  for (; reached != 0; reached &= reached - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(reached));
+    times[lane] = intersect(ray, curved.rows, curved.count, lane);
+    hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most, lane);
+  }
+  return hits;
 }
 
 }  // namespace dmpc::core

@@ -11,6 +11,7 @@
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/trace/cursor.h"
+#include "core/trace/curved_reach.h"
 #include "core/trace/operations.h"
 #include "core/trace/primitive.h"
 
@@ -59,8 +60,8 @@ std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& tr
 /// Tests the triangles of a leaf that share their planes, in scalar code: sets only their bits and times.
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times);
 
-/// Tests the spheres or cones of a leaf, in scalar code.
-std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
+/// Tests the spheres or cones of a leaf that the ray may meet, in scalar code.
+std::uint32_t hit_curved(const Ray& ray, const CurvedRows& curved, float t_most, float* times);
 
 /// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".
 const char* simd_name();
@@ -77,7 +78,7 @@ inline void test_leaf(const Ray& ray, const ShearedRay& sheared, const std::byte
   const float t_most = std::min(best.t, ray.t_max);
   std::uint32_t hits = header.kind == PrimitiveKind::triangle
                            ? hit_triangles(sheared, {rows, count}, ray.ignored_primitive, t_most, times)
-                           : hit_curved(ray, header.kind, rows, count, t_most, times);
+                           : hit_curved(ray, {header.kind, rows, count}, t_most, times);
   if (header.shared_lanes != 0) {
     const std::uint32_t shared = hit_shared_faces(sheared, record, ray.ignored_primitive, t_most, times);
     hits = (hits & ~std::uint32_t{header.shared_lanes}) | shared;

@@ -8,6 +8,7 @@
 
 #include "core/record/curved_values.h"
 #include "core/record/record.h"
+#include "core/trace/curved_solve.h"
 
 namespace dmpc::core {
 namespace {
@@ -236,153 +237,46 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
   return is_near ? (seen.is_crossed() ? rounded(t) : missed) : is_passed ? missed : rounded(t);
 }
 
-namespace {
-
-/// In a quick test with floats, ray and surface may be nearer to each other than they appear. `size` is the sum of their
-/// coordinates; rests are a share of it, except for coordinates near zero.
-double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
-
-/// Conservative: the ray's line passes the sphere.
-bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const Vec3d center = LeafLane{rows, stride, lane}.vector(0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
-  const Vec3d away = cross(to_origin, d);
-  const double radius = std::fabs(double{rows[3 * stride + lane]});
-  const double reach = radius + reach_of_rests(radius + largest_component(center) + largest_component(to_origin));
-  return dot(away, away) > reach * reach * dot(d, d);
-}
-
-/// Conservative: the ray's line passes the cone's axis at more than its largest radius.
-bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const LeafLane cone{rows, stride, lane};
-  const float base_radius = rows[3 * stride + lane], apex_radius = rows[7 * stride + lane];
-  const Vec3d base = cone.vector(0), axis = is_flat_cone(base_radius, apex_radius) ? cone.vector(4) : cone.vector(4) - base;
-  const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
-  const double radius{std::max(std::fabs(base_radius), std::fabs(apex_radius))};
-  const double reach =
-      radius + reach_of_rests(radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
-  const double off = dot(to_origin, across), area = dot(across, across);
-  return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
-}
-
-/// Only rays from the eye may start on a surface: others start off it. Such a ray has a root near its start, however much it
-/// grazes the surface.
-bool may_start_on(const Ray& ray, double first_root, double second_root) {
-  constexpr double next_to_start = 0x1p-13;
-  return ray.kind == RayKind::primary && std::min(std::fabs(first_root), std::fabs(second_root)) < next_to_start;
-}
-
-}  // namespace
-
 double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues sphere(PrimitiveKind::sphere, rows, stride, lane);
   const auto [center, radius] = sphere.four(0);
-  const Vec3d d = ray.full_direction(), to_origin = ray.full_origin() - center;
-  const double a = dot(d, d), middle = -dot(to_origin, d) / a;
-  const Vec3d nearest = to_origin + d * middle;
-  const double rest = radius * radius - dot(nearest, nearest);
-  if (!(rest >= 0.0)) {
-    return double{missed};
+  const SphereLine line(center, radius, ray.full_origin(), ray.full_direction());
+  if (ray.kind == RayKind::primary && line.crossings.nearest_to_start(0.0) < next_to_start &&
+      is_on_surface(sphere, dot(line.to_origin, line.to_origin) - radius * radius, radius,
+                    largest_component(center) + std::fabs(radius))) {
+    return line.middle > 0.0 ? line.crossings.second : double{missed};
   }
-  const double half = std::sqrt(rest / a);
-  const double near = middle - half, far = middle + half;
-  const double size = largest_component(center) + std::fabs(radius);
-  if (may_start_on(ray, near, far) && is_on_surface(sphere, dot(to_origin, to_origin) - radius * radius, radius, size)) {
-    return middle > 0.0 ? far : double{missed};
-  }
-  return near > 0.0 && radius > 0.0 ? near : far > 0.0 ? far : double{missed};
+  return line.nearest_visible();
 }
 
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  return passes_sphere(ray, rows, stride, lane) ? missed : rounded(sphere_distance(ray, rows, stride, lane));
+  return rounded(sphere_distance(ray, rows, stride, lane));
 }
 
 namespace {
 
-/// A cone as quantities that are linear in t: X(t) = across + t * across_rate, r(t), h(t) in [0, 1].
-struct ConeLine {
-  Vec3d across, across_rate;
-  double radius, radius_rate;
-  double height, height_rate;
-
-  /// d.N > 0 for N the outward normal at t.
-  bool leaving(const Vec3d& d, const Vec3d& axis, double taper, double t) const {
-    const Vec3d normal = across + across_rate * t - axis * ((radius + radius_rate * t) * taper);
-    return dot(d, normal) > 0.0;
-  }
-  /// Whether an eye, which is at this t, is on the surface.
-  bool has_eye(const CurvedValues& cone, double t) const {
-    const Vec3d at = across + across_rate * t;
-    const double there = radius + radius_rate * t,
-                 farthest = std::max(largest_component(cone.vector(0)), largest_component(cone.apex()));
-    return is_on_surface(cone, dot(at, at) - there * there, there, farthest + std::fabs(there));
-  }
-};
-
-/// The roots of A t^2 + 2 B t + C in ascending order; false if there is none.
-bool solve(double a, double b, double c, double& first, double& second) {
-  const double discriminant = b * b - a * c;
-  if (!(discriminant >= 0.0)) {
-    return false;
-  }
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  first = a != 0.0 ? q / a : c / q;
-  second = q != 0.0 ? c / q : first;
-  if (!(std::isfinite(first) && std::isfinite(second))) {
-    first = second = std::isfinite(second) ? second : first;
-  }
-  if (first > second) {
-    std::swap(first, second);
-  }
-  return std::isfinite(first);
+/// Whether an eye, where the ray starts, is on the surface.
+bool has_eye(const CurvedValues& cone, const ConeLine& line) {
+  const Vec3d at = line.across + line.across_rate * -line.shift;
+  const double there = line.radius + line.radius_rate * -line.shift,
+               farthest = std::max(largest_component(cone.vector(0)), largest_component(cone.apex()));
+  return is_on_surface(cone, dot(at, at) - there * there, there, farthest + std::fabs(there));
 }
 
 }  // namespace
 
-/// Computed relative to the ray's nearest point to the base. A flat cone is almost a plane, as is its mirror image beyond the
-/// apex, which can be distinguished only where the ray crosses that plane.
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues cone(PrimitiveKind::cone, rows, stride, lane);
-  const auto [base, signed_base_radius] = cone.four(0);
-  const auto [apex, signed_apex_radius] = cone.four(4);
-  const Vec3d axis = cone.is_flat() ? apex : apex - base;
-  const double base_radius = std::fabs(signed_base_radius), apex_radius = std::fabs(signed_apex_radius);
-  const double widening = apex_radius - base_radius;
-  const bool inside_only = cone.is_inside_visible_only();
-  const Vec3d d = ray.full_direction(), from_base = ray.full_origin() - base;
-  const double axis_squared = dot(axis, axis);
-  const bool crosses_flat = cone.is_flat() && std::fabs(dot(d, axis)) * std::max(base_radius, apex_radius) > axis_squared;
-  const double shift = crosses_flat ? -dot(from_base, axis) / dot(d, axis) : -dot(from_base, d) / dot(d, d);
-  const Vec3d start = from_base + d * shift;
-
-  ConeLine line;
-  line.height = dot(start, axis) / axis_squared;
-  line.height_rate = dot(d, axis) / axis_squared;
-  line.across = start - axis * line.height;
-  line.across_rate = d - axis * line.height_rate;
-  line.radius = base_radius + widening * line.height;
-  line.radius_rate = widening * line.height_rate;
-
-  double roots[2];
-  if (!solve(dot(line.across_rate, line.across_rate) - line.radius_rate * line.radius_rate,
-             dot(line.across, line.across_rate) - line.radius * line.radius_rate,
-             dot(line.across, line.across) - line.radius * line.radius, roots[0], roots[1])) {
-    return double{missed};
+  ConeLine line(cone_values(cone), cone.is_flat(), ray.full_origin(), ray.full_direction());
+  if (ray.kind == RayKind::primary && line.roots.nearest_to_start(line.shift) < next_to_start && has_eye(cone, line)) {
+    const bool is_first = std::fabs(line.roots.first + line.shift) < std::fabs(line.roots.second + line.shift);
+    (is_first ? line.roots.first : line.roots.second) = -std::numeric_limits<double>::infinity();
   }
-  if (may_start_on(ray, roots[0] + shift, roots[1] + shift) && line.has_eye(cone, -shift)) {
-    roots[std::fabs(roots[0] + shift) < std::fabs(roots[1] + shift) ? 0 : 1] = -std::numeric_limits<double>::infinity();
-  }
-  for (const double root : roots) {
-    const double height = line.height + line.height_rate * root;
-    if (root + shift > 0.0 && height >= 0.0 && height <= 1.0 &&
-        (!inside_only || line.leaving(d, axis, widening / axis_squared, root))) {
-      return root + shift;
-    }
-  }
-  return double{missed};
+  return line.nearest_visible(cone.is_inside_visible_only());
 }
 
 float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  return passes_cone(ray, rows, stride, lane) ? missed : rounded(cone_distance(ray, rows, stride, lane));
+  return rounded(cone_distance(ray, rows, stride, lane));
 }
 
 }  // namespace dmpc::core

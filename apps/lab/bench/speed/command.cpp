@@ -36,7 +36,8 @@ constexpr std::array part_rows = {
         .measure = measure_plain,
         .explanation =
             "plain: the render phase of both, with the same rays. The plain renderer is recursive, in single precision, with one "
-            "Embree tree (robust, high quality) in memory that its threads share; it traces one ray at a time and emulates "
+            "Embree tree (robust, high quality; spheres and cones are user geometry in double precision) in memory that its "
+            "threads share; it traces one ray at a time and emulates "
             "nothing. Ours has the defaults of `render`; nodes share the same cores; Embree's tree is built within the phase. A "
             "command is `dmpc render` as a process of its own that writes an EXR file, minus the shortest of three of 8x8 "
             "pixels, over the plain renderer's phase. If it takes no longer than that, the round has no figure; a scene without "
@@ -79,7 +80,7 @@ void measure_all(const SpeedOptions& options, const TableFiles& files, const Int
   for (const SpeedPart part : options.parts) {
     row_of(part).measure(settings, interrupt, results);
     if (shown.is_shown()) {
-      shown.show(headline_of(results, ""));
+      shown.show(headline_of(results, "", options.shows_all));
     }
   }
 }
@@ -106,12 +107,12 @@ std::string text_of_all(const SpeedOptions& options, const Results& results, dou
     add_notes(options, load, is_whole, details);
     return text_of(details, options.table.format);
   }
-  Table means = headline_of(results, title() + ", geometric means over scenes and kinds");
+  Table means = headline_of(results, title() + ", geometric means over scenes and kinds", options.shows_all);
   add_notes(options, load, is_whole, means);
   if (options.table.file) {
     return text_of(means, TableFormat::markdown) + "\n" + text_of(details, TableFormat::markdown);
   }
-  means.add_note("A file (-o) has all " + std::to_string(details.rows().size()) + " comparisons.");
+  means.add_note("--all prints all means, a file (-o) has all " + std::to_string(details.rows().size()) + " comparisons.");
   return text_of(means, TableFormat::markdown);
 }
 
@@ -126,6 +127,7 @@ void choose_ablation(const OptionSet& set, SpeedOptions& options) {
     }
   }
   options.parts = {SpeedPart::ablation};
+  options.shows_all = true;
 }
 
 }  // namespace
@@ -135,7 +137,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
   set.add_arguments(
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; by default teapot-12, mount-6-t6, rings-4-t1 "
-      "and tetra-9, with balls-2-t4 for plain");
+      "and tetra-9; plain adds balls-2-t4, and jacks-3 and lattice-12, which are curved");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
       "Parts to measure: plain (all compared with a plain renderer), paths (compared with a plain path tracer), kernel (rays per "
@@ -143,6 +145,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
   set.add_flag("--ablation", options.is_ablation,
                "Measure the benefit of each skip (render --no-skip) instead. The default scenes then include balls-4 and tree-8");
   set.check_in_the_end([set, &options] { choose_ablation(set, options); });
+  set.add_flag("--all", options.shows_all, "Print the means of all contenders, not only of those that say most");
   set.add_flag("--quick", settings.is_quick, "Use fewer rays, rounds, pixels and large scenes");
   set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, ablation 5, others 3",
                  "Number of rounds; everything is timed in each");

@@ -15,8 +15,9 @@ struct SpeedOptions {
   SpeedSettings settings;
   bool is_ablation = false;  ///< then ablation is the only part
   std::set<SpeedPart> parts = all_speed_parts();
-  TableOutput table;   ///< without a page and plots
-  bool quiet = false;  ///< no progress
+  bool shows_all = false;  ///< all means, not only the main ones
+  TableOutput table;       ///< without a page and plots
+  bool quiet = false;      ///< no progress
 };
 
 void add_options(OptionSet set, SpeedOptions& options);

@@ -42,6 +42,7 @@ struct Comparison {
   std::string unit;               ///< unit of the figures: "Mray/s", "s"
   Figures figures = {};           ///< times are wall clock, unless the unit says otherwise
   Figures processor = {};         ///< processor time, if both clocks are used
+  bool is_main = false;           ///< among those that say most
 
   /// As above with a single round of these figures.
   Comparison once(double subject_figure, double baseline_figure) const;
@@ -99,8 +100,8 @@ std::vector<double> figures_of(const Times& times);
 
 /// Returns, for each part, measured quantity and pair, the geometric mean of the ratios over scenes and kinds (also in processor
 /// time if there are two clocks), the mean for each kind, and the extremes, in the order of first occurrence; no mean if a ratio
-/// is 0.
-Table headline_of(std::span<const Comparison> comparisons, const std::string& title);
+/// is 0. Unless `all` are asked for, only of the main ones.
+Table headline_of(std::span<const Comparison> comparisons, const std::string& title, bool all);
 
 /// Returns a row for each comparison that has been measured, in their order.
 Table table_of(std::span<const Comparison> comparisons, const std::string& title);

@@ -1,35 +1,46 @@
 #include "apps/lab/bench/speed/embree_tree.h"
 
-#include <optional>
-
-#include "apps/oracle/curved.h"
+#include <limits>
 
 namespace dmpc::apps {
 
 namespace {
 
-/// Returns the least distance of hits along a ray. Rays start so near to the curved surface that they leave that Embree's floats
-/// cannot distinguish the sides.
-float start_of(const core::Ray& ray) {
+/// Returns where the only ray of a query meets the quadric, NaN if nowhere. Rays start so near to the curved surface that they
+/// leave that Embree's floats cannot distinguish the sides.
+float distance(void* shapes, unsigned quadric, const RTCRay& ray) {
   constexpr float share = 0x1p-16F;
-  return share * core::largest_component(ray.origin) / core::largest_component(ray.direction);
+  const core::Vec3f origin{ray.org_x, ray.org_y, ray.org_z}, direction{ray.dir_x, ray.dir_y, ray.dir_z};
+  const float start = share * largest_component(origin) / largest_component(direction);
+  return static_cast<float>(static_cast<const PlainShapes*>(static_cast<embree::Shapes*>(shapes))
+                                ->quadrics[quadric]
+                                .distance(core::Vec3d(origin), core::Vec3d(direction), double{start}, double{ray.tfar}));
 }
 
-/// Returns a distance within the ray, whose components Embree stores separately.
-std::optional<float> distance(const embree::CurvedQuery& query) {
-  RTCRayN* const ray = query.ray;
-  const unsigned count = query.ray_count, i = query.index;
-  core::Ray asked;
-  asked.origin = {RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
-  asked.direction = {RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i), RTCRayN_dir_z(ray, count, i)};
-  const float start = start_of(asked);
-  asked.origin = asked.origin + asked.direction * start;
-  asked.t_max = RTCRayN_tfar(ray, count, i) - start;
-  const std::optional<double> t = nearest_on_curved(query.shapes.primitives[query.id], asked);
-  return t ? std::optional(static_cast<float>(*t) + start) : std::nullopt;
+void intersect_quadric(const RTCIntersectFunctionNArguments* arguments) {
+  RTCRayHit& asked = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  const float t = distance(arguments->geometryUserPtr, arguments->primID, asked.ray);
+  if (t < asked.ray.tfar) {
+    asked.ray.tfar = t;
+    asked.hit.primID = arguments->primID;
+    asked.hit.geomID = arguments->geomID;
+  }
+}
+
+void occlude_quadric(const RTCOccludedFunctionNArguments* arguments) {
+  RTCRay& asked = *reinterpret_cast<RTCRay*>(arguments->ray);
+  if (distance(arguments->geometryUserPtr, arguments->primID, asked) < asked.tfar) {
+    asked.tfar = -std::numeric_limits<float>::infinity();
+  }
 }
 
 }  // namespace
+
+PlainShapes::PlainShapes(std::span<const core::PrimitiveValues> given) : Shapes(given) {
+  for (const std::uint32_t id : curved) {
+    quadrics.emplace_back(primitives[id]);
+  }
+}
 
 EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
     : shapes_(primitives),
@@ -38,7 +49,7 @@ EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, Embree
     tree_.attach(embree::triangle_mesh(tree_.device(), shapes_));
   }
   if (!shapes_.curved.empty()) {
-    tree_.attach(embree::curved_geometry<distance>(tree_.device(), shapes_));
+    tree_.attach(embree::curved_geometry(tree_.device(), shapes_, intersect_quadric, occlude_quadric));
   }
   DoubleStopwatch stopwatch;
   tree_.build();

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "apps/frontend/system/stopwatch.h"
+#include "apps/lab/bench/speed/plain_quadric.h"
 #include "apps/oracle/embree.h"
 #include "apps/oracle/oracle.h"
 #include "core/database/database.h"
@@ -14,6 +16,13 @@ namespace dmpc::apps {
 
 /// The query of every traced ray.
 enum class Query : std::uint8_t { closest, any };
+
+/// Shapes with the curved ones prepared, in Embree's numbering.
+struct PlainShapes : embree::Shapes {
+  std::vector<PlainQuadric> quadrics;
+
+  explicit PlainShapes(std::span<const core::PrimitiveValues> primitives);
+};
 
 /// Embree's tree over the primitives of a database, of high quality, as any renderer builds it: no filters, no order among equal
 /// t, no ignored triangle. Triangles come first, then spheres and cones as user geometry, if there are any. Immutable once built;
@@ -28,13 +37,13 @@ class EmbreeTree {
 
   const embree::Library& library() const { return library_; }
   RTCScene scene() const { return tree_.scene(); }
-  const embree::Shapes& shapes() const { return shapes_; }
+  const PlainShapes& shapes() const { return shapes_; }
   /// Returns the times that Embree needed to build it from prepared vertices.
   const Times& build_times() const { return build_times_; }
 
  private:
   const embree::Library& library_ = embree::library();
-  embree::Shapes shapes_;
+  PlainShapes shapes_;
   embree::OwnedScene tree_;
   Times build_times_;
 };

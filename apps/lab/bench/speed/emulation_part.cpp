@@ -48,7 +48,8 @@ void measure_caches(const std::string& scene, const SpeedSettings& settings, con
                              .threads = cache_node_count,
                              .subject = std::to_string(percent) + " %",
                              .baseline = "100 %",
-                             .unit = "s"});
+                             .unit = "s",
+                             .is_main = percent == cache_percents.back()});
     }
   }
   matches.measure(settings.rounds_of(SpeedPart::emulation), progress);

@@ -27,6 +27,7 @@ struct Match {
   RayClass ray_class;
   Query query;
   std::uint32_t threads;
+  bool is_main;                                       ///< on the fewest threads
   std::array<std::uint64_t, contender_count> hits{};  ///< of each in the last round
 
   double ray_count() const { return static_cast<double>(arena.ray_count(ray_class)); }
@@ -72,7 +73,8 @@ void add_contenders(Match& match, const Interrupt& interrupt, Matches& matches) 
                        .threads = match.threads,
                        .subject = apps::name_of(subject),
                        .baseline = apps::name_of(baseline),
-                       .unit = "Mray/s"});
+                       .unit = "Mray/s",
+                       .is_main = subject == Contender::paged_bundles && baseline == Contender::robust && match.is_main});
     }
   }
 }
@@ -83,7 +85,7 @@ void add_matches(KernelArena& arena, const SpeedSettings& settings, std::deque<M
       const auto ray_class = RayClass{static_cast<std::uint8_t>(i)};
       for (const Query query : queries) {
         if (arena.has(ray_class)) {
-          matches.push_back({arena, ray_class, query, threads});
+          matches.push_back({arena, ray_class, query, threads, threads == settings.thread_counts.front()});
         }
       }
     }

@@ -28,7 +28,9 @@ struct PartDefaults {
 /// By index.
 const std::array<PartDefaults, speed_part_count>& all_defaults() {
   static const std::array<PartDefaults, speed_part_count> all = {
-      {{.name = "plain", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene, "balls-2-t4"}, .side = 1024},
+      {{.name = "plain",
+        .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene, "balls-2-t4", "jacks-3", "lattice-12"},
+        .side = 1024},
        {.name = "paths", .side = 256},
        {.name = "kernel", .rounds = 7},
        {.name = "emulation", .side = 1024},

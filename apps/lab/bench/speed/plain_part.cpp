@@ -34,7 +34,7 @@ struct PlainContender {
   std::uint32_t count;                              ///< number of threads or nodes
   std::optional<Strategy> strategy = std::nullopt;  ///< nothing: the plain renderer
   RunnerKind runner = RunnerKind::threads;
-  bool is_command = false;  ///< also timed as a whole command
+  bool is_command = false;  ///< also timed as a whole command, and among the main ones
   TracerChoice tracer = TracerChoice::grid;
 };
 constexpr std::array<PlainContender, 17> plain_contenders = {{{1},
@@ -85,6 +85,13 @@ double children_seconds() {
   return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
 }
 
+bool has_curved(const core::Database& database) {
+  const auto& leaves = database.records().leaves;
+  return leaves[static_cast<std::size_t>(core::PrimitiveKind::sphere)] +
+             leaves[static_cast<std::size_t>(core::PrimitiveKind::cone)] >
+         0;
+}
+
 class PlainBench {
  public:
   /// `forest` is the scene as that strategy has it; nullptr if no contender needs it. The arguments outlive it.
@@ -97,6 +104,7 @@ class PlainBench {
         settings_(settings),
         interrupt_(interrupt),
         results_(results),
+        is_curved_(has_curved(subject.database)),
         plain_(subject) {}
 
   /// The first two contenders are the plain renderer on 1 and on 2 threads.
@@ -129,11 +137,18 @@ class PlainBench {
 
  private:
   Comparison comparison_of(const char* what, const std::string& subject, const std::string& baseline, const char* unit) const {
-    return {.part = part_, .scene = scene_, .what = what, .subject = subject, .baseline = baseline, .unit = unit};
+    return {.part = part_,
+            .scene = scene_,
+            .what = std::string(what) + (is_curved_ ? ", curved" : ""),
+            .subject = subject,
+            .baseline = baseline,
+            .unit = unit};
   }
   Comparison comparison_of(const char* what, const PlainContender& contender, const PlainContender& baseline) const {
     Comparison comparison = comparison_of(what, name_of(contender), name_of(baseline), "s");
     comparison.threads = contender.count;
+    comparison.is_main =
+        what == std::string("render") && (contender.is_command || part_ == SpeedPart::paths) && contender.strategy;
     return comparison;
   }
 
@@ -215,6 +230,7 @@ class PlainBench {
   const SpeedSettings& settings_;
   const Interrupt& interrupt_;
   std::vector<Comparison>& results_;
+  bool is_curved_;  ///< the scene has spheres or cones
   PlainRenderer plain_;
   ScratchFolder folder_;
   std::optional<PlainPicture> picture_;

@@ -80,33 +80,36 @@ PlainStage::PlainStage(const Subject& subject)
     : settings_(subject.settings),
       records_(subject.database.bytes()),
       tree_(subject.database.primitives(), EmbreeMode::robust),
-      places_(subject.database.find_places()),
       camera_(settings_.camera),
       materials_(materials_in(records_, settings_.header)),
       lights_(records_at<core::LightRecord>(records_, settings_.header.lights, settings_.header.light_count)),
       emitters_(records_at<core::EmitterRecord>(records_, settings_.header.emitters, settings_.header.emitter_count)),
       choices_(records_at<core::EmitterChoice>(records_, core::choice_address(settings_.header, 0),
                                                static_cast<std::uint32_t>(emitters_.size()))) {
-  shading_.reserve(tree_.shapes().triangles.size());
-  for (const std::uint32_t id : tree_.shapes().triangles) {
-    core::HitState state;
-    state.hit.lane = places_[id].lane;
-    core::read_geometry(state, records_.find(places_[id].leaf));
-    shading_.push_back(state.shading);
+  const PlainShapes& shapes = tree_.shapes();
+  const std::vector<core::Database::Place> places = subject.database.find_places();
+  shading_.reserve(shapes.triangles.size() + shapes.curved.size());
+  for (const std::vector<std::uint32_t>* const ids : {&shapes.triangles, &shapes.curved}) {
+    for (const std::uint32_t id : *ids) {
+      core::HitState state;
+      state.hit.lane = places[id].lane;
+      core::read_surface(state, records_.find(places[id].leaf));
+      shading_.push_back(state.shading);
+    }
   }
 }
 
 PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const Vec3f& direction, float t) const {
-  const core::Database::Place place = places_[tree_.shapes().curved[curved]];
-  core::HitState state;
-  state.ray.origin = origin;
-  state.ray.direction = direction;
-  state.hit.t = t;
-  state.hit.lane = place.lane;
-  core::read_geometry(state, records_.find(place.leaf));
-  return {Vec3f(state.point),  Vec3f(state.geometric_normal),
-          Vec3f(state.normal), state.shading.material(),
-          state.leaving,       static_cast<float>(state.clearance.radius)};
+  const PlainQuadric& quadric = tree_.shapes().quadrics[curved];
+  Vec3d point = Vec3d(origin) + Vec3d(direction) * double{t};
+  const Vec3f normal(quadric.normal_at(point));
+  const bool is_leaving = dot(direction, normal) > 0;
+  return {Vec3f(point),
+          normal,
+          is_leaving ? -normal : normal,
+          shading_[tree_.shapes().triangles.size() + curved].material(),
+          is_leaving,
+          static_cast<float>(quadric.sphere_radius())};
 }
 
 }  // namespace dmpc::apps

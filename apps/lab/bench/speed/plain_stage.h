@@ -55,7 +55,7 @@ struct PlainSurface {
   core::Vec3f geometric_normal, normal;  ///< unit vectors; `normal` is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
-  float radius = 0;  ///< curved surfaces only
+  float radius = 0;  ///< spheres only
 };
 
 /// Immutable; every call is thread-safe.
@@ -72,7 +72,7 @@ class PlainStage {
   /// The emitters that paths sample, and the alias table from which they are drawn.
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
   const std::vector<core::EmitterChoice>& choices() const { return choices_; }
-  bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
+  bool is_triangle(unsigned geometry) const { return geometry == 0 && !tree_.shapes().triangles.empty(); }
   /// Returns the normals of a triangle in Embree's numbering; nullptr if it is flat.
   const core::PatchNormals* normals_of(unsigned triangle) const {
     const core::ShadingReference shading = shading_[triangle];
@@ -87,13 +87,12 @@ class PlainStage {
   const core::RenderSettings& settings_;
   core::LocalRecords records_;
   EmbreeTree tree_;
-  std::vector<core::Database::Place> places_;
   PlainCamera camera_;
   std::vector<PlainMaterial> materials_;
   std::vector<core::LightRecord> lights_;
   std::vector<core::EmitterRecord> emitters_;
   std::vector<core::EmitterChoice> choices_;
-  std::vector<core::ShadingReference> shading_;  ///< per triangle
+  std::vector<core::ShadingReference> shading_;  ///< per triangle, then per curved surface
 };
 
 }  // namespace dmpc::apps

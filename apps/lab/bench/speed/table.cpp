@@ -62,7 +62,7 @@ std::string means_by_kind(const Comparisons& group) {
 
 }  // namespace
 
-Table headline_of(std::span<const Comparison> comparisons, const std::string& title) {
+Table headline_of(std::span<const Comparison> comparisons, const std::string& title, bool all) {
   Table table(title, {{"part"},
                       {"what"},
                       {"threads or nodes"},
@@ -76,6 +76,9 @@ Table headline_of(std::span<const Comparison> comparisons, const std::string& ti
                       {"by kind"}});
   for (const Comparisons& group : grouped(measured(comparisons), are_alike)) {
     const Comparison& one = *group.front();
+    if (!all && !one.is_main) {
+      continue;
+    }
     const std::vector<double> ratios = ratios_of(group);
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
     table.add_row({std::string(name_of(one.part)), one.what, one.threads == 0 ? Cell() : Cell(std::uint64_t{one.threads}),

@@ -63,7 +63,7 @@ std::vector<Comparison> ablation_of(const Words& scenes) {
 }  // namespace
 
 TEST_CASE("bench speed measures all its parts") {
-  const std::string table = output_of(tiny_speed());
+  const std::string table = output_of(tiny_speed({"--all"}));
   for (const char* part : {"| svm on 64 nodes, virtual ", "| rays ", "| distance ", "| paths ", "| kernel ", "| emulation ",
                            "| build ", "| forest on 8 nodes, pool ", "| Embree robust ", "| Embree fast ", "secondary ",
                            "| dataflow on 64 nodes ", "primary ", "| replicated on 2 nodes, Embree ", "Load of the machine"}) {
@@ -208,7 +208,7 @@ TEST_CASE("what was measured comes to a row for each pair, with means over scene
                                            comparison("b", "primary", 4),
                                            comparison("b", "bounce", 16),
                                            {.part = SpeedPart::emulation}};
-  const apps::Table table = apps::headline_of(results, "");
+  const apps::Table table = apps::headline_of(results, "", true);
   REQUIRE(table.rows().size() == 1);
   const auto figure = [&](const char* column) { return apps::number_in(table, table.rows()[0], column).value(); };
   CHECK(figure("ratio") == doctest::Approx(4));
