@@ -49,7 +49,7 @@ TEST_CASE("a cache far too small for the half of two nodes is told, with the one
   CHECK(advice(options, 20) == "");
   CHECK(contains(advice(options, 10'000), "advice   each frame of the caches was filled "));
   CHECK(contains(advice(options, 10'000), " times: --cache-pages="));
-  options.computer.node_count = 3;
+  options.computer.node_count = 5;
   CHECK(advice(options, 10'000) == "");
   options.computer.node_count = 2;
   options.pages.cache_pages = 2;
