@@ -9,6 +9,7 @@ namespace dmpc::apps {
 namespace {
 
 using core::Color;
+using core::Vec3d;
 using core::Vec3f;
 
 constexpr float endless = std::numeric_limits<float>::infinity();
@@ -27,16 +28,18 @@ void blend(PlainSurface& surface, const core::PatchNormals& normals, float u, fl
 
 }  // namespace
 
-std::optional<PlainSurface> EmbreeQueries::surface_along(const Vec3f& origin, const Vec3f& direction) {
+std::optional<PlainSurface> EmbreeQueries::surface_along(const Vec3d& origin, const Vec3d& direction) {
   ++rays_;
   RTCRayHit asked;
-  asked.ray = embree::ray_of(origin, direction, endless);
+  asked.ray = embree::ray_of(Vec3f(origin), Vec3f(direction), endless);
+  context_.origin = origin;
+  context_.direction = direction;
   asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embree::intersect(stage_.tree().library(), stage_.tree().scene(), context_, asked);
+  embree::intersect(stage_.tree().library(), stage_.tree().scene(), context_.embree, asked);
   if (asked.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return std::nullopt;
   }
-  return stage_.is_triangle(asked.hit.geomID) ? triangle_at(asked, origin, direction)
+  return stage_.is_triangle(asked.hit.geomID) ? triangle_at(asked, Vec3f(origin), Vec3f(direction))
                                               : stage_.curved_at(asked.hit.primID, origin, direction, asked.ray.tfar);
 }
 
@@ -52,6 +55,7 @@ PlainSurface EmbreeQueries::triangle_at(const RTCRayHit& asked, const Vec3f& ori
   } else {
     surface.material = stage_.flat_material_of(asked.hit.primID);
   }
+  surface.exact_normal = Vec3d(surface.normal);
   return surface;
 }
 
@@ -76,7 +80,7 @@ bool EmbreeQueries::is_hidden(const Vec3f& start, const Vec3f& place) {
 
 bool EmbreeQueries::meets(RTCRay ray) {
   ++rays_;
-  embree::occlude(stage_.tree().library(), stage_.tree().scene(), context_, ray);
+  embree::occlude(stage_.tree().library(), stage_.tree().scene(), context_.embree, ray);
   return ray.tfar < 0;
 }
 

@@ -9,7 +9,8 @@
 
 namespace dmpc::apps {
 
-inline core::Vec3f plain_mirrored(const core::Vec3f& direction, const core::Vec3f& normal) {
+template <class T>
+core::Vec3<T> plain_mirrored(const core::Vec3<T>& direction, const core::Vec3<T>& normal) {
   return direction - normal * (2 * dot(direction, normal));
 }
 
@@ -19,17 +20,22 @@ inline core::Vec3f plain_start(const PlainSurface& surface, const core::Vec3f& t
   return surface.point + surface.geometric_normal * side;
 }
 
+/// As above for a reflected or refracted ray; a curved surface is told from others by doubles, not by an offset.
+inline core::Vec3d plain_exact_start(const PlainSurface& surface, const core::Vec3d& towards) {
+  return surface.is_curved ? surface.exact_point : core::Vec3d(plain_start(surface, core::Vec3f(towards)));
+}
+
 /// Counts its rays, and nothing else. Not thread-safe; `stage` outlives it.
 class EmbreeQueries {
  public:
-  explicit EmbreeQueries(const PlainStage& stage) : stage_(stage) { embree::start(context_); }
+  explicit EmbreeQueries(const PlainStage& stage) : stage_(stage) {}
 
   std::uint64_t rays() const { return rays_; }
 
  protected:
   const PlainStage& stage() const { return stage_; }
   /// Returns the nearest surface; nothing if the ray hits none.
-  std::optional<PlainSurface> surface_along(const core::Vec3f& origin, const core::Vec3f& direction);
+  std::optional<PlainSurface> surface_along(const core::Vec3d& origin, const core::Vec3d& direction);
   /// Returns the direct light that the surface, hit along `direction`, reflects, after a shadow ray to each light that may
   /// contribute.
   core::Color lights_on(const PlainSurface& surface, const PlainMaterial& material, const core::Vec3f& direction);
@@ -48,7 +54,7 @@ class EmbreeQueries {
   bool meets(RTCRay ray);
 
   const PlainStage& stage_;
-  embree::Context context_;
+  PlainContext context_;
   std::uint64_t rays_ = 0;
 };
 

@@ -17,6 +17,14 @@ namespace dmpc::apps {
 /// The query of every traced ray.
 enum class Query : std::uint8_t { closest, any };
 
+/// What a query's user geometry needs of its ray beside Embree's floats: curved mirrors multiply what rounding leaves.
+struct PlainContext {
+  embree::Context embree;  ///< first
+  core::Vec3d origin, direction;
+
+  PlainContext() { embree::start(embree); }
+};
+
 /// Shapes with the curved ones prepared, in Embree's numbering.
 struct PlainShapes : embree::Shapes {
   std::vector<PlainQuadric> quadrics;

@@ -28,6 +28,7 @@ namespace {
 
 using core::brightest;
 using core::Color;
+using core::Vec3d;
 using core::Vec3f;
 
 /// Limit for the difference of means, relative.
@@ -45,38 +46,39 @@ class Painter : public EmbreeQueries {
  public:
   using EmbreeQueries::EmbreeQueries;
 
-  Color light_along(const Vec3f& origin, const Vec3f& direction, int depth) {
-    const std::optional<PlainSurface> surface = surface_along(origin, direction);
+  Color light_along(const Vec3d& origin, const Vec3d& way, int depth) {
+    const std::optional<PlainSurface> surface = surface_along(origin, way);
     if (!surface) {
       return stage().settings().header.background;
     }
     const PlainMaterial& material = stage().materials()[surface->material];
+    const Vec3f direction(way);
     Color light = material.emission + stage().settings().header.ambient * (material.color * material.diffuse) +
                   lights_on(*surface, material, direction);
     if (depth < stage().settings().shade.depth_max) {
-      light = light + passed_on(*surface, material, direction, depth);
+      light = light + passed_on(*surface, material, way, depth);
     }
     return light;
   }
 
  private:
   /// Returns the light from reflection and refraction.
-  Color passed_on(const PlainSurface& surface, const PlainMaterial& material, const Vec3f& direction, int depth) {
-    const float inside = material.inside_index();
-    const float index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, surface.normal);
-    const float behind = 1 - index * index * (1 - cosine * cosine);
+  Color passed_on(const PlainSurface& surface, const PlainMaterial& material, const Vec3d& direction, int depth) {
+    const double inside = double{material.inside_index()};
+    const double index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, surface.exact_normal);
+    const double behind = 1 - index * index * (1 - cosine * cosine);
     const bool is_total = index > 1 && behind < 0;
     const float total = is_total ? material.transmittance : 0;
     const Color share = material.highlight * material.mirror + Color{total, total, total};
     Color light{};
     if (!(share == Color{})) {
-      const Vec3f towards = normalize(plain_mirrored(direction, surface.normal));
-      light = light_along(plain_start(surface, towards), towards, depth + 1) * share;
+      const Vec3d towards = normalize(plain_mirrored(direction, surface.exact_normal));
+      light = light_along(plain_exact_start(surface, towards), towards, depth + 1) * share;
     }
     if (!is_total && material.transmittance > 0) {
-      const Vec3f bent = direction * index + surface.normal * (index * cosine - std::sqrt(std::max(behind, 0.0F)));
-      const Vec3f towards = normalize(bent);
-      light = light + light_along(plain_start(surface, towards), towards, depth + 1) * material.transmittance;
+      const Vec3d bent = direction * index + surface.exact_normal * (index * cosine - std::sqrt(std::max(behind, 0.0)));
+      const Vec3d towards = normalize(bent);
+      light = light + light_along(plain_exact_start(surface, towards), towards, depth + 1) * material.transmittance;
     }
     return light;
   }
@@ -132,12 +134,15 @@ class Walker : public EmbreeQueries {
       x += static_cast<float>(place.x) - 0.5F;
       y += static_cast<float>(place.y) - 0.5F;
     }
-    return {.pixel = pixel, .sample = sample, .origin = stage().camera().eye, .direction = stage().camera().towards(x, y)};
+    return {.pixel = pixel,
+            .sample = sample,
+            .origin = Vec3f(stage().camera().eye),
+            .direction = Vec3f(stage().camera().towards(double{x}, double{y}))};
   }
 
   Color light_of(Walk walk) {
     Color light{};
-    while (const std::optional<PlainSurface> surface = surface_along(walk.origin, walk.direction)) {
+    while (const std::optional<PlainSurface> surface = surface_along(Vec3d(walk.origin), Vec3d(walk.direction))) {
       const PlainMaterial& material = stage().materials()[surface->material];
       light = light + walk.weight * material.emission * mis_weight(walk, *surface, material);
       if (walk.depth > depth_max() || !step(walk, *surface, material, light)) {

@@ -56,9 +56,9 @@ PlainCamera::PlainCamera(const core::Camera& camera) : eye(camera.eye()) {
   }
   rightward = rightward * (1 / dot(rightward, rightward));
   downward = downward * (1 / dot(downward, downward));
-  right = Vec3f(rightward);
-  down = Vec3f(downward);
-  corner = Vec3f(forward - rightward * middle_x - downward * middle_y);
+  right = rightward;
+  down = downward;
+  corner = forward - rightward * middle_x - downward * middle_y;
 }
 
 void PlainMaterial::add(const core::MaterialExtensionRecord& finish) {
@@ -99,17 +99,21 @@ PlainStage::PlainStage(const Subject& subject)
   }
 }
 
-PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const Vec3f& direction, float t) const {
+/// The distance is solved again, since Embree's is a float.
+PlainSurface PlainStage::curved_at(unsigned curved, const Vec3d& origin, const Vec3d& direction, float t) const {
+  constexpr double rounding = 0x1p-20;
   const PlainQuadric& quadric = tree_.shapes().quadrics[curved];
-  Vec3d point = Vec3d(origin) + Vec3d(direction) * double{t};
-  const Vec3f normal(quadric.normal_at(point));
-  const bool is_leaving = dot(direction, normal) > 0;
-  return {Vec3f(point),
-          normal,
-          is_leaving ? -normal : normal,
-          shading_[tree_.shapes().triangles.size() + curved].material(),
-          is_leaving,
-          static_cast<float>(quadric.sphere_radius())};
+  const double exact = quadric.distance(origin, direction, double{t} * (1 - rounding), double{t} * (1 + rounding));
+  PlainSurface surface{.is_curved = true, .exact_point = origin + direction * (exact > 0 ? exact : double{t})};
+  const Vec3d normal = quadric.normal_at(surface.exact_point);
+  surface.point = Vec3f(surface.exact_point);
+  surface.is_leaving = dot(direction, normal) > 0;
+  surface.exact_normal = surface.is_leaving ? -normal : normal;
+  surface.geometric_normal = Vec3f(normal);
+  surface.normal = Vec3f(surface.exact_normal);
+  surface.material = shading_[tree_.shapes().triangles.size() + curved].material();
+  surface.radius = static_cast<float>(quadric.sphere_radius());
+  return surface;
 }
 
 }  // namespace dmpc::apps

@@ -19,14 +19,13 @@ inline constexpr float plain_emitter_end = 1 - 1e-4F;
 /// Side of the tiles that threads take, in pixels.
 inline constexpr int plain_tile_side = 16;
 
-/// The camera in single precision.
+/// The camera in double precision.
 struct PlainCamera {
-  core::Vec3f eye, corner, right, down;  ///< from the eye to the first pixel; from a pixel to the next
+  core::Vec3d eye, corner, right, down;  ///< from the eye to the first pixel; from a pixel to the next
 
   explicit PlainCamera(const core::Camera& camera);
   /// Returns a unit vector.
-  core::Vec3f towards(float x, float y) const { return normalize(corner + right * x + down * y); }
-  core::Vec3f towards(int x, int y) const { return towards(static_cast<float>(x), static_cast<float>(y)); }
+  core::Vec3d towards(double x, double y) const { return normalize(corner + right * x + down * y); }
 };
 
 /// Replaces highlight and mirror for a microfacet surface.
@@ -55,7 +54,9 @@ struct PlainSurface {
   core::Vec3f geometric_normal, normal;  ///< unit vectors; `normal` is the shading normal, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
-  float radius = 0;  ///< spheres only
+  bool is_curved = false;
+  core::Vec3d exact_point, exact_normal;  ///< the point only of a curved surface
+  float radius = 0;                       ///< spheres only
 };
 
 /// Immutable; every call is thread-safe.
@@ -81,7 +82,7 @@ class PlainStage {
   /// Returns the material of a flat triangle; others have it with their normals.
   std::uint32_t flat_material_of(unsigned triangle) const { return shading_[triangle].material(); }
   /// Returns the surface where a ray hits a sphere or cone in Embree's numbering.
-  PlainSurface curved_at(unsigned curved, const core::Vec3f& origin, const core::Vec3f& direction, float t) const;
+  PlainSurface curved_at(unsigned curved, const core::Vec3d& origin, const core::Vec3d& direction, float t) const;
 
  private:
   const core::RenderSettings& settings_;

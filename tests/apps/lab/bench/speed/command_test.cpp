@@ -77,8 +77,11 @@ TEST_CASE("bench speed prints its means first, and every comparison into a file"
   SpeedOptions options = tiny_speed({"--parts=emulation"});
   const std::string means = output_of(options);
   CHECK(contains(means, "geometric means over scenes and kinds"));
-  CHECK(contains(means, "A file (-o) has all "));
+  CHECK(contains(means, "--all prints all means, a file (-o) has all 3 comparisons"));
+  CHECK(contains(means, "| 5 % "));
+  CHECK_FALSE(contains(means, "| 25 % "));
   CHECK_FALSE(contains(means, "largest ratio"));
+  CHECK(contains(output_of(tiny_speed({"--parts=emulation", "--all"})), "| 25 % "));
   options.table.file = folder / "speed.md";
   CHECK(output_of(options).empty());
   const std::string file = file_text(folder / "speed.md");

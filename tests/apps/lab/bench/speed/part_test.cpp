@@ -40,7 +40,8 @@ TEST_CASE("without scenes each part has its own, and the plain renderer in haste
   CHECK(settings.scenes_of(SpeedPart::kernel) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"});
   CHECK(settings.scenes_of(SpeedPart::plain).back() == "lattice-12");
   settings.is_quick = true;
-  CHECK(settings.scenes_of(SpeedPart::plain) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "balls-2-t4", "jacks-3", "lattice-12"});
+  CHECK(settings.scenes_of(SpeedPart::plain) ==
+        Words{"teapot-12", "mount-6-t6", "rings-4-t1", "balls-2-t4", "jacks-3", "lattice-12"});
   settings.scenes = {"tetra-2", "tetra-9"};
   CHECK(settings.scenes_of(SpeedPart::plain) == settings.scenes);
 }

@@ -65,7 +65,8 @@ std::vector<const Comparison*> of(const std::vector<Comparison>& results, const 
 
 TEST_CASE("the plain renderer shoots our rays, to rounding, and its picture is ours") {
   // Flat and smooth triangles, mirrors, glass, spheres, cones.
-  for (const char* scene : {"tetra-3", "teapot-3", "mount-4", "balls-2", "balls-2-t2", "rings-2", "tree-3", "gears-1"}) {
+  for (const char* scene :
+       {"tetra-3", "teapot-3", "mount-4", "balls-2", "balls-2-t2", "rings-2", "tree-3", "gears-1", "jacks-2", "lattice-3"}) {
     CAPTURE(std::string(scene));
     const apps::Subject subject = small_subject(scene, {48, 40});
     const Ours ours(subject);
