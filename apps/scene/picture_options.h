@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,8 +51,15 @@ inline constexpr struct {
     "equal-frames",
     "a frame that equals the one before it is a copy of its picture, unless heat maps are asked for (render --frames)"};
 
+/// A file with the scene's database (apps/database/database_file.h).
+struct StoredChoice {
+  std::filesystem::path path;
+  std::uint64_t digest = 0;  ///< the file's when it was chosen
+};
+
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
+  std::optional<StoredChoice> stored;    ///< in place of the scene, of which it was built
   std::optional<Resolution> resolution;  ///< the view's own if not given
   int samples = 1;                       ///< per pixel, 1 to 32768 (see core/picture/film/film.h); if refined, in the first pass
   bool is_refined = false;               ///< --samples=auto
@@ -72,6 +80,9 @@ struct PictureOptions {
 
 /// Returns the depth of the picture. With path tracing it is that of the scene's file unless an option sets the bounces.
 int depth_of(const PictureOptions& picture, const core::Scene& scene);
+
+/// Sets the scene, or the database in place of it. Throws as DatabaseFile.
+void take_scene(PictureOptions& picture, const std::string& scene);
 
 /// Declares all options. The current value of presents_meshes determines some help texts and the defaults of mesh files: if no
 /// option sets the lighting or the transport, path tracing under mesh_sky() or the requested sky, else Whitted's transport. Both

@@ -1,0 +1,148 @@
+#include "apps/scene/database_facts.h"
+
+#include <algorithm>
+
+#include "apps/frontend/line/number_text.h"
+#include "apps/scene/load_scene.h"
+#include "core/base/expect.h"
+#include "core/scene/frame.h"
+#include "core/scene/stored_objects.h"
+
+namespace dmpc::apps {
+namespace {
+
+template <class T>
+std::string text_or_no(const std::optional<T>& value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return value ? shortest(*value) : "no";
+  } else {
+    return value ? text_of(*value) : "no";
+  }
+}
+
+std::string lights_text(const std::vector<core::PointLight>& lights) {
+  std::string text;
+  for (const core::PointLight& light : lights) {
+    text += (text.empty() ? "" : " and ") + text_of(light);
+  }
+  return text.empty() ? "no" : text;
+}
+
+std::string page_size_text(const core::BuildOptions& built) {
+  return built.page_size_bytes >= 1024 ? std::to_string(built.page_size_bytes / 1024) + "KiB"
+                                       : std::to_string(built.page_size_bytes) + "B";
+}
+
+void add_mesh(const PictureOptions& picture, DatabaseFacts& facts) {
+  const MeshOptions& mesh = picture.scene_setup.mesh;
+  facts.emplace_back("--scale", text_or_no(mesh.scale));
+  facts.emplace_back("--up", text_or_no(mesh.up));
+  facts.emplace_back("--smooth", text_or_no(mesh.smooth_degrees));
+  facts.emplace_back("--missing", mesh.allows_missing ? "plain" : "no");
+  facts.emplace_back("--files", mesh.opens_anywhere ? "anywhere" : "no");
+}
+
+/// A mesh file's own camera, which spans its angle over the picture, decides its lights unless there is another, and some lights
+/// depend on where any is.
+void add_camera(const PictureOptions& picture, DatabaseFacts& facts) {
+  const auto& camera = picture.scene_setup.camera;
+  const bool moves_light = picture.scene_setup.fill.value_or(0) > 0 || picture.transport.light_radius;
+  facts.emplace_back("--camera", camera && moves_light ? text_of(*camera) : camera && is_mesh(picture.scene) ? "another" : "no");
+  const auto& size = picture.resolution;
+  facts.emplace_back("--resolution", size && !camera && is_mesh(picture.scene)
+                                         ? std::to_string(size->width) + "x" + std::to_string(size->height)
+                                         : "no");
+}
+
+void add_light(const PictureOptions& picture, DatabaseFacts& facts) {
+  const SceneSetup& setup = picture.scene_setup;
+  const TransportOptions& transport = picture.transport;
+  facts.emplace_back("--transport", name_of(transport.kind));
+  facts.emplace_back("--light", lights_text(setup.lights));
+  facts.emplace_back("--fill", text_or_no(setup.fill));
+  facts.emplace_back("--ambient", text_or_no(setup.ambient));
+  facts.emplace_back("--background", text_or_no(setup.background));
+  facts.emplace_back("--sky", text_or_no(transport.sky));
+  facts.emplace_back("--light-radius", text_or_no(transport.light_radius));
+  facts.emplace_back("--emitters", std::to_string(transport.emitters_max()));
+}
+
+}  // namespace
+
+bool is_of_building(const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  return name == "--instances" || std::ranges::any_of(database_rows(), [&](const DatabaseRow& row) { return row.name == name; });
+}
+
+std::vector<std::string> words_of(const core::BuildOptions& built) {
+  std::vector<std::string> words = {"--page-size=" + page_size_text(built),
+                                    std::string("--record-order=") + name_of(built.record_order),
+                                    std::string("--structure=") + name_of(built.structure),
+                                    std::string("--instances=") + (built.keeps_instances ? "keep" : "expand")};
+  if (built.structure == core::Structure::voxels) {
+    words.push_back("--voxels=" + text_of(built.voxels));
+  }
+  return words;
+}
+
+CommandLine::Standing standing_of_scene() {
+  return {"SCENE", [](const std::string& scene, const CommandLine::Standing::IsGiven& is_given) {
+            std::vector<std::string> words;
+            if (is_database_path(scene)) {
+              words = DatabaseFile(scene).origin().words;
+              std::erase_if(words, [&](const std::string& word) { return is_given("--system") && is_of_building(word); });
+            }
+            return words;
+          }};
+}
+
+DatabaseFacts database_facts(const PictureOptions& picture, const core::BuildOptions& built) {
+  DatabaseFacts facts;
+  for (const std::string& word : words_of(built)) {
+    const std::size_t equals = word.find('=');
+    facts.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  add_light(picture, facts);
+  add_mesh(picture, facts);
+  add_camera(picture, facts);
+  return facts;
+}
+
+std::string difference_of(const DatabaseFacts& asked, const DatabaseFacts& stored) {
+  const auto value_in = [](const DatabaseFacts& facts, const std::string& name) {
+    const auto found = std::ranges::find_if(facts, [&](const auto& fact) { return fact.first == name; });
+    return found == facts.end() ? "no" : found->second;
+  };
+  const auto said = [](const std::string& name, const std::string& value) {
+    return value == "no" ? "no " + name : name + "=" + value;
+  };
+  for (const DatabaseFacts* const facts : {&stored, &asked}) {
+    for (const auto& [name, value] : *facts) {
+      const std::string has = value_in(stored, name), wanted = value_in(asked, name);
+      if (has != wanted) {
+        return "it was built with " + said(name, has) + ", and this needs " + said(name, wanted);
+      }
+    }
+  }
+  return "";
+}
+
+core::Database stored_database(const core::Scene& scene, const PictureOptions& picture, const core::BuildOptions& built) {
+  core::expect(scene.stored != nullptr && picture.stored, "a stored scene has a file");
+  const DatabaseFile file = open_stored(*picture.stored);
+  if (const std::string why = difference_of(database_facts(picture, built), file.origin().facts); !why.empty()) {
+    file.refuse(why);
+  }
+  const core::Box& bounds = scene.stored->bounds;
+  if (!bounds.empty() && core::eye_distance(scene.view.from, bounds) > scene.stored->eye_distance) {
+    file.refuse(
+        "it was built for cameras no farther away from the scene; --any-camera builds one for all, --camera for this one");
+  }
+  core::Database database = file.database();
+  if (picture.is_refined && database.primitives().size() != database.header().primitive_count) {
+    file.refuse("it has meshes without copies, among which --samples=auto looks for fine detail: build it with --samples=auto");
+  }
+  return database;
+}
+
+}  // namespace dmpc::apps
