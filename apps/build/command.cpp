@@ -1,37 +1,12 @@
 #include "apps/build/command.h"
 
-#include <memory>
-#include <ostream>
-#include <utility>
+#include <string>
 
-#include "apps/database/database_file.h"
-#include "apps/frontend/system/output_file.h"
-#include "apps/info/scene_figures.h"
-#include "apps/render/picture_identity.h"
+#include "apps/frontend/system/distinct_files.h"
 #include "apps/run/instance_options.h"
-#include "apps/scene/database_facts.h"
-#include "apps/scene/load_scene.h"
-#include "apps/scene/subject.h"
 #include "core/base/expect.h"
-#include "core/scene/frame.h"
-#include "core/scene/stored_objects.h"
 
 namespace dmpc::apps {
-namespace {
-
-core::StoredObjects stored_objects_of(const core::Scene& scene) {
-  const SceneFigures figures = figures_of(scene);
-  return {.objects = figures.objects,
-          .bounds = figures.bounds,
-          .eye_distance = figures.bounds.empty() ? 0 : core::eye_distance(scene.view.from, figures.bounds),
-          .share = core::instancing_share(scene),
-          .meshes = figures.meshes.count,
-          .mesh_triangles = figures.meshes.triangles,
-          .triangles_in_places = figures.meshes.triangles_in_places,
-          .identity = stored_identity(scene)};
-}
-
-}  // namespace
 
 void add_options(OptionSet options, BuildRequest& build) {
   build.picture.presents_meshes = true;
@@ -62,32 +37,16 @@ void add_options(OptionSet options, BuildRequest& build) {
       "  dmpc render land.pages --nodes=64 --runner=pool -o land.png\n"
       "  dmpc build model.glb --sky=noon.hdr --structure=extents --any-camera -o model.pages\n"
       "The file stands for the scene in every command that takes one, with all options given here. Those that decide the\n"
-      "database cannot be changed afterwards; --camera, --samples and the like can. Only who wrote it, root or the owner of "
-      "dmpc\n"
-      "may be able to write it, and only the version of dmpc that wrote it reads it.");
+      "database cannot be changed afterwards; --camera, --samples and the like can. Only you, root or the owner of dmpc may be\n"
+      "able to write it, and only the version of dmpc that wrote it reads it.");
 }
 
 int build_command(const BuildRequest& build, Interrupt& interrupt, std::ostream& /*output*/) {
   check_output_path(build.output, "-o");
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  core::Scene scene = load_scene_beside(build.picture, {{"-o", build.output}});
-  core::StoredObjects stored = stored_objects_of(scene);
-  const core::View own = scene.view;
-  if (build.for_any_camera) {
-    put_eye_far_away(scene, stored.bounds);
-    stored.eye_distance = 2 * core::far_eye_diagonals;
-  }
-  const Subject subject = build_subject_of(scene, build.picture, build.database, !build.quiet);
-  say_notes(notes_of(subject));
-  scene.view = own;
-  scene.stored = std::make_shared<const core::StoredObjects>(std::move(stored));
-  DatabaseOrigin origin{build.picture.scene, build.words, database_facts(build.picture, subject.built)};
-  std::erase_if(origin.words, is_of_building);
-  const std::vector<std::string> built = words_of(subject.built);
-  origin.words.insert(origin.words.end(), built.begin(), built.end());
-  OutputFile file(build.output, {.option = "-o"});
-  write_database(origin, scene, subject.database, file.stream());
-  file.commit();
+  const BuiltFile built = build_file(build, [&](const OpenedFiles& opened) { check_not_read(opened, {{"-o", build.output}}); });
+  say_notes(notes_of(built.subject));
+  built.write(build.output, {.option = "-o"});
   return 0;
 }
 

@@ -1,8 +1,10 @@
 #include "apps/database/database_file.h"
 
 #include <array>
+#include <fstream>
 #include <ostream>
 #include <span>
+#include <sstream>
 #include <string_view>
 
 #include "apps/database/stored_scene.h"
@@ -57,7 +59,7 @@ FileKind database_kind() {
 
 std::string packed(const DatabaseOrigin& origin) {
   Packer packer;
-  packer.add_text(origin.scene).add(std::uint32_t(origin.words.size()));
+  packer.add_text(origin.scene).add(origin.source).add(std::uint32_t(origin.words.size()));
   for (const std::string& word : origin.words) {
     packer.add_text(word);
   }
@@ -75,12 +77,20 @@ auto of_file(const SectionFile& file, const Work& work) {
     return work();
   } catch (const Nonsense&) {
     file.refuse("it is damaged");
-  } catch (const core::CapacityError&) {
-    throw;
   }
 }
 
 }  // namespace
+
+std::uint64_t source_of(const OpenedFiles& files) {
+  Digest digest;
+  for (const std::filesystem::path& path : files.paths()) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    digest.add(digest_of(std::as_bytes(std::span(text.view()))));
+  }
+  return digest.value();
+}
 
 bool is_database_path(const std::string& scene) { return scene.ends_with(".pages"); }
 
@@ -98,11 +108,18 @@ void write_database(const DatabaseOrigin& origin, const core::Scene& scene, cons
 
 DatabaseFile::DatabaseFile(const std::filesystem::path& path) : file_(path, database_kind(), sections) {}
 
+DatabaseFile::DatabaseFile(const StoredChoice& chosen) : DatabaseFile(chosen.path) {
+  if (digest() != chosen.digest) {
+    refuse("it has been replaced since the command began");
+  }
+}
+
 DatabaseOrigin DatabaseFile::origin() const {
   return of_file(file_, [&] {
     const std::string bytes = file_.text(origin_section);
     Unpacker fields(bytes);
     DatabaseOrigin origin{.scene = fields.take_text(), .words = {}, .facts = {}};
+    origin.source = fields.take<std::uint64_t>();
     for (auto left = fields.take<std::uint32_t>(); left > 0; --left) {
       origin.words.push_back(fields.take_text());
     }

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/database/section_file.h"
-#include "apps/frontend/system/output_file.h"
+#include "apps/database/stored_choice.h"
+#include "apps/frontend/system/opened_files.h"
 #include "core/database/database.h"
 #include "core/scene/scene.h"
 
@@ -22,7 +24,11 @@ struct DatabaseOrigin {
   std::string scene;               ///< SCENE, as given
   std::vector<std::string> words;  ///< further options as given, and those of building as decided: "--up=z"
   DatabaseFacts facts;
+  std::uint64_t source = 0;  ///< digest of the files that the scene was read from
 };
+
+/// A digest of the files' bytes; 0 if there are none.
+std::uint64_t source_of(const OpenedFiles& files);
 
 /// Whether SCENE is the path of such a file: it ends in .pages.
 bool is_database_path(const std::string& scene);
@@ -34,6 +40,8 @@ void write_database(const DatabaseOrigin& origin, const core::Scene& scene, cons
 class DatabaseFile {
  public:
   explicit DatabaseFile(const std::filesystem::path& path);
+  /// Refuses another file than was chosen.
+  explicit DatabaseFile(const StoredChoice& chosen);
 
   /// Identifies the contents of the file.
   std::uint64_t digest() const { return file_.digest(); }

@@ -129,7 +129,7 @@ std::string difference_of(const DatabaseFacts& asked, const DatabaseFacts& store
 
 core::Database stored_database(const core::Scene& scene, const PictureOptions& picture, const core::BuildOptions& built) {
   core::expect(scene.stored != nullptr && picture.stored, "a stored scene has a file");
-  const DatabaseFile file = open_stored(*picture.stored);
+  const DatabaseFile file(*picture.stored);
   if (const std::string why = difference_of(database_facts(picture, built), file.origin().facts); !why.empty()) {
     file.refuse(why);
   }

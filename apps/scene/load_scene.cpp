@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "apps/database/database_file.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
@@ -179,7 +180,7 @@ core::Scene load_stored(const PictureOptions& picture, LoadNotes notes, OpenedFi
     throw core::UsageError("--animation does not go with " + picture.stored->path.string() +
                            ", the database of one moment: give the scene's file");
   }
-  core::Scene scene = open_stored(*picture.stored).scene();
+  core::Scene scene = DatabaseFile(*picture.stored).scene();
   if (opened != nullptr) {
     opened->add(picture.stored->path);
   }
@@ -218,14 +219,6 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
 
 void add_scene_file(const PictureOptions& picture, std::vector<NamedFile>& inputs) {
   add_scene_file(picture.stored ? picture.stored->path.string() : picture.scene, inputs);
-}
-
-DatabaseFile open_stored(const StoredChoice& stored) {
-  DatabaseFile file(stored.path);
-  if (file.digest() != stored.digest) {
-    file.refuse("it has been replaced since the command began");
-  }
-  return file;
 }
 
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, StillScene* still) {

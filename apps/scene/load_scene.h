@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/database/database_file.h"
 #include "apps/frontend/system/distinct_files.h"
 #include "apps/frontend/system/opened_files.h"
 #include "apps/scene/picture_options.h"
@@ -31,9 +30,6 @@ bool is_own_sky(const PictureOptions& picture);
 /// Adds the file that load_scene(scene) reads, if it reads one.
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
 void add_scene_file(const PictureOptions& picture, std::vector<NamedFile>& inputs);
-
-/// Throws core::InputError as DatabaseFile does, and if it is another file than was chosen.
-DatabaseFile open_stored(const StoredChoice& stored);
 
 /// Whether notes of loading are printed to stderr.
 enum class LoadNotes : std::uint8_t { said, silent };

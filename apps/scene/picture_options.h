@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "apps/database/stored_choice.h"
 #include "apps/formats/resolution.h"
 #include "apps/frontend/line/command_line.h"
 #include "apps/scene/scene_setup.h"
@@ -50,12 +50,6 @@ inline constexpr struct {
 } equal_frames{
     "equal-frames",
     "a frame that equals the one before it is a copy of its picture, unless heat maps are asked for (render --frames)"};
-
-/// A file with the scene's database (apps/database/database_file.h).
-struct StoredChoice {
-  std::filesystem::path path;
-  std::uint64_t digest = 0;  ///< the file's when it was chosen
-};
 
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
