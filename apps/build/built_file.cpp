@@ -37,18 +37,25 @@ std::vector<std::string> words_for(std::vector<std::string> given, const core::B
 
 BuiltFile build_file(const BuildRequest& build, const std::function<void(const OpenedFiles&)>& check) {
   OpenedFiles opened;
-  core::Scene scene = load_scene(build.picture, build.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
+  PictureOptions picture = build.picture;
+  std::vector<std::string> words = build.words;
+  core::Scene scene = load_scene(picture, build.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
   check(opened);
+  if (build.for_any_camera && is_mesh(picture.scene) && !picture.scene_setup.camera) {
+    picture.scene_setup.camera = camera_of(scene.view);  // one that stands in place of the file's own, as any other will
+    words.push_back("--camera=" + text_of(*picture.scene_setup.camera));
+    scene = load_scene(picture, LoadNotes::silent);
+  }
   core::StoredObjects stored = stored_objects_of(scene);
   const core::View own = scene.view;
   if (build.for_any_camera) {
     put_eye_far_away(scene, stored.bounds);
     stored.eye_distance = 2 * core::far_eye_diagonals;
   }
-  Subject subject = build_subject_of(scene, build.picture, build.database, !build.quiet);
+  Subject subject = build_subject_of(scene, picture, build.database, !build.quiet);
   scene.view = own;
   scene.stored = std::make_shared<const core::StoredObjects>(std::move(stored));
-  DatabaseOrigin origin{build.picture.scene, words_for(build.words, subject.built), database_facts(build.picture, subject.built),
+  DatabaseOrigin origin{picture.scene, words_for(std::move(words), subject.built), database_facts(picture, subject.built),
                         source_of(opened)};
   return {std::move(origin), std::move(scene), std::move(subject)};
 }

@@ -63,14 +63,6 @@ std::uint64_t digest_by_runs(std::span<Byte> bytes, const Work& work) {
   return digest.value();
 }
 
-std::uint64_t digest_of_head(FileHead head, std::span<const SectionEntry> sections) {
-  head.digest = 0;
-  Digest digest;
-  digest.add(std::as_bytes(std::span(&head, 1)));
-  digest.add(std::as_bytes(sections));
-  return digest.value();
-}
-
 /// 0, or the errno; at the end of the file what there is no more stays as it is.
 int read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> room) {
   while (!room.empty()) {
@@ -88,6 +80,14 @@ int read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> r
 }
 
 }  // namespace
+
+std::uint64_t digest_of_head(FileHead head, std::span<const SectionEntry> sections) {
+  head.digest = 0;
+  Digest digest;
+  digest.add(std::as_bytes(std::span(&head, 1)));
+  digest.add(std::as_bytes(sections));
+  return digest.value();
+}
 
 std::uint64_t digest_of(std::span<const std::byte> bytes) {
   return digest_by_runs(bytes, [](std::size_t, std::span<const std::byte> run) { return digest_of_run(run); });

@@ -76,6 +76,9 @@ class SectionFile {
   std::vector<SectionEntry> sections_;
 };
 
+/// FileHead::digest.
+std::uint64_t digest_of_head(FileHead head, std::span<const SectionEntry> sections);
+
 /// A digest of bytes, in runs of 1 MiB on all cores.
 std::uint64_t digest_of(std::span<const std::byte> bytes);
 

@@ -121,6 +121,9 @@ std::string advice_on(const std::string& path, const std::string& ending) {
 
 core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes, OpenedFiles& opened) {
   const std::string ending = std::filesystem::path(path).extension().string();
+  if (is_database_path(path)) {
+    throw core::InputError(path + " is a database, and this builds others: give the scene of which it was built");
+  }
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::InputError(path + ": files that end in " + ending + " are not read" + advice_on(path, ending) +
                            "; expected .nff or one of " + known_mesh_formats());

@@ -86,7 +86,8 @@ void add_sweep_options(OptionSet& set, SweepSettings& settings) {
       "What the table tells of each run, by the keys of --stats: pages.faults, or faults where there is no other");
   set.add_path(
       "--runs", "FOLDER [none]", settings.kept,
-      "Keep the counters of each run there, and run nothing twice: who was stopped goes on, who asks for more adds to it");
+      "Keep the counters of each run there, and the databases of large scenes, and do nothing twice: who was stopped goes on, who "
+      "asks for more adds to it");
 }
 
 /// Runs last: flags become words, too, and something must vary.
