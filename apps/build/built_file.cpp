@@ -15,14 +15,14 @@ namespace {
 
 core::StoredObjects stored_objects_of(const core::Scene& scene) {
   const SceneFigures figures = figures_of(scene);
-  return {.objects = figures.objects,
-          .bounds = figures.bounds,
-          .eye_distance = figures.bounds.empty() ? 0 : core::eye_distance(scene.view.from, figures.bounds),
-          .share = core::instancing_share(scene),
-          .meshes = figures.meshes.count,
-          .mesh_triangles = figures.meshes.triangles,
-          .triangles_in_places = figures.meshes.triangles_in_places,
-          .identity = stored_identity(scene)};
+  return {{.objects = figures.objects,
+           .bounds = figures.bounds,
+           .eye_distance = figures.bounds.empty() ? 0 : core::eye_distance(scene.view.from, figures.bounds),
+           .share = core::instancing_share(scene),
+           .meshes = figures.meshes.count,
+           .mesh_triangles = figures.meshes.triangles,
+           .triangles_in_places = figures.meshes.triangles_in_places},
+          stored_identity(scene)};
 }
 
 /// Those of building as they were decided.

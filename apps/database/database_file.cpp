@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include "apps/database/stored_scene.h"
+#include "apps/frontend/line/parsed_number.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/system/digest.h"
-#include "apps/reader/packing.h"
 #include "core/base/expect.h"
 #include "core/database/database_parts.h"
 #include "core/families/scenes.h"
@@ -18,8 +19,15 @@ namespace dmpc::apps {
 namespace {
 
 enum Section : std::size_t {
-  origin_section,
-  scene_section,
+  origins,
+  words,
+  facts,
+  names,
+  identity,
+  scene_summary,
+  lights,
+  materials,
+  textures,
   summary,
   records,
   primitives,
@@ -57,30 +65,76 @@ FileKind database_kind() {
           .advice = "build it again: dmpc build SCENE -o FILE.pages"};
 }
 
-std::string packed(const DatabaseOrigin& origin) {
-  Packer packer;
-  packer.add_text(origin.scene).add(origin.source).add(std::uint32_t(origin.words.size()));
-  for (const std::string& word : origin.words) {
-    packer.add_text(word);
+/// Each with a zero behind.
+std::string packed(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    all += text + '\0';
   }
-  packer.add(std::uint32_t(origin.facts.size()));
-  for (const auto& [name, value] : origin.facts) {
-    packer.add_text(name).add_text(value);
-  }
-  return packer.bytes();
+  return all;
 }
 
-/// What work() makes of the file's bytes, or a complaint about them.
+std::vector<std::string> unpacked(const std::string& texts) {
+  std::vector<std::string> all = words_between(texts, '\0');
+  all.pop_back();
+  return all;
+}
+
+template <class Pairs>
+std::string packed_pairs(const Pairs& pairs) {
+  std::vector<std::string> texts;
+  for (const auto& [name, value] : pairs) {
+    texts.insert(texts.end(), {name, value});
+  }
+  return packed(texts);
+}
+
+DatabaseFacts unpacked_pairs(const std::string& texts) {
+  DatabaseFacts pairs;
+  const std::vector<std::string> all = unpacked(texts);
+  for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
+    pairs.emplace_back(all[i], all[i + 1]);
+  }
+  return pairs;
+}
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& items) {
+  return std::as_bytes(std::span(items));
+}
+template <class T>
+std::span<const std::byte> bytes_of_one(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+template <class T>
+std::vector<T> listed(const SectionFile& file, Section section) {
+  const auto items = file.array<T>(section);
+  return {items.items().begin(), items.items().end()};
+}
+
+template <class T>
+T single(const SectionFile& file, Section section) {
+  const auto items = file.array<T>(section);
+  if (items.items().size() != 1) {
+    file.refuse("it is damaged");
+  }
+  return items.items().front();
+}
+
+/// What work() makes of what was read, or a complaint about the file.
 template <class Work>
 auto of_file(const SectionFile& file, const Work& work) {
   try {
     return work();
-  } catch (const Nonsense&) {
-    file.refuse("it is damaged");
+  } catch (const core::InputError& error) {
+    file.refuse(error.what());
   }
 }
 
 }  // namespace
+
+bool is_database_path(const std::string& scene) { return scene.ends_with(".pages"); }
 
 std::uint64_t source_of(const OpenedFiles& files) {
   Digest digest;
@@ -92,17 +146,30 @@ std::uint64_t source_of(const OpenedFiles& files) {
   return digest.value();
 }
 
-bool is_database_path(const std::string& scene) { return scene.ends_with(".pages"); }
-
 void write_database(const DatabaseOrigin& origin, const core::Scene& scene, const core::Database& database,
                     std::ostream& output) {
-  const std::string origin_bytes = packed(origin), scene_bytes = packed_scene(scene);
+  const StoredScene left = StoredScene::of(scene);
   const core::DatabaseParts parts = core::DatabaseParts::of(database);
-  const auto bytes = [](const auto& items) { return std::as_bytes(items); };
-  const std::array<std::span<const std::byte>, sections> all = {
-      bytes(std::span(origin_bytes)), bytes(std::span(scene_bytes)),   bytes(std::span(&parts.summary, 1)),
-      parts.records.items(),          bytes(parts.primitives.items()), bytes(parts.sources.items()),
-      bytes(parts.planes.items()),    bytes(parts.collapsed.items()),  bytes(parts.close_faces.items())};
+  const std::string origin_text = packed({origin.scene, std::to_string(origin.source)}), words_text = packed(origin.words),
+                    facts_text = packed_pairs(origin.facts), names_text = packed(left.names),
+                    identity_text = packed_pairs(left.identity);
+  std::array<std::span<const std::byte>, sections> all;
+  all[origins] = bytes_of(origin_text);
+  all[words] = bytes_of(words_text);
+  all[facts] = bytes_of(facts_text);
+  all[names] = bytes_of(names_text);
+  all[identity] = bytes_of(identity_text);
+  all[scene_summary] = bytes_of_one(left.summary);
+  all[lights] = bytes_of(left.lights);
+  all[materials] = bytes_of(left.materials);
+  all[textures] = bytes_of(left.textures);
+  all[summary] = bytes_of_one(parts.summary);
+  all[records] = parts.records.items();
+  all[primitives] = bytes_of(parts.primitives.items());
+  all[sources] = bytes_of(parts.sources.items());
+  all[planes] = bytes_of(parts.planes.items());
+  all[collapsed] = bytes_of(parts.collapsed.items());
+  all[close] = bytes_of(parts.close_faces.items());
   write_sections(database_kind(), all, output);
 }
 
@@ -115,44 +182,34 @@ DatabaseFile::DatabaseFile(const StoredChoice& chosen) : DatabaseFile(chosen.pat
 }
 
 DatabaseOrigin DatabaseFile::origin() const {
-  return of_file(file_, [&] {
-    const std::string bytes = file_.text(origin_section);
-    Unpacker fields(bytes);
-    DatabaseOrigin origin{.scene = fields.take_text(), .words = {}, .facts = {}};
-    origin.source = fields.take<std::uint64_t>();
-    for (auto left = fields.take<std::uint32_t>(); left > 0; --left) {
-      origin.words.push_back(fields.take_text());
-    }
-    for (auto left = fields.take<std::uint32_t>(); left > 0; --left) {
-      std::string name = fields.take_text();
-      origin.facts.emplace_back(std::move(name), fields.take_text());
-    }
-    fields.finish();
-    return origin;
-  });
+  const std::vector<std::string> texts = unpacked(file_.text(origins));
+  const auto source = texts.size() == 2 ? number_in<std::uint64_t>(texts[1]) : std::nullopt;
+  if (!source) {
+    file_.refuse("it is damaged");
+  }
+  return {texts[0], unpacked(file_.text(words)), unpacked_pairs(file_.text(facts)), *source};
 }
 
 core::Scene DatabaseFile::scene() const {
-  return of_file(file_, [&] { return unpacked_scene(file_.text(scene_section)); });
+  const DatabaseFacts pairs = unpacked_pairs(file_.text(identity));
+  const StoredScene left{.summary = single<StoredScene::Summary>(file_, scene_summary),
+                         .lights = listed<core::PointLight>(file_, lights),
+                         .materials = listed<core::Material>(file_, materials),
+                         .textures = listed<StoredTexture>(file_, textures),
+                         .names = unpacked(file_.text(names)),
+                         .identity = {pairs.begin(), pairs.end()}};
+  return of_file(file_, [&] { return left.scene(); });
 }
 
 core::Database DatabaseFile::database() const {
-  const auto summaries = file_.array<core::DatabaseSummary>(summary);
-  if (summaries.items().size() != 1) {
-    file_.refuse("it is damaged");
-  }
-  core::DatabaseParts parts{.summary = summaries.items().front(),
+  core::DatabaseParts parts{.summary = single<core::DatabaseSummary>(file_, summary),
                             .records = file_.array<std::byte>(records),
                             .primitives = file_.array<core::PrimitiveValues>(primitives),
                             .sources = file_.array<core::PrimitiveSource>(sources),
                             .planes = file_.array<core::PrimitivePlane>(planes),
                             .collapsed = file_.array<core::CollapsedPrimitive>(collapsed),
                             .close_faces = file_.array<core::CloseFaces>(close)};
-  try {
-    return std::move(parts).assembled();
-  } catch (const core::InputError& error) {
-    file_.refuse(error.what());
-  }
+  return of_file(file_, [&] { return std::move(parts).assembled(); });
 }
 
 }  // namespace dmpc::apps

@@ -13,13 +13,13 @@
 
 namespace dmpc::core {
 
-struct StoredObjects {
+/// Of one size.
+struct StoredCounts {
   std::array<std::uint64_t, object_kind_count> objects{};  ///< by ObjectKind, with all copies
   Box bounds;                                              ///< of everything finite, in the world
   double eye_distance = 0;                                 ///< eye_distance() of the view for which the database was built
   InstancingShare share;
   std::uint64_t meshes = 0, mesh_triangles = 0, triangles_in_places = 0;  ///< those with several instances
-  std::map<std::string, std::string> identity;  ///< texts about them by which pictures are told apart (apps/render)
 
   std::uint64_t object_count() const {
     std::uint64_t count = 0;
@@ -28,6 +28,10 @@ struct StoredObjects {
     }
     return count;
   }
+};
+
+struct StoredObjects : StoredCounts {
+  std::map<std::string, std::string> identity;  ///< texts about them by which pictures are told apart (apps/render)
 };
 
 }  // namespace dmpc::core
