@@ -7,6 +7,22 @@
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
+namespace {
+
+/// What is the default of a mesh file in some commands is the file's in all.
+void add_words_of_mesh(const OptionSet& options, BuildRequest& build) {
+  if (build.picture.is_by_paths_unasked) {
+    build.words.emplace_back("--transport=paths");
+    if (!options.is_given("--sky")) {
+      build.words.push_back("--sky=" + text_of(*build.picture.transport.sky));
+    }
+    if (build.picture.is_refined && !options.is_given("--samples")) {
+      build.words.emplace_back("--samples=auto");
+    }
+  }
+}
+
+}  // namespace
 
 void add_options(OptionSet options, BuildRequest& build) {
   build.picture.presents_meshes = true;
@@ -24,6 +40,7 @@ void add_options(OptionSet options, BuildRequest& build) {
     settle_instances(options, {}, build.database, build.picture.scene_setup.mesh);
     check_voxels(options, build.database.build);
     build.words = options.given_words({"--output", "--quiet", "--any-camera"});
+    add_words_of_mesh(options, build);
     if (!is_database_path(build.output.string())) {
       throw core::UsageError("-o " + build.output.string() + ": expected a name that ends in .pages");
     }

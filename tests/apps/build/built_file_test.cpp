@@ -100,6 +100,18 @@ TEST_CASE("options that decide a database agree with it or are refused, with wha
   CHECK(contains(complaint_of<core::UsageError>([&] { build_database_file(folder, {"rings-1"}, "b.db"); }), "ends in .pages"));
 }
 
+TEST_CASE("a mesh file's defaults are those of its database in every command") {
+  const TemporaryFolder folder;
+  const std::string file = build_database_file(folder, {write_painted_square(folder, 16)});
+  const apps::RenderOptions render = render_line({file});
+  CHECK(render.picture.transport.is_by_paths());
+  CHECK(render.picture.is_refined);
+  CHECK(render.picture.refinement.error == apps::default_error(true).error);
+  CHECK(run_dmpc({"info", file}).status == 0);
+  CHECK(contains(run_dmpc({"render", file, "--transport=whitted", "-o", (folder / "a.exr").string()}).errors,
+                 "built with --transport=paths, and this needs --transport=whitted"));
+}
+
 TEST_CASE("another camera sees the database if it is no farther away, or if that is for any") {
   const TemporaryFolder folder;
   const std::string near = build_database_file(folder, {"tetra-3"}),
