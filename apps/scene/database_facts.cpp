@@ -33,38 +33,19 @@ std::string page_size_text(const core::BuildOptions& built) {
                                        : std::to_string(built.page_size_bytes) + "B";
 }
 
-void add_mesh(const PictureOptions& picture, DatabaseFacts& facts) {
-  const MeshOptions& mesh = picture.scene_setup.mesh;
-  facts.emplace_back("--scale", text_or_no(mesh.scale));
-  facts.emplace_back("--up", text_or_no(mesh.up));
-  facts.emplace_back("--smooth", text_or_no(mesh.smooth_degrees));
-  facts.emplace_back("--missing", mesh.allows_missing ? "plain" : "no");
-  facts.emplace_back("--files", mesh.opens_anywhere ? "anywhere" : "no");
-}
-
 /// A mesh file's own camera, which spans its angle over the picture, decides its lights unless there is another, and some lights
 /// depend on where any is.
-void add_camera(const PictureOptions& picture, DatabaseFacts& facts) {
+std::string camera_text(const PictureOptions& picture) {
   const auto& camera = picture.scene_setup.camera;
   const bool moves_light = picture.scene_setup.fill.value_or(0) > 0 || picture.transport.light_radius;
-  facts.emplace_back("--camera", camera && moves_light ? text_of(*camera) : camera && is_mesh(picture.scene) ? "another" : "no");
-  const auto& size = picture.resolution;
-  facts.emplace_back("--resolution", size && !camera && is_mesh(picture.scene)
-                                         ? std::to_string(size->width) + "x" + std::to_string(size->height)
-                                         : "no");
+  return camera && moves_light ? text_of(*camera) : camera && is_mesh(picture.scene) ? "another" : "no";
 }
 
-void add_light(const PictureOptions& picture, DatabaseFacts& facts) {
-  const SceneSetup& setup = picture.scene_setup;
-  const TransportOptions& transport = picture.transport;
-  facts.emplace_back("--transport", name_of(transport.kind));
-  facts.emplace_back("--light", lights_text(setup.lights));
-  facts.emplace_back("--fill", text_or_no(setup.fill));
-  facts.emplace_back("--ambient", text_or_no(setup.ambient));
-  facts.emplace_back("--background", text_or_no(setup.background));
-  facts.emplace_back("--sky", text_or_no(transport.sky));
-  facts.emplace_back("--light-radius", text_or_no(transport.light_radius));
-  facts.emplace_back("--emitters", std::to_string(transport.emitters_max()));
+std::string resolution_text(const PictureOptions& picture) {
+  const auto& size = picture.resolution;
+  return size && !picture.scene_setup.camera && is_mesh(picture.scene)
+             ? std::to_string(size->width) + "x" + std::to_string(size->height)
+             : "no";
 }
 
 }  // namespace
@@ -97,14 +78,27 @@ CommandLine::Standing standing_of_scene() {
 }
 
 DatabaseFacts database_facts(const PictureOptions& picture, const core::BuildOptions& built) {
-  DatabaseFacts facts;
+  const SceneSetup& setup = picture.scene_setup;
+  const TransportOptions& transport = picture.transport;
+  DatabaseFacts facts = {{"--transport", name_of(transport.kind)},
+                         {"--light", lights_text(setup.lights)},
+                         {"--fill", text_or_no(setup.fill)},
+                         {"--ambient", text_or_no(setup.ambient)},
+                         {"--background", text_or_no(setup.background)},
+                         {"--sky", text_or_no(transport.sky)},
+                         {"--light-radius", text_or_no(transport.light_radius)},
+                         {"--emitters", std::to_string(transport.emitters_max())},
+                         {"--scale", text_or_no(setup.mesh.scale)},
+                         {"--up", text_or_no(setup.mesh.up)},
+                         {"--smooth", text_or_no(setup.mesh.smooth_degrees)},
+                         {"--missing", setup.mesh.allows_missing ? "plain" : "no"},
+                         {"--files", setup.mesh.opens_anywhere ? "anywhere" : "no"},
+                         {"--camera", camera_text(picture)},
+                         {"--resolution", resolution_text(picture)}};
   for (const std::string& word : words_of(built)) {
     const std::size_t equals = word.find('=');
     facts.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
-  add_light(picture, facts);
-  add_mesh(picture, facts);
-  add_camera(picture, facts);
   return facts;
 }
 

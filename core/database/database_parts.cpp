@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -18,109 +17,70 @@ namespace {
 
 void require(bool holds, const char* what) {
   if (!holds) {
-    throw InputError(std::string("its ") + what + (holds ? "" : " is impossible"));
+    throw InputError(std::string("its ") + what + " is impossible");
   }
 }
 
-bool are_finite(std::initializer_list<double> numbers) {
-  bool all = true;
-  for (const double number : numbers) {
-    all = all && std::isfinite(number);
-  }
-  return all;
+bool are_finite(const Vec3d& vector) { return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z); }
+
+void check_pages(const DatabaseSummary& all) {
+  require(all.page_size >= 512 && all.page_size <= 65536 && std::has_single_bit(all.page_size), "size of a page");
+  require(all.page_count > 0 && all.page_count <= (std::uint64_t{1} << 34U) / all.page_size, "number of pages");
+  require(all.forest_page_count <= all.page_count && all.open_page_count <= all.page_count - all.forest_page_count,
+          "number of pages of a tree");
+  require(all.structure <= Structure::voxels && all.header.has_voxels() == (all.structure == Structure::voxels) &&
+              (all.structure == Structure::extents || all.forest_page_count == 0),
+          "structure");
 }
-bool are_finite(const Vec3d& vector) { return are_finite({vector.x, vector.y, vector.z}); }
-bool are_finite(const Color& color) { return are_finite(Vec3d(color)); }
 
-/// What tables of a header refer to.
-class HeaderCheck {
- public:
-  HeaderCheck(const DatabaseSummary& summary, std::uint64_t primitives)
-      : summary_(summary), header_(summary.header), primitives_(primitives) {}
-
-  void check() const {
-    check_pages();
-    check_frame();
-    check_counts();
-    check_tables();
-    check_light();
+void check_grid(const DatabaseSummary& all) {
+  constexpr std::int32_t cells_max = 1 << 24;
+  const DatabaseHeader& header = all.header;
+  const GridFrame& frame = header.frame;
+  for (const std::int32_t cells : frame.resolution) {
+    require(cells >= 1 && cells <= cells_max, "number of cells");
   }
+  require(are_finite(frame.origin) && are_finite(frame.low) && are_finite(frame.eye_extent) && std::isfinite(frame.scale) &&
+              frame.scale > 0 && std::isfinite(frame.finest_cell) && frame.finest_cell > 0,
+          "grid");
+  require(header.region == Region{{}, grid_size(frame)} && header.directory_size == macro_cells(frame) &&
+              header.directory_low == Corner{} && header.directory_doublings == 0,
+          "directory");
+  require(std::isfinite(all.pad) && all.pad > 0, "pad");
+}
 
- private:
-  void check_pages() const {
-    const DatabaseSummary& all = summary_;
-    require(all.page_size >= 512 && all.page_size <= 65536 && std::has_single_bit(all.page_size), "size of a page");
-    require(all.page_count > 0 && all.page_count <= (std::uint64_t{1} << 34U) / all.page_size, "number of pages");
-    require(all.forest_page_count <= all.page_count && all.open_page_count <= all.page_count - all.forest_page_count,
-            "number of pages of a tree");
-    require(all.structure <= Structure::voxels && header_.has_voxels() == (all.structure == Structure::voxels) &&
-                (all.structure == Structure::extents || all.forest_page_count == 0),
-            "structure");
-  }
+void check_counts(const DatabaseSummary& all, std::uint64_t primitives) {
+  const DatabaseHeader& header = all.header;
+  require(header.has_instances != 0 ? header.primitive_count >= primitives : header.primitive_count == primitives,
+          "number of primitives");
+  require((header.has_instances != 0) == (all.records.instances > 0), "number of instances");
+  require(header.material_count >= all.records.materials, "number of materials");
+  require(are_finite(Vec3d(header.background)) && are_finite(Vec3d(header.ambient)), "background");
+}
 
-  void check_frame() const {
-    constexpr std::int32_t cells_max = 1 << 24;
-    const GridFrame& frame = header_.frame;
-    for (const std::int32_t cells : frame.resolution) {
-      require(cells >= 1 && cells <= cells_max, "number of cells");
-    }
-    require(are_finite(frame.origin) && are_finite(frame.low) && are_finite(frame.eye_extent) && std::isfinite(frame.scale) &&
-                frame.scale > 0 && std::isfinite(frame.finest_cell) && frame.finest_cell > 0,
-            "grid");
-    require(header_.region == Region{{}, grid_size(frame)} && header_.directory_size == macro_cells(frame) &&
-                header_.directory_low == Corner{} && header_.directory_doublings == 0,
-            "directory");
-    require(std::isfinite(summary_.pad) && summary_.pad > 0, "pad");
+/// Each lies in the pages.
+void check_tables(const DatabaseSummary& all) {
+  const DatabaseHeader& header = all.header;
+  const auto check = [end = all.page_count * all.page_size](Address table, std::uint64_t count, std::uint64_t bytes,
+                                                            const char* what) {
+    const std::uint64_t first = byte_offset(table);
+    require(first <= end && count <= end && count * bytes <= end - first, what);
+  };
+  check(header.directory, directory_entry_count(header.directory_size), sizeof(DirectoryEntry), "directory");
+  if (header.has_voxels()) {
+    check(header.references, all.records.voxel_references, sizeof(VoxelReference), "lists of voxels");
   }
-
-  void check_counts() const {
-    require(header_.primitive_count >= primitives_ || header_.has_instances == 0, "number of primitives");
-    require(header_.has_instances != 0 || header_.primitive_count == primitives_, "number of primitives");
-    require((header_.has_instances != 0) == (summary_.records.instances > 0), "number of instances");
-    require(header_.material_count >= summary_.records.materials, "number of materials");
+  check(header.materials, header.material_count, sizeof(MaterialRecord), "table of materials");
+  check(header.lights, header.light_count, sizeof(LightRecord), "table of lights");
+  if (has_emitters(header)) {
+    check(header.emitters, header.emitter_count, sizeof(EmitterRecord) + sizeof(EmitterChoice), "table of emitters");
   }
-
-  void check_tables() const {
-    std::uint64_t entries = directory_entry_count(header_.directory_size);
-    require(entries <= std::uint64_t{1} << 32U, "directory");
-    require_within(header_.directory, entries * sizeof(DirectoryEntry), "directory");
-    if (header_.has_voxels()) {
-      require_within(header_.references, summary_.records.voxel_references, sizeof(VoxelReference), "lists of voxels");
-    }
-    require_within(header_.materials, header_.material_count, sizeof(MaterialRecord), "table of materials");
-    require_within(header_.lights, header_.light_count, sizeof(LightRecord), "table of lights");
-    if (has_emitters(header_)) {
-      require_within(header_.emitters, header_.emitter_count, sizeof(EmitterRecord) + sizeof(EmitterChoice), "table of emitters");
-    }
-    if (has_sky_picture(header_)) {
-      require_within(header_.sky.tiles, sky_tile_count(header_.sky), sizeof(TextureTile), "sky");
-      require_within(header_.sky.choices, sky_tile_count(header_.sky), sizeof(EmitterChoice), "sky");
-    }
+  if (has_sky_picture(header)) {
+    require(header.sky.width > 0 && header.sky.height > 0 && are_finite(header.sky.middle) && are_finite(header.sky.up), "sky");
+    check(header.sky.tiles, sky_tile_count(header.sky), sizeof(TextureTile), "sky");
+    check(header.sky.choices, sky_tile_count(header.sky), sizeof(EmitterChoice), "sky");
   }
-
-  void check_light() const {
-    const SkyReference& sky = header_.sky;
-    require(are_finite(header_.background) && are_finite(header_.ambient), "background");
-    require(!has_emitters(header_) || (std::isfinite(header_.emitter_density) && header_.emitter_density > 0 &&
-                                       header_.drawn_materials <= header_.material_count),
-            "table of emitters");
-    require(!has_sky_picture(header_) || (sky.width > 0 && sky.height > 0 && are_finite({sky.scale, sky.density}) &&
-                                          are_finite({sky.least_strength}) && are_finite(sky.middle) && are_finite(sky.up)),
-            "sky");
-  }
-
-  void require_within(Address table, std::uint64_t count, std::uint64_t item_bytes, const char* what) const {
-    require_within(table, count > std::uint64_t{1} << 33U ? ~std::uint64_t{0} : count * item_bytes, what);
-  }
-  void require_within(Address table, std::uint64_t bytes, const char* what) const {
-    const std::uint64_t all = summary_.page_count * summary_.page_size, first = byte_offset(table);
-    require(first <= all && bytes <= all - first, what);
-  }
-
-  const DatabaseSummary& summary_;
-  const DatabaseHeader& header_;
-  std::uint64_t primitives_;
-};
+}
 
 }  // namespace
 
@@ -146,7 +106,10 @@ DatabaseParts DatabaseParts::of(const Database& database) {
 }
 
 Database DatabaseParts::assembled() && {
-  HeaderCheck(summary, primitives.items().size()).check();
+  check_pages(summary);
+  check_grid(summary);
+  check_counts(summary, primitives.items().size());
+  check_tables(summary);
   require(records.items().size() == summary.page_count * summary.page_size + overread_bytes, "number of pages");
   require(sources.items().size() == primitives.items().size(), "number of primitives");
   Database result;
