@@ -1,8 +1,8 @@
 #include "apps/database/section_file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,11 +14,11 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/available_memory.h"
+#include "apps/frontend/system/descriptor.h"
 #include "apps/frontend/system/digest.h"
+#include "apps/frontend/system/last_words.h"
 #include "apps/frontend/system/trusted_path.h"
 #include "core/base/expect.h"
-#include "core/base/filling.h"
 #include "core/base/units.h"
 #include "core/database/parallel.h"
 
@@ -47,38 +47,6 @@ std::uint64_t digest_of_run(std::span<const std::byte> bytes) {
   return digest.value();
 }
 
-/// Calls work(run's bytes), which returns its digest, for all runs on all cores.
-template <class Byte, class Work>
-std::uint64_t digest_by_runs(std::span<Byte> bytes, const Work& work) {
-  std::vector<std::uint64_t> digests(core::ceil_divide(bytes.size(), run_bytes));
-  core::Parallel(0).for_each(digests.size(), [&](std::size_t run) {
-    const std::size_t first = run * run_bytes;
-    digests[run] = work(first, bytes.subspan(first, std::min(run_bytes, bytes.size() - first)));
-  });
-  Digest digest;
-  digest.add(std::uint64_t{bytes.size()});
-  for (const std::uint64_t of_run : digests) {
-    digest.add(of_run);
-  }
-  return digest.value();
-}
-
-/// 0, or the errno; at the end of the file what there is no more stays as it is.
-int read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> room) {
-  while (!room.empty()) {
-    const ssize_t count = ::pread(file.number(), room.data(), room.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno != EINTR) {
-      return errno;
-    }
-    if (count == 0) {
-      return 0;
-    }
-    room = room.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    offset += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::uint64_t digest_of_head(FileHead head, std::span<const SectionEntry> sections) {
@@ -90,7 +58,17 @@ std::uint64_t digest_of_head(FileHead head, std::span<const SectionEntry> sectio
 }
 
 std::uint64_t digest_of(std::span<const std::byte> bytes) {
-  return digest_by_runs(bytes, [](std::size_t, std::span<const std::byte> run) { return digest_of_run(run); });
+  std::vector<std::uint64_t> digests(core::ceil_divide(bytes.size(), run_bytes));
+  core::Parallel(digests.size() > 1 ? 0 : 1).for_each(digests.size(), [&](std::size_t run) {
+    const std::size_t first = run * run_bytes;
+    digests[run] = digest_of_run(bytes.subspan(first, std::min(run_bytes, bytes.size() - first)));
+  });
+  Digest digest;
+  digest.add(std::uint64_t{bytes.size()});
+  for (const std::uint64_t of_run : digests) {
+    digest.add(of_run);
+  }
+  return digest.value();
 }
 
 void write_sections(const FileKind& kind, std::span<const std::span<const std::byte>> sections, std::ostream& output) {
@@ -120,27 +98,52 @@ void write_sections(const FileKind& kind, std::span<const std::span<const std::b
   }
 }
 
+class SectionFile::Mapping {
+ public:
+  /// Throws std::bad_alloc if there is no address space for them.
+  Mapping(const Descriptor& file, std::size_t bytes, const std::filesystem::path& path)
+      : bytes_(bytes == 0 ? nullptr : ::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file.number(), 0), bytes),
+        said_(this->bytes(), path.string()) {
+    if (bytes_.first == MAP_FAILED) {
+      throw std::bad_alloc();
+    }
+  }
+  ~Mapping() {
+    if (bytes_.second > 0) {
+      ::munmap(bytes_.first, bytes_.second);
+    }
+  }
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+
+  std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(bytes_.first), bytes_.second}; }
+
+ private:
+  std::pair<void*, std::size_t> bytes_;
+  MappedBytes said_;
+};
+
 SectionFile::SectionFile(std::filesystem::path path, const FileKind& kind, std::size_t section_count)
-    : path_(std::move(path)), advice_(kind.advice), file_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    : path_(std::move(path)), advice_(kind.advice) {
+  const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat status {};
-  if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) {
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) {
     throw core::InputError(path_.string() + " cannot be read: " + std::strerror(errno));
   }
   if (!S_ISREG(status.st_mode)) {
     throw core::InputError(path_.string() + " is no ordinary file: expected " + kind.what);
   }
-  if (const auto why = why_untrusted(file_)) {
+  if (const auto why = why_untrusted(file)) {
     refuse("others can change it, since " + *why);
   }
+  mapping_ = std::make_shared<const Mapping>(file, static_cast<std::size_t>(status.st_size), path_);
   read_head(kind, section_count);
-  if (head_.bytes != static_cast<std::uint64_t>(status.st_size)) {
-    refuse("it should have " + bytes_text(head_.bytes) + ", and has " + bytes_text(static_cast<std::uint64_t>(status.st_size)));
-  }
 }
 
 void SectionFile::read_head(const FileKind& kind, std::size_t section_count) {
-  if (const int error = read_at(file_, 0, std::as_writable_bytes(std::span(&head_, 1)))) {
-    throw core::InputError(path_.string() + " cannot be read: " + std::strerror(error));
+  const std::span<const std::byte> all = mapping_->bytes();
+  if (!all.empty()) {
+    std::memcpy(&head_, all.data(), std::min(all.size(), sizeof(head_)));
   }
   if (head_.magic != kind.magic) {
     throw core::InputError(path_.string() + " is not " + kind.what);
@@ -149,37 +152,35 @@ void SectionFile::read_head(const FileKind& kind, std::size_t section_count) {
     refuse("it has format " + std::to_string(head_.format) + ", and this program reads format " + std::to_string(kind.format));
   }
   sections_.resize(section_count);
-  const int error = read_at(file_, sizeof(head_), std::as_writable_bytes(std::span(sections_)));
-  if (error != 0 || head_.section_count != section_count || head_.digest != digest_of_head(head_, sections_)) {
+  const std::span<const std::byte> table = all.subspan(std::min(all.size(), sizeof(head_)));
+  std::memcpy(sections_.data(), table.data(), std::min(table.size(), section_count * sizeof(SectionEntry)));
+  if (head_.section_count != section_count || head_.digest != digest_of_head(head_, sections_)) {
     refuse("its head is damaged");
   }
   if (head_.program != kind.program) {
     refuse("it was written by another version of dmpc, whose records differ");
   }
+  if (head_.bytes != all.size()) {
+    refuse("it should have " + bytes_text(head_.bytes) + ", and has " + bytes_text(all.size()));
+  }
 }
 
-std::pair<std::shared_ptr<const std::byte>, std::size_t> SectionFile::read(std::size_t section, std::size_t item_bytes) const {
+std::span<const std::byte> SectionFile::read(std::size_t section, std::size_t item_bytes) const {
   const SectionEntry& entry = sections_.at(section);
   if (entry.offset % alignment != 0 || entry.offset > head_.bytes || entry.bytes > head_.bytes - entry.offset ||
       entry.bytes % item_bytes != 0) {
     refuse("its table is damaged");
   }
-  check_available_memory(entry.bytes, path_.string());
-  const std::shared_ptr<std::byte> first(static_cast<std::byte*>(::operator new (entry.bytes, std::align_val_t{alignment})),
-                                         [](std::byte* bytes) { ::operator delete (bytes, std::align_val_t{alignment}); });
-  core::begin_filling({first.get(), entry.bytes});
-  const auto digest = digest_by_runs(std::span(first.get(), entry.bytes), [&](std::size_t at, std::span<std::byte> run) {
-    return read_at(file_, entry.offset + at, run) == 0 ? digest_of_run(run) : 0;
-  });
-  if (digest != entry.digest) {
+  const std::span<const std::byte> bytes = mapping_->bytes().subspan(entry.offset, entry.bytes);
+  if (digest_of(bytes) != entry.digest) {
     refuse("it is damaged");
   }
-  return {first, entry.bytes};
+  return bytes;
 }
 
 std::string SectionFile::text(std::size_t section) const {
-  const auto [first, bytes] = read(section, 1);
-  return {reinterpret_cast<const char*>(first.get()), bytes};
+  const std::span<const std::byte> bytes = read(section, 1);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void SectionFile::refuse(const std::string& what) const { throw core::InputError(path_.string() + ": " + what + "; " + advice_); }

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/frontend/system/descriptor.h"
 #include "core/database/held_array.h"
 
 namespace dmpc::apps {
@@ -42,7 +41,7 @@ struct FileKind {
 /// Writes all sections. `output` reports errors.
 void write_sections(const FileKind& kind, std::span<const std::span<const std::byte>> sections, std::ostream& output);
 
-/// Nothing of a section is read before it is asked for.
+/// It is mapped, and no section is read before it is asked for. Who cuts the file meanwhile ends the process (last_words.h).
 class SectionFile {
  public:
   /// Reads head and table. Throws core::InputError, whose message begins with the path, if the file cannot be read, others than
@@ -54,11 +53,12 @@ class SectionFile {
   /// The bytes of all sections.
   std::uint64_t bytes() const { return head_.bytes; }
 
-  /// Reads a section on all cores. Throws core::InputError if it is not what was written, or is no array of items of this size.
+  /// A section, which keeps the mapping. Computes its digest on all cores: throws core::InputError if it is not what was written,
+  /// or is no array of items of this size.
   template <class T>
   core::HeldArray<T> array(std::size_t section) const {
-    const auto [first, bytes] = read(section, sizeof(T));
-    return {{reinterpret_cast<const T*>(first.get()), bytes / sizeof(T)}, first};
+    const std::span<const std::byte> bytes = read(section, sizeof(T));
+    return {{reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)}, mapping_};
   }
   std::string text(std::size_t section) const;
 
@@ -66,12 +66,14 @@ class SectionFile {
   [[noreturn]] void refuse(const std::string& what) const;
 
  private:
-  std::pair<std::shared_ptr<const std::byte>, std::size_t> read(std::size_t section, std::size_t item_bytes) const;
+  class Mapping;
+
+  std::span<const std::byte> read(std::size_t section, std::size_t item_bytes) const;
   void read_head(const FileKind& kind, std::size_t section_count);
 
   std::filesystem::path path_;
   const char* advice_;
-  Descriptor file_;
+  std::shared_ptr<const Mapping> mapping_;
   FileHead head_;
   std::vector<SectionEntry> sections_;
 };
