@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A smaller one is built in the time that it takes to read one.
-constexpr std::size_t kept_bytes_min = std::size_t{16} << 20U;
-
 /// What of a scene's name a file's can have.
 std::string plain_name(const std::string& scene) {
   std::string name = fs::path(scene).filename().string();
@@ -29,8 +26,11 @@ std::string plain_name(const std::string& scene) {
 
 }  // namespace
 
-KeptDatabases::KeptDatabases(fs::path folder, const OpenedFiles& scene, std::function<void(const std::string&)> say)
-    : folder_(std::move(folder)), source_(source_of(scene)), say_(std::move(say)) {}
+KeptDatabases::KeptDatabases(const SweepSettings& settings, const OpenedFiles& scene, std::function<void(const std::string&)> say)
+    : folder_(settings.kept.value()),
+      bytes_min_(settings.kept_database_bytes_min),
+      source_(source_of(scene)),
+      say_(std::move(say)) {}
 
 fs::path KeptDatabases::file_of(const SweepRun& run) const {
   const RenderOptions& options = run.options;
@@ -78,7 +78,7 @@ void KeptDatabases::provide(const SweepRun& run) {
     const BuiltFile built =
         build_file({.picture = run.options.picture, .database = run.options.database, .output = file, .quiet = true},
                    [](const OpenedFiles&) {});
-    if (built.subject.database.bytes().size() >= kept_bytes_min) {
+    if (built.subject.database.bytes().size() >= bytes_min_) {
       built.write(file, {.replaces = Replaces::name, .option = "--runs"});
       place->second = true;
     }

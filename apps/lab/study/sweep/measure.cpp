@@ -23,7 +23,7 @@ void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& r
   std::optional<KeptDatabases> databases;
   if (kept) {
     const Interrupt::EndAtOnce end_at_once(interrupt);
-    databases.emplace(*settings.kept, scene, [](const std::string& text) { std::cerr << "dmpc: " << text << std::endl; });
+    databases.emplace(settings, scene, [](const std::string& text) { std::cerr << "dmpc: " << text << std::endl; });
     for (const SweepRun& run : runs) {
       if (!kept->find(run)) {
         databases->provide(run);
