@@ -16,7 +16,7 @@
 namespace dmpc::apps {
 
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
-                   const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
+                   Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
   const RenderProcesses renders(settings.program, interrupt);
   const std::optional<KeptRuns> kept =
       settings.kept ? std::optional(KeptRuns(*settings.kept, settings.program, scene, figures_of(settings, runs))) : std::nullopt;
