@@ -69,7 +69,7 @@ std::vector<std::string> words_of(const core::BuildOptions& built) {
 CommandLine::Standing standing_of_scene() {
   return {"SCENE", [](const std::string& scene, const CommandLine::Standing::IsGiven& is_given) {
             std::vector<std::string> words;
-            if (is_database_path(scene)) {
+            if (is_database_path(scene) && !is_given("--vary")) {  // a sweep passes it on
               words = DatabaseFile(scene).origin().words;
               std::erase_if(words, [&](const std::string& word) { return is_given("--system") && is_of_building(word); });
             }
