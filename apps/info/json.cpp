@@ -18,7 +18,7 @@ Json vector_json(const core::Vec3d& vector) { return {vector.x, vector.y, vector
 
 Json objects_json(const SceneFigures& scene) {
   Json result;
-  for (std::size_t kind = 0; kind < object_kind_count; ++kind) {
+  for (std::size_t kind = 0; kind < core::object_kind_count; ++kind) {
     result[name_of(static_cast<core::ObjectKind>(kind))] = scene.objects[kind];
   }
   result["total"] = std::accumulate(scene.objects.begin(), scene.objects.end(), std::uint64_t{0});

@@ -10,12 +10,13 @@
 #include "core/record/texture_layout.h"
 #include "core/scene/base_meshes.h"
 #include "core/scene/placed_objects.h"
+#include "core/scene/stored_objects.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-using ObjectCounts = std::array<std::uint64_t, object_kind_count>;
+using ObjectCounts = std::array<std::uint64_t, core::object_kind_count>;
 
 ObjectCounts count_own(const core::Scene& scene) {
   ObjectCounts counts{};
@@ -27,6 +28,9 @@ ObjectCounts count_own(const core::Scene& scene) {
 
 /// Counts all copies of base meshes, whether the scene stores them or not.
 ObjectCounts count_objects(const core::Scene& scene) {
+  if (scene.stored != nullptr) {
+    return scene.stored->objects;
+  }
   ObjectCounts counts = count_own(scene);
   if (leaves_copies_out(scene)) {
     std::vector<ObjectCounts> of_meshes;
@@ -52,6 +56,13 @@ MeshFigures count_meshes(const core::Scene& scene) {
   const core::InstancingShare share = core::instancing_share(scene);
   MeshFigures figures{.places = share.places};
   if (share.places > 0) {
+    figures.stored_share = static_cast<double>(share.stored) / static_cast<double>(share.seen);
+  }
+  if (scene.stored != nullptr) {
+    figures.count = scene.stored->meshes;
+    figures.triangles = scene.stored->mesh_triangles;
+    figures.triangles_in_places = scene.stored->triangles_in_places;
+  } else if (share.places > 0) {
     std::vector<std::uint64_t> triangles;
     std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(triangles), triangle_count);
     figures.count = triangles.size();
@@ -59,7 +70,6 @@ MeshFigures count_meshes(const core::Scene& scene) {
     for (const core::BaseMeshInstance& place : scene.kept->places) {
       figures.triangles_in_places += triangles[place.mesh];
     }
-    figures.stored_share = static_cast<double>(share.stored) / static_cast<double>(share.seen);
   }
   return figures;
 }
@@ -94,7 +104,7 @@ TextureFigures figures_of(const core::Texture& texture) {
 }  // namespace
 
 const char* name_of(core::ObjectKind kind) {
-  constexpr std::array<const char*, object_kind_count> names = {"polygon", "patch", "textured", "sphere", "cone"};
+  constexpr std::array<const char*, core::object_kind_count> names = {"polygon", "patch", "textured", "sphere", "cone"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -12,7 +12,6 @@
 
 namespace dmpc::apps {
 
-inline constexpr std::size_t object_kind_count = 5;
 /// "polygon", "patch", ...
 const char* name_of(core::ObjectKind kind);
 
@@ -41,8 +40,8 @@ struct MeshFigures {
 
 struct SceneFigures {
   std::string name;
-  std::array<std::uint64_t, object_kind_count> objects{};  ///< by core::ObjectKind
-  core::Box bounds;                                        ///< bounds of finite objects, in the world; empty if there are none
+  std::array<std::uint64_t, core::object_kind_count> objects{};  ///< by core::ObjectKind
+  core::Box bounds;  ///< bounds of finite objects, in the world; empty if there are none
   core::View view;
   core::Vec3d background;
   std::vector<core::PointLight> lights;  ///< with their effective colours

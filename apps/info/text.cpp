@@ -20,12 +20,12 @@ constexpr std::size_t lights_shown_max = 8;
 
 /// Returns "7,381 spheres, 1 polygon".
 std::string objects_text(const SceneFigures& scene) {
-  constexpr std::array<const char*, object_kind_count> names = {"polygon", "patch with normals", "textured patch", "sphere",
-                                                                "cone"};
-  constexpr std::array<const char*, object_kind_count> plurals = {"polygons", "patches with normals", "textured patches",
-                                                                  "spheres", "cones"};
+  constexpr std::array<const char*, core::object_kind_count> names = {"polygon", "patch with normals", "textured patch", "sphere",
+                                                                      "cone"};
+  constexpr std::array<const char*, core::object_kind_count> plurals = {"polygons", "patches with normals", "textured patches",
+                                                                        "spheres", "cones"};
   std::string text;
-  for (std::size_t kind = 0; kind < object_kind_count; ++kind) {
+  for (std::size_t kind = 0; kind < core::object_kind_count; ++kind) {
     const std::uint64_t count = scene.objects[kind];
     text += count == 0 ? "" : (text.empty() ? "" : ", ") + grouped(count) + " " + (count == 1 ? names : plurals)[kind];
   }

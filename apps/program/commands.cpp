@@ -15,6 +15,7 @@
 #include "apps/frontend/system/output_file.h"
 #include "apps/help/choices.h"
 #include "apps/program/word_help.h"
+#include "apps/scene/database_facts.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/scenes.h"
@@ -82,6 +83,7 @@ Commands::Commands(Declare declare, std::optional<Words> line)
     : declare_(declare),
       line_words_(std::move(line)),
       line_("dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION, about) {
+  line_.stand_for_options(standing_of_scene());
   declare(*this);
   declare_help();
   if (!line_words_) {
@@ -128,7 +130,7 @@ HelpText Commands::help_about(const std::vector<std::string>& topic) const {
 }
 
 void Commands::declare_values() {
-  Suggestion scenes{.files = true, .endings = {"nff"}}, families, machines{.files = true}, kinds, heats;
+  Suggestion scenes{.files = true, .endings = {"nff", "pages"}}, families, machines{.files = true}, kinds, heats;
   for (const core::SceneName& scene : core::default_scenes()) {
     scenes.words.push_back(scene.text());
     families.words.push_back(scene.family);

@@ -1,3 +1,4 @@
+#include "apps/build/command.h"
 #include "apps/frontend/machine/machine_command.h"
 #include "apps/help/list_command.h"
 #include "apps/info/command.h"
@@ -15,6 +16,8 @@ void declare_renderer(Commands& commands) {
                [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
                  return render_command(options, interrupt, output);
                });
+  commands.add("build", "Write a scene's database to a file, which stands for the scene from then on", BuildRequest(),
+               build_command);
   commands.add("view", "Explore a scene in a browser", ViewOptions(), view_command);
   commands.add("info", "Describe a scene, and forecast what a render of it takes", InfoOptions(), info_command);
   commands.add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);

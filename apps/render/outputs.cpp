@@ -21,7 +21,7 @@ namespace {
 
 std::vector<NamedFile> inputs_of(const RenderOptions& options) {
   std::vector<NamedFile> inputs;
-  add_scene_file(options.picture.scene, inputs);
+  add_scene_file(options.picture, inputs);
   if (options.frames.camera_path) {
     inputs.push_back({"--camera-path", *options.frames.camera_path});
   }

@@ -11,6 +11,7 @@
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
 #include "core/scene/placed_objects.h"
+#include "core/scene/stored_objects.h"
 
 namespace dmpc::apps {
 
@@ -28,6 +29,16 @@ template <class T>
 void add_all(Digest& digest, const std::vector<T>& values) {
   static_assert(sizeof(T) % alignof(double) == 0 && std::is_trivially_copyable_v<T>);
   digest.add(std::as_bytes(std::span(values)));
+}
+
+/// What the scene was known by when its database was built, or what it is known by now, as work() finds it.
+template <class Work>
+std::string stored_or(const core::Scene& scene, const char* name, const Work& work) {
+  if (scene.stored == nullptr) {
+    return work();
+  }
+  const auto found = scene.stored->identity.find(name);
+  return found == scene.stored->identity.end() ? "" : found->second;
 }
 
 std::string text_of(const Digest& digest) { return "#" + hash_text(digest.value()); }
@@ -57,7 +68,8 @@ std::string text_of_pools(const core::Scene& scene) {
 
 /// Without copies of base meshes, which are in meshes_text(): so it is the same whether the scene has them or not.
 std::string objects_text(const core::Scene& scene) {
-  return scene.kept == nullptr ? text_of_pools(scene) : text_of_pools(without_copies(scene));
+  return stored_or(scene, "objects",
+                   [&] { return scene.kept == nullptr ? text_of_pools(scene) : text_of_pools(without_copies(scene)); });
 }
 
 /// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/base_meshes.h).
@@ -74,6 +86,11 @@ std::string meshes_text(const core::BaseMeshes& kept) {
     digest.add(std::uint64_t{place.mesh} << 32U | place.first);
   }
   return text_of(digest);
+}
+
+/// Empty for a scene without meshes in several places.
+std::string meshes_text(const core::Scene& scene) {
+  return stored_or(scene, "meshes", [&] { return scene.kept == nullptr ? "" : meshes_text(*scene.kept); });
 }
 
 /// What few materials have, and NFF cannot say.
@@ -97,17 +114,19 @@ void add(Digest& digest, const core::Texture& texture) {
 
 /// What pictures by paths show of them beside.
 std::string microfacets_text(const core::Scene& scene) {
-  Digest digest;
-  for (const core::Material& material : scene.materials) {
-    const core::Microfacets& facets = material.microfacets;
-    for (const double number : {facets.roughness, facets.metallic, facets.reflectance, facets.transmission, facets.opacity}) {
-      digest.add(number);
+  return stored_or(scene, "microfacets", [&] {
+    Digest digest;
+    for (const core::Material& material : scene.materials) {
+      const core::Microfacets& facets = material.microfacets;
+      for (const double number : {facets.roughness, facets.metallic, facets.reflectance, facets.transmission, facets.opacity}) {
+        digest.add(number);
+      }
+      if (facets.have_texture()) {
+        add(digest, scene.textures[facets.texture]);
+      }
     }
-    if (facets.have_texture()) {
-      add(digest, scene.textures[facets.texture]);
-    }
-  }
-  return text_of(digest);
+    return text_of(digest);
+  });
 }
 
 bool has_microfacets(const core::Scene& scene) {
@@ -133,13 +152,15 @@ std::string materials_text(const core::Scene& scene) {
 
 /// Digest of colour textures; others are part of their materials' text.
 std::string textures_text(const core::Scene& scene) {
-  Digest digest;
-  for (const core::Texture& texture : scene.textures) {
-    if (texture.format != core::TexelFormat::linear) {
-      add(digest, texture);
+  return stored_or(scene, "textures", [&] {
+    Digest digest;
+    for (const core::Texture& texture : scene.textures) {
+      if (texture.format != core::TexelFormat::linear) {
+        add(digest, texture);
+      }
     }
-  }
-  return text_of(digest);
+    return text_of(digest);
+  });
 }
 
 std::string lights_text(const core::Scene& scene) {
@@ -181,12 +202,14 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
 }
 
 /// Digest of a picture's contents, whatever its file is called.
-std::string sky_text(const core::SkyTexels& sky) {
-  Digest digest;
-  digest.add(std::uint64_t{sky.width} << 32U | sky.height);
-  digest.add(sky.scale);
-  digest.add(std::as_bytes(std::span(sky.texels)));
-  return text_of(digest);
+std::string sky_text(const core::Scene& scene) {
+  return stored_or(scene, "sky", [&sky = scene.sky] {
+    Digest digest;
+    digest.add(std::uint64_t{sky.width} << 32U | sky.height);
+    digest.add(sky.scale);
+    digest.add(std::as_bytes(std::span(sky.texels)));
+    return text_of(digest);
+  });
 }
 
 /// A picture whose texels are all alike counts as a sky of its colour, which is the background's.
@@ -201,7 +224,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   }
   facts.push_back({"transport", name_of(transport.kind)});
   if (transport.sky) {
-    facts.push_back({"sky", scene.sky.is_there() ? sky_text(scene.sky) : sky_text(*transport.sky, scene)});
+    facts.push_back({"sky", scene.sky.is_there() ? sky_text(scene) : sky_text(*transport.sky, scene)});
   }
   if (transport.sky && zenith_of(scene) != normalize(scene.view.up)) {
     facts.push_back({"sky's zenith", zenith_text(scene)});  // before there was this fact, where the view's up points
@@ -228,6 +251,14 @@ std::string difference_text(const std::string& name, const PictureFact* other, c
 }
 
 }  // namespace
+
+std::map<std::string, std::string> stored_identity(const core::Scene& scene) {
+  return {{"objects", objects_text(scene)},
+          {"meshes", meshes_text(scene)},
+          {"microfacets", microfacets_text(scene)},
+          {"textures", textures_text(scene)},
+          {"sky", sky_text(scene)}};
+}
 
 std::string view_text(const core::View& view) {
   Digest digest;
@@ -268,8 +299,8 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", "world"}};  // there were others: a checkpoint that has them is of another picture
-  if (scene.kept != nullptr) {
-    facts.push_back({"meshes in several places", meshes_text(*scene.kept)});  // judged where they stand before there was this
+  if (const std::string meshes = meshes_text(scene); !meshes.empty()) {
+    facts.push_back({"meshes in several places", meshes});  // judged where they stand before there was this
   }
   add_samples(facts, picture);
   add_transport(facts, picture.transport, scene);
@@ -297,11 +328,11 @@ std::uint64_t scene_digest(const core::Scene& scene) {
        {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
     digest.add(text);
   }
-  if (scene.kept != nullptr) {
-    digest.add(meshes_text(*scene.kept));
+  if (const std::string meshes = meshes_text(scene); !meshes.empty()) {
+    digest.add(meshes);
   }
   if (scene.sky.is_there()) {
-    digest.add(sky_text(scene.sky));
+    digest.add(sky_text(scene));
     add(digest, zenith_of(scene));
   }
   return digest.value();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ PictureIdentity identity_from(const core::View& view, PictureIdentity own);
 
 /// A digest of what a picture shows of a scene by: equal views give equal texts.
 std::string view_text(const core::View& view);
+
+/// What of a scene's identity depends on objects and texels: core::StoredObjects::identity.
+std::map<std::string, std::string> stored_identity(const core::Scene& scene);
 
 /// A digest of the whole scene: equal scenes give equal digests, whatever file or name they come from.
 std::uint64_t scene_digest(const core::Scene& scene);

@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "apps/database/database_file.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
@@ -120,6 +121,9 @@ std::string advice_on(const std::string& path, const std::string& ending) {
 
 core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes, OpenedFiles& opened) {
   const std::string ending = std::filesystem::path(path).extension().string();
+  if (is_database_path(path)) {
+    throw core::InputError(path + " is a database, and this builds others: give the scene of which it was built");
+  }
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::InputError(path + ": files that end in " + ending + " are not read" + advice_on(path, ending) +
                            "; expected .nff or one of " + known_mesh_formats());
@@ -173,6 +177,25 @@ void check_mesh_options(const std::string& scene, const MeshOptions& options) {
   }
 }
 
+/// With the lights of when it was built.
+core::Scene load_stored(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
+  if (picture.scene_setup.mesh.animation) {
+    throw core::UsageError("--animation does not go with " + picture.stored->path.string() +
+                           ", the database of one moment: give the scene's file");
+  }
+  core::Scene scene = DatabaseFile(*picture.stored).scene();
+  if (opened != nullptr) {
+    opened->add(picture.stored->path);
+  }
+  const SceneSetup camera{.camera = picture.scene_setup.camera, .mesh = picture.scene_setup.mesh};
+  const std::string note = apply(camera, scene, is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own);
+  if (notes == LoadNotes::said) {
+    say_once({note, picture.is_one_path_unasked ? one_path_note : "", bounces_text(scene, picture)});
+    say_what_is_missing(scene, picture.transport, is_below_own_sky(picture.scene));
+  }
+  return scene;
+}
+
 }  // namespace
 
 bool is_mesh(const std::string& scene) { return !core::find_scene_name(scene) && is_mesh_path(scene); }
@@ -197,7 +220,14 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
   }
 }
 
+void add_scene_file(const PictureOptions& picture, std::vector<NamedFile>& inputs) {
+  add_scene_file(picture.stored ? picture.stored->path.string() : picture.scene, inputs);
+}
+
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, StillScene* still) {
+  if (picture.stored) {
+    return load_stored(picture, notes, opened);
+  }
   check_mesh_options(picture.scene, picture.scene_setup.mesh);
   MeshOptions mesh = picture.scene_setup.mesh;
   mesh.size = picture.resolution;

@@ -29,6 +29,7 @@ bool is_own_sky(const PictureOptions& picture);
 
 /// Adds the file that load_scene(scene) reads, if it reads one.
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
+void add_scene_file(const PictureOptions& picture, std::vector<NamedFile>& inputs);
 
 /// Whether notes of loading are printed to stderr.
 enum class LoadNotes : std::uint8_t { said, silent };

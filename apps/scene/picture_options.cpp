@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/database/database_file.h"
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/line/parsed_number.h"
 #include "apps/scene/load_scene.h"
@@ -180,11 +181,21 @@ QualityChoice choice_of(Quality quality) {
   return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 64} : QualityChoice{1.0 / 255, 1.0 / 255};
 }
 
+void take_scene(PictureOptions& picture, const std::string& scene) {
+  picture.scene = scene;
+  picture.stored.reset();
+  if (is_database_path(scene)) {
+    const DatabaseFile file(scene);
+    picture.scene = file.origin().scene;
+    picture.stored = StoredChoice{scene, file.digest()};
+  }
+}
+
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
-      "SCENE", [&picture](const std::string& text) { picture.scene = text; },
-      "An NFF file, a pbrt-v4 scene, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, "
-      "rings-4-t1, tetra-9");
+      "SCENE", [&picture](const std::string& text) { take_scene(picture, text); },
+      "An NFF file, a pbrt-v4 scene, a mesh file (obj, ply, stl, gltf, glb, ...), a built-in scene such as teapot-12, "
+      "rings-4-t1, tetra-9, or a database that dmpc build has written (.pages), with the options that it was built with");
   add_options(options, picture.scene_setup);
   add_view_options(options, picture);
   options.add_text(

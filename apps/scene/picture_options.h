@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "apps/database/stored_choice.h"
 #include "apps/formats/resolution.h"
 #include "apps/frontend/line/command_line.h"
 #include "apps/scene/scene_setup.h"
@@ -52,6 +53,7 @@ inline constexpr struct {
 
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
+  std::optional<StoredChoice> stored;    ///< in place of the scene, of which it was built
   std::optional<Resolution> resolution;  ///< the view's own if not given
   int samples = 1;                       ///< per pixel, 1 to 32768 (see core/picture/film/film.h); if refined, in the first pass
   bool is_refined = false;               ///< --samples=auto
@@ -73,6 +75,9 @@ struct PictureOptions {
 
 /// Returns the depth of the picture. With path tracing it is that of the scene's file unless an option sets the bounces.
 int depth_of(const PictureOptions& picture, const core::Scene& scene);
+
+/// Sets the scene, or the database in place of it. Throws as DatabaseFile.
+void take_scene(PictureOptions& picture, const std::string& scene);
 
 /// Declares all options. The current value of presents_meshes determines some help texts and the defaults of mesh files: if no
 /// option sets the lighting or the transport, path tracing under mesh_sky() or the requested sky, else Whitted's transport. Both

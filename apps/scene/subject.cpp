@@ -8,6 +8,7 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/input_memory.h"
 #include "apps/frontend/system/progress.h"
+#include "apps/scene/database_facts.h"
 #include "core/database/database.h"
 #include "core/picture/ray_crowd.h"
 #include "core/scene/base_meshes.h"
@@ -50,6 +51,10 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
 
 Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
                               bool shows_progress) {
+  return build_subject_of(scene, picture, options, shows_progress);
+}
+
+Subject build_subject_of(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
   const core::InstancingShare share = core::instancing_share(scene);
   const core::BuildOptions built = settled(options, share).build;
@@ -59,7 +64,9 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  core::Database database = core::build_database(std::move(scene), build, copy_limits(picture, chose_copies));
+  core::Database database = scene.stored != nullptr
+                                ? stored_database(scene, picture, built)
+                                : core::build_database(std::move(scene), build, copy_limits(picture, chose_copies));
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const core::RecordCounts& records = database.records();
@@ -69,6 +76,14 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
   const std::string kept = instances_text(options, build.keeps_instances, database.records(), share) +
                            (has_copies ? "" : "; the effects of rounding were determined outside of these only");
   return {std::move(database), built, settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
+}
+
+void put_eye_far_away(core::Scene& scene, const core::Box& bounds) {
+  if (!bounds.empty()) {
+    scene.view.at = bounds.center();
+    scene.view.from = bounds.center() + core::Vec3d{0, 0, 4 * core::far_eye_diagonals * length(bounds.high - bounds.low)};
+    scene.view.up = {0, 1, 0};
+  }
 }
 
 std::vector<std::string> notes_of(const Subject& subject) {

@@ -8,6 +8,7 @@
 
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
+#include "core/base/box.h"
 #include "core/database/database.h"
 #include "core/picture/film/rounding_loss.h"
 #include "core/picture/pixel_task.h"
@@ -32,9 +33,15 @@ struct Subject {
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {},
                       bool shows_progress = false);
 
-/// Builds them without messages.
+/// Builds them without messages, or reads them if the scene is stored.
 Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
                               bool shows_progress = false);
+/// Likewise, and leaves of the scene what its database does not have.
+Subject build_subject_of(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress);
+/// Primitives are listed in cells with a pad that grows with the distance from which they are seen, up to a bound: with that of
+/// an eye beyond it they are listed for every eye, and no picture has other bits.
+void put_eye_far_away(core::Scene& scene, const core::Box& bounds);
+
 /// Returns the messages of build_subject(): sentences, some of which may be empty.
 std::vector<std::string> notes_of(const Subject& subject);
 /// Prints each note that is not empty on a line of stderr.

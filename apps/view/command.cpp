@@ -90,16 +90,6 @@ core::Scene load(PictureOptions& picture, bool is_quiet) {
   return is_seen_by_own && is_mesh(picture.scene) ? load_scene(picture, LoadNotes::silent) : std::move(scene);
 }
 
-/// Primitives are listed in cells with a pad that grows with the distance from which they are seen, up to a bound: with that of
-/// an eye beyond it they are listed for every eye, and no picture has other bits.
-void put_eye_far_away(core::Scene& scene, const core::Box& bounds) {
-  if (!bounds.empty()) {
-    scene.view.at = bounds.center();
-    scene.view.from = bounds.center() + core::Vec3d{0, 0, 4 * core::far_eye_diagonals * length(bounds.high - bounds.low)};
-    scene.view.up = {0, 1, 0};
-  }
-}
-
 /// A quarter of the pixels, of few samples.
 core::RenderSettings moving_settings(const core::RenderSettings& resting, const core::View& view) {
   core::RenderSettings settings = resting;

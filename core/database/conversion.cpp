@@ -16,6 +16,7 @@
 #include "core/scene/base_meshes.h"
 #include "core/scene/frame.h"
 #include "core/scene/placing.h"
+#include "core/scene/stored_objects.h"
 #include "core/scene/triangulate.h"
 
 namespace dmpc::core {
@@ -475,6 +476,9 @@ void clear(Conversion& conversion) {
 }  // namespace
 
 Box bounds_of(const Scene& scene, const Parallel& parallel) {
+  if (scene.stored != nullptr) {
+    return scene.stored->bounds;
+  }
   Box box = bounds_of_vertices(scene.vertices, parallel);
   include_copies(box, scene, coordinate_max, parallel);
   for (const Sphere& sphere : scene.spheres) {

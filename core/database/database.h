@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/forget.h"
+#include "core/database/held_array.h"
 #include "core/database/meshes/obstacle.h"
 #include "core/database/structure.h"
 #include "core/record/curved_values.h"
@@ -88,8 +89,7 @@ struct PrimitiveValues {
 };
 static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
 
-/// Records of the grid and of shading, by kind.
-struct RecordCounts {
+struct UniformRecordCounts {
   std::uint64_t bvh_nodes = 0;
   std::array<std::uint64_t, primitive_kind_count> leaves{};
   std::uint64_t normals = 0;        ///< PatchNormals
@@ -104,7 +104,11 @@ struct RecordCounts {
   std::uint64_t instance_leaves = 0, instances = 0;
   std::uint64_t base_meshes = 0;                                   ///< number of meshes with instances
   std::uint64_t base_mesh_triangles = 0, triangles_in_places = 0;  ///< triangles of these meshes; of all instances
-  ObstacleCounts copied;                                           ///< instances that have copies though meshes were to be kept
+};
+
+/// Records of the grid and of shading, by kind.
+struct RecordCounts : UniformRecordCounts {
+  ObstacleCounts copied;  ///< instances that have copies though meshes were to be kept
 };
 
 class Database {
@@ -114,15 +118,15 @@ class Database {
   std::size_t page_size() const { return page_size_; }
   std::size_t page_count() const { return page_count_; }
   /// page_count() * page_size() bytes (overread_bytes more are readable); empty after forget_records().
-  std::span<const std::byte> bytes() const { return std::span(bytes_).first(bytes_.empty() ? 0 : page_count_ * page_size_); }
+  std::span<const std::byte> bytes() const { return bytes_.items().first(bytes_.items().empty() ? 0 : page_count_ * page_size_); }
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
   /// All primitives, by id: grid-local, the floats of the records. Ids follow the file's order, except that of faces that share a
   /// plane emitters come first, and transparent ones last (core/database/faces/coplanar.h).
-  std::span<const PrimitiveValues> primitives() const { return primitives_; }
-  std::span<const PrimitiveSource> sources() const { return sources_; }
+  std::span<const PrimitiveValues> primitives() const { return primitives_.items(); }
+  std::span<const PrimitiveSource> sources() const { return sources_.items(); }
   /// By PrimitiveValues::plane() - 1.
-  std::span<const PrimitivePlane> planes() const { return planes_; }
+  std::span<const PrimitivePlane> planes() const { return planes_.items(); }
   /// The location of a copy of primitive `id`: possible values of Hit::leaf and Hit::lane of a hit on it. For a base mesh's
   /// triangle the lane includes the instance.
   struct Place {
@@ -134,18 +138,18 @@ class Database {
 
   /// Frees the bytes, when the nodes have them. All counts stay.
   void forget_records() {
-    forget(bytes_);
+    bytes_ = {};
     give_back_freed();
   }
   /// The primitives of dropped() that are not degenerate in the scene.
-  std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
-  std::span<const CloseFaces> close_faces() const { return close_faces_; }
+  std::span<const CollapsedPrimitive> collapsed() const { return collapsed_.items(); }
+  std::span<const CloseFaces> close_faces() const { return close_faces_.items(); }
 
   /// Frees primitives(), sources() and planes(), when no oracle, referee or message needs them.
   void forget_primitives() {
-    forget(primitives_);
-    forget(sources_);
-    forget(planes_);
+    primitives_ = {};
+    sources_ = {};
+    planes_ = {};
   }
 
   /// Number of degenerate primitives (zero area or length, radius 0, not finite) that were left out.
@@ -169,15 +173,16 @@ class Database {
 
  private:
   friend class DatabaseBuilder;
+  friend struct DatabaseParts;
   DatabaseHeader header_;
   Structure structure_ = Structure::grid;
   std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0, open_page_count_ = 0;
-  std::vector<std::byte> bytes_;
-  std::vector<PrimitiveValues> primitives_;
-  std::vector<PrimitiveSource> sources_;
-  std::vector<CollapsedPrimitive> collapsed_;
-  std::vector<CloseFaces> close_faces_;
-  std::vector<PrimitivePlane> planes_;
+  HeldArray<std::byte> bytes_;
+  HeldArray<PrimitiveValues> primitives_;
+  HeldArray<PrimitiveSource> sources_;
+  HeldArray<CollapsedPrimitive> collapsed_;
+  HeldArray<CloseFaces> close_faces_;
+  HeldArray<PrimitivePlane> planes_;
   std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;

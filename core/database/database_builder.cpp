@@ -79,13 +79,13 @@ std::optional<Database> DatabaseBuilder::build() {
   result_.dropped_ = conversion_.dropped;
   result_.duplicates_ = conversion_.duplicates;
   result_.shared_planes_ = conversion_.shared_planes;
-  result_.primitives_ = std::move(conversion_.primitives);
-  result_.sources_ = std::move(conversion_.sources);
-  result_.collapsed_ = std::move(conversion_.collapsed);
-  result_.close_faces_ = std::move(conversion_.close_faces);
-  result_.planes_ = std::move(conversion_.planes);
-  result_.bytes_ = std::move(writer_).finish();
-  result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
+  result_.primitives_ = HeldArray(std::move(conversion_.primitives));
+  result_.sources_ = HeldArray(std::move(conversion_.sources));
+  result_.collapsed_ = HeldArray(std::move(conversion_.collapsed));
+  result_.close_faces_ = HeldArray(std::move(conversion_.close_faces));
+  result_.planes_ = HeldArray(std::move(conversion_.planes));
+  result_.bytes_ = HeldArray(std::move(writer_).finish());
+  result_.page_count_ = (result_.bytes_.items().size() - overread_bytes) / result_.page_size_;
   return std::move(result_);
 }
 
@@ -103,11 +103,9 @@ void DatabaseBuilder::fit() {
   header().background = Color(scene_.background);
   header().ambient = Color(scene_.ambient);
   if (!bounds.empty()) {
-    const Vec3d extent = bounds.high - bounds.low;
-    const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
     const Vec3d low = (bounds.low - frame().origin) * frame().scale, high = (bounds.high - frame().origin) * frame().scale;
     used_ = high + low - frame().low * 2.0;
-    view_distance_ = std::min(length(scene_.view.from - bounds.center()) / size, 2 * far_eye_diagonals);
+    view_distance_ = eye_distance(scene_.view.from, bounds);
   }
   set_pad();
 }

@@ -8,6 +8,7 @@
 
 #include "core/record/instance.h"
 #include "core/scene/placed_objects.h"
+#include "core/scene/stored_objects.h"
 #include "core/scene/triangulate.h"
 
 namespace dmpc::core {
@@ -77,6 +78,9 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const Scene& scene, std::
 static_assert(beside_places_max == 1U << (3U * levels_above_instances));
 
 InstancingShare instancing_share(const Scene& scene) {
+  if (scene.stored != nullptr) {
+    return scene.stored->share;
+  }
   constexpr std::uint64_t corners_of_a_place = 6;
   InstancingShare share{.seen = size_with_copies(scene).vertices};
   if (scene.kept == nullptr) {

@@ -80,6 +80,11 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
   return frame;
 }
 
+double eye_distance(const Vec3d& eye, const Box& bounds) {
+  const Vec3d extent = bounds.high - bounds.low;
+  return std::min(length(eye - bounds.center()) / std::max({extent.x, extent.y, extent.z, 1e-30}), 2 * far_eye_diagonals);
+}
+
 double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers) {
   const double finest = double{frame.finest_cell};
   const double extent = finest * finest_per_cell * *std::max_element(frame.resolution.begin(), frame.resolution.end());

@@ -27,6 +27,10 @@ inline void move_zero(GridFrame& frame, const Vec3d& place) {
 /// the grid, so that floats need not hold the distance.
 inline constexpr double far_eye_diagonals = 4;
 
+/// The distance of an eye from the middle of the scene's bounds, in multiples of its extent; 2 * far_eye_diagonals stands for
+/// more, too. A database is built for eyes up to that of the scene's view.
+double eye_distance(const Vec3d& eye, const Box& bounds);
+
 /// The distance from a cell within which a primitive must be listed there, grid-local: more than the rounding of a ray and of its
 /// hit's t can move the hit, for rays that start up to `distance` scene extents away (2^-21 of the extent times 1 + distance:
 /// eight units in the last place of a float there), and never below 1e-3 of a finest cell. The traversal's planes, in double, add

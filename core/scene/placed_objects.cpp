@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/forget.h"
+#include "core/scene/stored_objects.h"
 
 namespace dmpc::core {
 namespace {
@@ -104,7 +105,9 @@ void PlacedObjects::add_own(std::size_t until) {
   }
 }
 
-std::uint64_t object_count(const Scene& scene) { return size_with_copies(scene).objects; }
+std::uint64_t object_count(const Scene& scene) {
+  return scene.stored != nullptr ? scene.stored->object_count() : size_with_copies(scene).objects;
+}
 
 ExpandedSize size_with_copies(const Scene& scene) { return size_with_copies(scene, all_places(scene)); }
 

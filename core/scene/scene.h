@@ -128,6 +128,7 @@ struct TexturedCorner {
 TexturedCorner colored_corner(const Vec3d& normal, const Vec3d& color, double alpha = 1);
 
 enum class ObjectKind : std::uint8_t { polygon, patch, textured, sphere, cone };
+inline constexpr std::size_t object_kind_count = 5;
 
 /// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch, textured), spheres, cones.
 struct Object {
@@ -140,6 +141,7 @@ struct Object {
 };
 
 struct BaseMeshes;
+struct StoredObjects;
 
 struct Scene {
   static constexpr int bounces_max = 253;
@@ -166,6 +168,8 @@ struct Scene {
   /// The objects that are copies of meshes with several instances (core/scene/base_meshes.h); null if there are none. Copies of a
   /// scene share it.
   std::shared_ptr<const BaseMeshes> kept;
+  /// Of a scene that is in a database: it has no objects and no texels, but this about them (core/scene/stored_objects.h).
+  std::shared_ptr<const StoredObjects> stored;
 };
 
 /// The intensity of a light of the scene. One without a colour has 1 / sqrt(number of lights): twice Haines' suggestion, since

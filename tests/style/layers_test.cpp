@@ -65,7 +65,9 @@ const std::map<std::string, Names> words_of_core = {
 const std::map<std::string, Names> rooms = {
     {"core", {"record", "scene", "database", "trace", "picture", "families"}},
     {"apps/frontend", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
-    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "help", "show", "render", "view", "info", "program"}},
+    {"apps",
+     {"reader", "picture", "formats", "database", "scene", "oracle", "run", "help", "show", "render", "view", "info", "build",
+      "program"}},
     {"apps/lab", {"crowd", "figures", "difference", "oracle", "check", "compare", "study", "bench"}},
 };
 

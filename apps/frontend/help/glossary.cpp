@@ -33,6 +33,8 @@ constexpr std::array entries = {
     GlossaryEntry{"crossbar", "A network in which each node has a link of its own to every other node."},
     GlossaryEntry{"cutoff", "Rays that could contribute less light than this are not traced."},
     GlossaryEntry{"database", "The scene as flat records (grid, primitives, shading data, materials, lights), cut into pages."},
+    GlossaryEntry{"database, stored",
+                  "A file that dmpc build has written (FILE.pages), which stands for a scene and the options it was built with."},
     GlossaryEntry{"dataflow",
                   "The strategy in which rays travel: each node owns a region of space, and a ray goes to the owner of the "
                   "region it enters."},

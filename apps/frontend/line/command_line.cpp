@@ -133,6 +133,42 @@ void note_given(DeclaredCommand& command, std::span<const std::string> words) {
   }
 }
 
+bool is_given_in(const DeclaredCommand& command, const std::string& name) {
+  return std::any_of(command.options.begin(), command.options.end(), [&](const DeclaredCommand::Option& option) {
+    return (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) &&
+           !option.given.empty();
+  });
+}
+
+/// The values given for an argument.
+std::vector<std::string> values_of(const DeclaredCommand& command, const std::string& argument) {
+  for (const DeclaredCommand::Option& option : command.options) {
+    if (option.is_argument() && option.described.value == argument) {
+      return option.given;
+    }
+  }
+  return {};
+}
+
+/// Notes options that an argument stands for, as if they were given.
+void note_behind(DeclaredCommand& command, const std::vector<std::string>& words) {
+  std::vector<DeclaredCommand::Option*> open;
+  for (DeclaredCommand::Option& option : command.options) {
+    if (!option.is_argument() && option.given.empty()) {
+      open.push_back(&option);
+    }
+  }
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const auto of_name = std::find_if(open.begin(), open.end(), [&](const DeclaredCommand::Option* option) {
+      return is_among(option->described.names, word.substr(0, equals));
+    });
+    if (of_name != open.end()) {
+      (*of_name)->given.push_back(equals == std::string::npos ? "" : word.substr(equals + 1));
+    }
+  }
+}
+
 /// In the order in which options are declared, whatever that of the line.
 void take_given(const DeclaredCommand& command) {
   for (const DeclaredCommand::Option& option : command.options) {
@@ -238,11 +274,17 @@ void OptionSet::set_brief_help(const std::vector<BriefGroup>& groups) { command_
 
 void OptionSet::check_in_the_end(const std::function<void()>& check) { command_->checks.push_back(check); }
 
-bool OptionSet::is_given(const std::string& name) const {
-  return std::any_of(command_->options.begin(), command_->options.end(), [&](const DeclaredCommand::Option& option) {
-    return (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) &&
-           !option.given.empty();
-  });
+bool OptionSet::is_given(const std::string& name) const { return is_given_in(*command_, name); }
+
+std::vector<std::string> OptionSet::given_words(const std::vector<std::string>& but) const {
+  std::vector<std::string> words;
+  for (const DeclaredCommand::Option& option : command_->options) {
+    const bool is_left_out = option.is_argument() || is_among(but, option.described.names.back());
+    for (const std::string& value : is_left_out ? std::vector<std::string>() : option.given) {
+      words.push_back(option.described.names.back() + (option.described.value.empty() ? "" : "=" + value));
+    }
+  }
+  return words;
 }
 
 CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples,
@@ -274,6 +316,9 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   }
   try {
     note_given(*command, words);
+    for (const std::string& value : standing_ ? values_of(*command, standing_->argument) : std::vector<std::string>()) {
+      note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return is_given_in(*command, name); }));
+    }
     take_given(*command);
     return line.command;
   } catch (const UsageError& error) {

@@ -82,6 +82,8 @@ class OptionSet {
   void check_in_the_end(const std::function<void()>& check);
   /// Whether the user gave the option, if it is one of this command; for check_in_the_end().
   bool is_given(const std::string& name) const;
+  /// The options given, as --name=value, without those named here; for check_in_the_end().
+  std::vector<std::string> given_words(const std::vector<std::string>& but) const;
 
  private:
   friend class CommandLine;
@@ -118,6 +120,15 @@ class CommandLine {
   /// What --help prints about a command, {"study", "balance"}, or about the program.
   std::string help(const std::vector<std::string>& command, bool asks_for_all) const;
 
+  /// An argument whose value stands for options, too, each as --name=value. They take effect if the command has them and the
+  /// user does not give them; is_given(name) tells what the user gives.
+  struct Standing {
+    using IsGiven = std::function<bool(const std::string&)>;
+    std::string argument;
+    std::function<std::vector<std::string>(const std::string& value, const IsGiven& is_given)> words_of;
+  };
+  void stand_for_options(const Standing& standing) { standing_ = standing; }
+
   /// Sets the suggestion for a value that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
   void suggest(const std::string& name, const Suggestion& suggestion);
   /// Everything declared so far.
@@ -127,6 +138,7 @@ class CommandLine {
   std::unique_ptr<DeclaredCommand> program_;
   std::string version_;
   Suggestions suggestions_;
+  std::optional<Standing> standing_;
 };
 
 template <class T, class Field>

@@ -25,6 +25,10 @@ std::atomic<bool> has_run_out = false, is_loading = false;
 /// "; the limit of its control group (/sys/fs/cgroup/memory.max) is 512 MiB": prepared in advance, and not written by a stream.
 std::array<char, 512> memory_limit{};
 
+/// Of the file that is mapped.
+std::atomic<const std::byte*> mapped_first = nullptr, mapped_end = nullptr;
+std::array<char, 512> mapped_path{};
+
 /// Acts as without a handler, but notes the failure.
 void note_end_of_memory() {
   has_run_out = true;
@@ -72,7 +76,13 @@ bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && inf
 /// another reason, cannot be distinguished.
 [[maybe_unused]] void end_crash(int signal, siginfo_t* info, void* /*context*/) {
   const bool is_for_want_of_memory = (errno == ENOMEM || memory_has_run_out()) && !is_sent_by_another(*info);
+  const auto* const place = static_cast<const std::byte*>(info->si_addr);
+  const bool is_cut = signal == SIGBUS && !is_sent_by_another(*info) && place >= mapped_first && place < mapped_end;
   remove_files_under_way();
+  if (is_cut) {
+    say({"dmpc: ", mapped_path.data(), " was cut while it was in use\n"});
+    ::_exit(input_status);
+  }
   if (is_for_want_of_memory) {
     ::_exit(complain_of_memory());
   }
@@ -85,6 +95,19 @@ bool memory_has_run_out() { return has_run_out; }
 
 LoadsLibrary::LoadsLibrary() { is_loading = true; }
 LoadsLibrary::~LoadsLibrary() { is_loading = false; }
+
+MappedBytes::MappedBytes(std::span<const std::byte> bytes, std::string_view path) : first_(bytes.data()) {
+  mapped_path.fill('\0');
+  path.copy(mapped_path.data(), mapped_path.size() - 1);
+  mapped_end = bytes.data() + bytes.size();
+  mapped_first = bytes.data();
+}
+
+MappedBytes::~MappedBytes() {
+  if (mapped_first == first_) {
+    mapped_end = nullptr;
+  }
+}
 
 int complain_of_memory() {
   say(

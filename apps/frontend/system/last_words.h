@@ -1,6 +1,8 @@
 // The end of the program when memory is exhausted or an exception is not caught.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace dmpc::apps {
@@ -21,6 +23,19 @@ struct LoadsLibrary {
   ~LoadsLibrary();
   LoadsLibrary(const LoadsLibrary&) = delete;
   LoadsLibrary& operator=(const LoadsLibrary&) = delete;
+};
+
+/// During its lifetime, a fault in these bytes, which are mapped from a file, is attributed to whoever has cut that meanwhile: the
+/// status is 1. Of several at a time the last one counts. Not thread-safe.
+class MappedBytes {
+ public:
+  MappedBytes(std::span<const std::byte> bytes, std::string_view path);
+  ~MappedBytes();
+  MappedBytes(const MappedBytes&) = delete;
+  MappedBytes& operator=(const MappedBytes&) = delete;
+
+ private:
+  const std::byte* first_;
 };
 
 /// From now on std::terminate(), which libraries call when memory is exhausted, removes temporary files, prints the cause, and

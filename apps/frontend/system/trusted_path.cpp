@@ -158,6 +158,14 @@ std::optional<std::string> why_untrusted(const fs::path& path) {
   return why ? why : trust.why_not_above(path);
 }
 
+std::optional<std::string> why_untrusted(const Descriptor& file) {
+  struct stat found {};
+  if (::fstat(file.number(), &found) != 0) {
+    return std::string("its owner is not known (") + std::strerror(errno) + ")";
+  }
+  return Trust(Sticky::is_open).why_not("/proc/self/fd/" + std::to_string(file.number()), found);
+}
+
 Descriptor open_trusted(const std::string& path) {
   constexpr const char* expected = "; expected the full path of a file that you alone, or root, can write";
   if (!fs::path(path).is_absolute()) {

@@ -21,6 +21,9 @@ namespace dmpc::apps {
 /// others may write does not.
 std::optional<std::string> why_untrusted(const std::filesystem::path& path);
 
+/// Likewise for an open file alone, wherever it lies: whoever may replace it in its folder has files of his own.
+std::optional<std::string> why_untrusted(const Descriptor& file);
+
 /// Opens code that a user names, for reading. The opened file itself is checked, so nobody can replace it in between, and the
 /// folders above it more strictly: nothing is trusted where everybody may write, as in /tmp. Throws core::InputError, whose
 /// message begins with the path, if the path is not absolute or is reached by links, the file is no ordinary one, or others can

@@ -292,7 +292,9 @@ int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostrea
   const Interrupt::EndAtOnce end_at_once(interrupt);
   OpenedFiles opened;
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
-  const PlaceFindings places = opened.paths().empty() ? PlaceFindings{} : judge_places(scene, options.picture, opened);
+  const PlaceFindings places = options.picture.stored   ? PlaceFindings{.not_judged = "the scene is stored as its database"}
+                               : opened.paths().empty() ? PlaceFindings{}
+                                                        : judge_places(scene, options.picture, opened);
   const Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   const Inspection inspection = inspect_shown(options, subject.database, subject.settings);
   interrupt.set_consequence("the report is incomplete");

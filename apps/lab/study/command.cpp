@@ -32,7 +32,7 @@ std::string data_file_of(const std::string& study) { return study + ".csv"; }
 
 TableFiles files_of(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
-  add_scene_file(options.picture.scene, inputs);
+  add_scene_file(options.picture, inputs);
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.machine_name});
   }

@@ -1,6 +1,7 @@
 // Obstacles to storing a mesh once, or to one of its instances: such an instance has a copy.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -23,6 +24,7 @@ enum class Obstacle : std::uint8_t {
   far_away,            ///< for an instance: a corner beyond any grid
   smallness            ///< for an instance: its boxes are too small beside the pad to tell rays apart
 };
+inline constexpr std::size_t obstacle_count = 7;
 
 /// Number of instances by obstacle; those without are not counted.
 using ObstacleCounts = std::map<Obstacle, std::uint64_t>;

@@ -32,7 +32,7 @@ TEST_CASE("a subject's page size and order of records are those asked for") {
 }
 
 TEST_CASE("how much is kept once is told where that was asked for, and what keeps the rest from it") {
-  core::RecordCounts records{.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789};
+  core::RecordCounts records{{.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789}, {}};
   CHECK(kept_text(records) == "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
   records.copied = {{core::Obstacle::shining, 1200}, {core::Obstacle::far_away, 1}};
   CHECK(kept_text(records) ==
@@ -45,7 +45,8 @@ TEST_CASE("how much is kept once is told where that was asked for, and what keep
 }
 
 TEST_CASE("what is kept without having been asked for is told, and why copies are there where something else was open") {
-  const core::RecordCounts records{.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789};
+  const core::RecordCounts records{
+      {.instances = 67, .base_meshes = 29, .base_mesh_triangles = 1234, .triangles_in_places = 56789}, {}};
   const core::InstancingShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
   const DatabaseOptions open{.instances = InstancesChoice::automatic};
   CHECK(instances_text({}, false, {}, share).empty());

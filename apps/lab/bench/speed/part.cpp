@@ -113,7 +113,8 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
 }
 
 Subject SpeedSettings::subject_of(SpeedPart part, const std::string& scene) const {
-  const PictureOptions picture = picture_of(part, scene);
+  PictureOptions picture = picture_of(part, scene);
+  take_scene(picture, scene);
   return build_subject(load(picture), picture);
 }
 

@@ -84,9 +84,10 @@ void add_sweep_options(OptionSet& set, SweepSettings& settings) {
       "--columns", "FIGURE,FIGURE,... [times and traffic]",
       [&settings](const std::string& text) { take_columns(text, settings.columns); },
       "What the table tells of each run, by the keys of --stats: pages.faults, or faults where there is no other");
-  set.add_path(
-      "--runs", "FOLDER [none]", settings.kept,
-      "Keep the counters of each run there, and run nothing twice: who was stopped goes on, who asks for more adds to it");
+  set.add_path("--runs", "FOLDER [none]", settings.kept,
+               "Keep the counters of each run there, and the databases of large scenes, and do nothing twice: who was stopped "
+               "goes on, who "
+               "asks for more adds to it");
 }
 
 /// Runs last: flags become words, too, and something must vary.

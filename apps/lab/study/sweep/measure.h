@@ -24,6 +24,6 @@ struct SweepResult {
 /// order, in the calling thread or another. Throws core::InputError, which names the run, if one fails for another reason than
 /// lack of memory; Interrupted after a signal.
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
-                   const Interrupt& interrupt, const std::function<void(SweepResult)>& take);
+                   Interrupt& interrupt, const std::function<void(SweepResult)>& take);
 
 }  // namespace dmpc::apps

@@ -40,7 +40,10 @@ constexpr const char* unsweepable[] = {"--help",
 /// Parses one line of `render` alone.
 class RenderLine {
  public:
-  RenderLine() { add_options(line_.add_command("render", ""), options_); }
+  RenderLine() {
+    line_.stand_for_options(standing_of_scene());
+    add_options(line_.add_command("render", ""), options_);
+  }
   // Options are bound to the member.
   RenderLine(const RenderLine&) = delete;
   RenderLine& operator=(const RenderLine&) = delete;

@@ -1,6 +1,7 @@
 // Settings of the study `sweep`: one scene with all combinations of some options of `render`.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct SweepSettings {
   std::vector<VariedOption> variations;       ///< the last one changes fastest
   std::vector<std::string> columns;           ///< names of figures; empty: the usual ones
   std::optional<std::filesystem::path> kept;  ///< the folder for counters of runs, including those of earlier sweeps
+  std::size_t kept_database_bytes_min = std::size_t{16} << 20U;  ///< a smaller one is built in the time that it takes to read it
   std::filesystem::path program = "/proc/self/exe";
 };
 

@@ -1,10 +1,12 @@
 #include "apps/frontend/system/last_words.h"
 
 #include <doctest/doctest.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 
 #include "apps/frontend/line/exit_status.h"
@@ -35,6 +37,19 @@ TEST_CASE("a crash that another process sends is no want of memory, whatever was
           }
           return 0;
         }).status() == 1000 + SIGSEGV);
+}
+
+TEST_CASE("a fault in a mapped file that somebody has cut is an error of input, and no crash") {
+  CHECK(ForkedProcess([] {
+          apps::end_without_abort();
+          constexpr std::size_t bytes = 4096;
+          const int file = ::memfd_create("cut", 0);
+          const bool is_long = ::ftruncate(file, bytes) == 0;
+          const auto* const first = static_cast<const std::byte*>(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0));
+          const apps::MappedBytes mapped({first, bytes}, "cut.pages");
+          const bool is_cut = ::ftruncate(file, 0) == 0;
+          return is_long && is_cut ? 2 + static_cast<int>(*static_cast<const volatile std::byte*>(first)) : 3;
+        }).status() == apps::input_status);
 }
 #endif
 

@@ -130,6 +130,38 @@ TEST_CASE("runs that are kept are not run again, and a larger sweep adds its own
   CHECK(files_in(folder / "runs") == 3);
 }
 
+TEST_CASE("databases of large scenes are kept beside the counters, one for all runs that need it") {
+  const TemporaryFolder folder;
+  const Words words = {"--vary=page-size:1KiB,4KiB", "--vary=nodes:1,3", "--columns=faults,run_hash"};
+  const std::string table = swept(tiny_sweep(words));
+  const auto databases = [&] {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "runs")) {
+      if (entry.path().extension() == ".pages") {
+        found.push_back(entry.path());
+      }
+    }
+    return found;
+  };
+  const auto keeping = [&](Words line) {
+    line.push_back("--runs=" + (folder / "runs").string());
+    StudySweepOptions options = tiny_sweep(line);
+    options.settings.kept_database_bytes_min = 0;
+    return swept(options);
+  };
+  CHECK(keeping(words) == table);
+  CHECK(databases().size() == 2);
+  const std::filesystem::path one = databases().front();
+  const auto written = std::filesystem::last_write_time(one);
+  keeping({"--vary=page-size:1KiB,4KiB", "--vary=nodes:2"});
+  CHECK(databases().size() == 2);
+  CHECK(std::filesystem::last_write_time(one) == written);
+  write_text(one, "no database");
+  keeping({"--vary=page-size:1KiB,4KiB", "--vary=nodes:4"});
+  CHECK(databases().size() == 2);
+  CHECK(file_text(one) != "no database");
+}
+
 TEST_CASE("counters that are kept are another run's where the program, an option or a file it reads is another") {
   const TemporaryFolder folder;
   write_text(folder / "a.nff",
