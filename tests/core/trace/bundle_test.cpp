@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -28,8 +29,10 @@ namespace {
 
 using BundleRays = std::vector<Ray>;
 
+/// In memory that is not a number, as it may be before.
 std::unique_ptr<RayBundle> bundle_of(const BundleRays& rays) {
   auto bundle = std::make_unique<RayBundle>();
+  std::memset(static_cast<void*>(bundle.get()), 0xff, sizeof(RayBundle));
   std::copy(rays.begin(), rays.end(), bundle->rays.begin());
   bundle->count = static_cast<std::uint32_t>(rays.size());
   bundle->start();
