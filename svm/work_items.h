@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 
 #include "core/picture/sampling/sample_pass.h"
@@ -97,9 +98,10 @@ constexpr PixelTile tile_of(std::uint32_t pixels_max) {
   return tile;
 }
 
-/// The tile of a task of at most `pixels_a_task` pixels, if each sample needs a ray of the bundle.
+/// The tile of a task of at most `pixels_a_task` pixels, a power of two, which is also the number of a bundle's rays: the fewest
+/// pixels whose samples fill bundles.
 constexpr PixelTile tile_for(std::uint32_t samples, std::uint32_t pixels_a_task) {
-  return tile_of(pixels_a_task / (samples > 0 ? samples : 1));
+  return tile_of(pixels_a_task / std::gcd(samples > 0 ? samples : 1, pixels_a_task));
 }
 
 /// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and in the same order within a tile,

@@ -1,19 +1,12 @@
 #include "apps/picture/film_image.h"
 
 #include <cstddef>
-#include <cstdint>
+#include <span>
 
 namespace dmpc::apps {
 
 ImageRows rows_of(const core::Film& film) {
-  const auto take = [&film](std::size_t first, std::span<float> rgb) {
-    for (std::size_t place = 0; place < rgb.size(); place += 3) {
-      const core::Vec3d radiance = film.radiance(static_cast<std::uint32_t>(first + place / 3));
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        rgb[place + channel] = static_cast<float>(radiance[channel]);
-      }
-    }
-  };
+  const auto take = [&film](std::size_t first, std::span<float> rgb) { film.copy_radiance(first, rgb); };
   return {film.width(), film.height(), take, {{"filmScale", text_of(film.scale())}}};
 }
 

@@ -51,14 +51,14 @@ std::string virtual_text(const Account& account, std::uint64_t film_hash) {
 void print_frame(std::ostream& output, std::uint64_t frame, const RenderRecord& record) {
   const Account account = account_of(record.report);
   output << "frame " << grouped(frame) << "  " << shown(record.options.image.string()) << ", film "
-         << hash_text(record.film_hash);
+         << hash_text(record.film_hash());
   if (record.copied_frame) {
     output << ", a copy of frame " << grouped(*record.copied_frame) << std::endl;
     return;
   }
   output << std::visit([](const auto& report) { return travel_text(report); }, record.report) << ", "
          << bytes_text(nodes::total(account.sent).bytes) << " sent, " << seconds_text(record.seconds.render)
-         << virtual_text(account, record.film_hash) << std::endl;  // seen at once, also in a file that somebody follows
+         << virtual_text(account, record.film_hash()) << std::endl;  // seen at once, also in a file that somebody follows
 }
 
 /// With path tracing it says so, too.
@@ -123,13 +123,16 @@ RunProfile take_run_profile(const RenderCall& call, Observers& observers) {
   return run_profile;
 }
 
-/// What goes to the standard output: counters if they were asked for there, then the closing lines, which it returns.
+/// What goes to the standard output: counters if they were asked for there, then the closing lines, which it returns, unless
+/// nobody reads them.
 std::string print_closing(const RenderCall& call, const DueFrame& frame, const RenderRecord& record) {
   if (has_counters_on_standard_output(record.options)) {
     call.output << stats_json(record);
   }
   std::ostringstream lines;
-  call.asked.frames.are_several() ? print_frame(lines, *frame.number, record) : print_summary(lines, record);
+  if (!call.asked.quiet || call.live) {
+    call.asked.frames.are_several() ? print_frame(lines, *frame.number, record) : print_summary(lines, record);
+  }
   if (!call.asked.quiet) {
     call.output << lines.str();
   }

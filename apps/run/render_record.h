@@ -42,7 +42,15 @@ struct RenderRecord {
   std::uint64_t samples_found_done = 0;                        ///< sum over all pixels of the resumed checkpoint
   std::optional<std::uint64_t> scene_digest = {};              ///< for options.report
   std::optional<std::uint64_t> copied_frame = {};              ///< it is a copy of this frame's picture; all counters are 0
-  std::uint64_t film_hash = account_of(report).film.hash();
+  mutable std::optional<std::uint64_t> found_film_hash = {};   ///< once somebody has asked
+
+  /// The hash of the film, which takes some 20 ns a pixel: only if it is asked for.
+  std::uint64_t film_hash() const {
+    if (!found_film_hash) {
+      found_film_hash = account_of(report).film.hash();
+    }
+    return *found_film_hash;
+  }
 };
 
 /// Returns a description such as "svm, 8 nodes of ipsc2".

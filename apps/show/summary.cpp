@@ -213,7 +213,7 @@ std::string virtual_lines(const RenderRecord& record, const Account& account) {
   const nodes::VirtualReport& report = *account.virtual_time;
   const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + name_with_links(*machine);
   return "virtual  " + time + ", " + counted(report.events, "event") + "; run_hash " +
-         hash_text(report.run_hash(record.film_hash)) + ", machine_digest " + hash_text(report.machine_digest) + "\nlosses   " +
+         hash_text(report.run_hash(record.film_hash())) + ", machine_digest " + hash_text(report.machine_digest) + "\nlosses   " +
          parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n" + host_line(report);
 }
 
@@ -237,7 +237,7 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(record, account) << "time     "
          << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", " << account.film.width()
-         << "x" << account.film.height() << ", film " << hash_text(record.film_hash) << picture_text(record.options.picture)
+         << "x" << account.film.height() << ", film " << hash_text(record.film_hash()) << picture_text(record.options.picture)
          << '\n'
          << special.advice;
 }

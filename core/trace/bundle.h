@@ -77,7 +77,7 @@ struct RayBundle {
   Row<float> shear_x, shear_y, scale_z, t_max;
   Row<std::uint32_t> ignored_primitive;
   alignas(64) std::array<Row<double>, 3> slope, offset;
-  std::array<RayMask, 3> forward, backward;  ///< rays with a step of +1, of -1
+  std::array<RayMask, 3> forward;  ///< rays with a step of +1
   /// By the axis along which rays are sheared, and whether they go up (0) or down (1) along it.
   std::array<std::array<RayMask, 2>, 3> sheared_along;
   std::array<std::uint32_t, 3> near_row, far_row;  ///< rows of a BVH node's bounds, where all rays agree

@@ -58,9 +58,10 @@ HWY_INLINE BoxPlanes planes_of(const RayBundle& bundle, const BvhNode& bvh_node,
 /// Where rays enter a child's box, and which of them do.
 template <bool OneOctant>
 HWY_INLINE RayMask meet_box(const RayBundle& bundle, const Bounds& bounds, const BoxPlanes& planes, std::size_t child,
-                            float* t_enter) {
+                            Vector& enter) {
   const Floats tag;
-  Vector enter = planes.t_low, leave = planes.t_high;
+  Vector leave = planes.t_high;
+  enter = planes.t_low;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto plane = [&](std::size_t row) {
       return fused(hn::Set(tag, bounds[row][child]), planes.slope[axis], planes.offset[axis]);
@@ -74,7 +75,6 @@ HWY_INLINE RayMask meet_box(const RayBundle& bundle, const Bounds& bounds, const
       leave = hn::Min(leave, hn::Max(low, high));
     }
   }
-  hn::Store(enter, tag, t_enter);
   return bits_of(tag, hn::Le(enter, leave));
 }
 
@@ -100,31 +100,34 @@ HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
   waiting.t_enter[place] = t_enter;
 }
 
-/// Collects the children that some rays meet in a branch-free pass, before they are sorted.
-template <bool OneOctant>
+/// Which of `rays` meet each child, in a branch-free pass. take(child, first, t) is told where rays from `first` on enter.
+template <bool OneOctant, class Take>
 HWY_INLINE std::array<RayMask, bvh_children_max> meet_boxes(const RayBundle& bundle, const BvhNode& bvh_node, RayMask rays,
-                                                            std::array<Row<float>, bvh_children_max>& t_enter) {
+                                                            const Take& take) {
   const Bounds bounds = bounds_of(bvh_node);
-  BoxPlanes planes[bundle_rays_max / step];
-  for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
-    planes[part] = planes_of(bundle, bvh_node, part * step);
-  }
   std::array<RayMask, bvh_children_max> met{};
-  for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
-    for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
-      const RayMask enter = meet_box<OneOctant>(bundle, bounds, planes[part], child, t_enter[child].data() + part * step);
-      met[child] |= enter << (part * step);
+  for (std::size_t first = 0; first < bundle_rays_max; first += step) {
+    const RayMask here = rays & first_bits(step) << first;
+    if (here == 0) {
+      continue;
     }
-    met[child] &= rays;
+    const BoxPlanes planes = planes_of(bundle, bvh_node, first);
+    for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
+      Vector enter;
+      met[child] |= meet_box<OneOctant>(bundle, bounds, planes, child, enter) << first & here;
+      take(child, first, enter);
+    }
   }
   return met;
 }
 
 template <bool OneOctant>
-HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order) {
+HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays) {
   BundleChildren& waiting = bundle.waiting;
   alignas(64) std::array<Row<float>, bvh_children_max> t_enter;
-  const std::array<RayMask, bvh_children_max> met = meet_boxes<OneOctant>(bundle, bvh_node, rays, t_enter);
+  const auto met = meet_boxes<OneOctant>(bundle, bvh_node, rays, [&](std::size_t child, std::size_t first, Vector enter) {
+    hn::Store(enter, Floats(), t_enter[child].data() + first);
+  });
   const std::uint32_t start = waiting.count;
   std::array<std::uint8_t, bvh_children_max> child_at;  // of the added ones, in order
   for (std::size_t child = 0; child < bvh_node.child_count; ++child) {
@@ -133,7 +136,7 @@ HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMas
     }
     const float nearest = t_enter[child][static_cast<std::size_t>(std::countr_zero(met[child]))];
     std::uint32_t place = waiting.count++;
-    for (; in_order && place > start && waiting.nearest[place - 1] < nearest; --place) {
+    for (; place > start && waiting.nearest[place - 1] < nearest; --place) {
       waiting.nearest[place] = waiting.nearest[place - 1];
       child_at[place - start] = child_at[place - 1 - start];
     }
@@ -148,14 +151,12 @@ HWY_INLINE void meet_together(RayBundle& bundle, const BvhNode& bvh_node, RayMas
   }
 }
 
-/// One ray against all boxes.
-HWY_INLINE void meet_apart(RayBundle& bundle, const BvhNode& bvh_node, std::size_t ray, bool in_order, std::uint32_t start) {
+/// Which children one ray meets, and where it enters them.
+HWY_INLINE RayMask meet_apart(const RayBundle& bundle, const BvhNode& bvh_node, std::size_t ray, float* t_enter) {
   const hn::CappedTag<float, bvh_children_max> tag;
   const hn::Rebind<std::int32_t, decltype(tag)> integers;
   const hn::Rebind<std::uint8_t, decltype(tag)> bytes;
   constexpr std::size_t lanes = lanes_of<decltype(tag)>();
-  BundleChildren& waiting = bundle.waiting;
-  alignas(64) float t_enter[bvh_children_max];
   RayMask met = 0;
   for (std::size_t first = 0; first < bvh_children_max; first += lanes) {
     auto enter = hn::Set(tag, bundle.t_low[ray]), leave = hn::Set(tag, std::min(bundle.t_high[ray], bundle.best.t[ray]));
@@ -174,27 +175,68 @@ HWY_INLINE void meet_apart(RayBundle& bundle, const BvhNode& bvh_node, std::size
     hn::Store(enter, tag, t_enter + first);
     met |= bits_of(tag, hn::Le(enter, leave)) << first;
   }
-  for (met &= first_bits(bvh_node.child_count); met != 0; met &= met - 1) {
+  return met & first_bits(bvh_node.child_count);
+}
+
+/// One ray against all boxes, after others from `start` on.
+HWY_INLINE void add_apart(RayBundle& bundle, const BvhNode& bvh_node, std::size_t ray, std::uint32_t start) {
+  BundleChildren& waiting = bundle.waiting;
+  alignas(64) float t_enter[bvh_children_max];
+  for (RayMask met = meet_apart(bundle, bvh_node, ray, t_enter); met != 0; met &= met - 1) {
     const auto child = static_cast<std::size_t>(std::countr_zero(met));
     waiting.record[waiting.count] = bvh_node.child[child];
     waiting.rays[waiting.count] = RayMask{1} << ray;
     waiting.nearest[waiting.count] = waiting.t_enter[waiting.count][ray] = t_enter[child];
     ++waiting.count;
-    if (in_order) {
-      put_in_order(waiting, start);
-    }
+    put_in_order(waiting, start);
   }
 }
 
-void meet_children(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order) {
-  if (count_of(rays) <= apart_max) {
+/// Adds children that some rays meet, in the node's order and without where rays enter: who has no hit wants all of them, where
+/// any will do. Writes all, without a branch.
+HWY_INLINE void add_any(BundleChildren& waiting, const BvhNode& bvh_node, const std::array<RayMask, bvh_children_max>& met) {
+  std::uint32_t count = waiting.count;
+  for (std::size_t child = 0; child < bvh_children_max; ++child) {
+    waiting.record[count] = bvh_node.child[child];
+    waiting.rays[count] = met[child];
+    count += met[child] != 0 ? 1U : 0U;
+  }
+  waiting.count = count;
+}
+
+template <bool OneOctant>
+HWY_INLINE void meet_any_together(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays) {
+  add_any(bundle.waiting, bvh_node, meet_boxes<OneOctant>(bundle, bvh_node, rays, [](std::size_t, std::size_t, Vector) {}));
+}
+
+HWY_INLINE void meet_any(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays) {
+  if (count_of(rays) > apart_max) {
+    return bundle.is_one_octant ? meet_any_together<true>(bundle, bvh_node, rays)
+                                : meet_any_together<false>(bundle, bvh_node, rays);
+  }
+  for (; rays != 0; rays &= rays - 1) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+    alignas(64) float t_enter[bvh_children_max];
+    const RayMask children = meet_apart(bundle, bvh_node, ray, t_enter);
+    std::array<RayMask, bvh_children_max> met;
+    for (std::size_t child = 0; child < bvh_children_max; ++child) {
+      met[child] = (children >> child & 1U) << ray;
+    }
+    add_any(bundle.waiting, bvh_node, met);
+  }
+}
+
+void meet_children(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays) {
+  if (bundle.any) {
+    meet_any(bundle, bvh_node, rays);
+  } else if (count_of(rays) <= apart_max) {
     for (const std::uint32_t start = bundle.waiting.count; rays != 0; rays &= rays - 1) {
-      meet_apart(bundle, bvh_node, static_cast<std::size_t>(std::countr_zero(rays)), in_order, start);
+      add_apart(bundle, bvh_node, static_cast<std::size_t>(std::countr_zero(rays)), start);
     }
   } else if (bundle.is_one_octant) {
-    meet_together<true>(bundle, bvh_node, rays, in_order);
+    meet_together<true>(bundle, bvh_node, rays);
   } else {
-    meet_together<false>(bundle, bvh_node, rays, in_order);
+    meet_together<false>(bundle, bvh_node, rays);
   }
 }
 
@@ -220,7 +262,7 @@ void take_child(RayBundle& bundle) {
   while (waiting.count > 0) {
     const std::uint32_t last = --waiting.count;
     const RayMask rays = waiting.rays[last] & ~done;
-    const RayMask wanted = rays != 0 ? still_want(bundle, last, rays) : 0;
+    const RayMask wanted = rays == 0 || bundle.any ? rays : still_want(bundle, last, rays);
     if (wanted != 0) {
       bundle.next = waiting.record[last];
       bundle.next_rays = wanted;
@@ -230,11 +272,10 @@ void take_child(RayBundle& bundle) {
   bundle.next = BvhChild::none();
 }
 
-std::uint64_t count_wanted(const RayBundle& bundle, RayMask rays) {
+std::uint64_t count_waiting(const RayBundle& bundle, RayMask rays) {
   std::uint64_t count = 0;
   for (std::size_t child = 0; child < bundle.waiting.count; ++child) {
-    const RayMask waits = bundle.waiting.rays[child] & rays;
-    count += waits != 0 ? count_of(still_want(bundle, child, waits)) : 0;
+    count += count_of(bundle.waiting.rays[child] & rays);
   }
   return count;
 }
@@ -470,7 +511,7 @@ void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address lea
 }
 
 const BundleIntersectors* intersectors() {
-  static constexpr BundleIntersectors all{meet_children, take_child, count_wanted, hit_triangles};
+  static constexpr BundleIntersectors all{meet_children, take_child, count_waiting, hit_triangles};
   return &all;
 }
 

@@ -42,12 +42,13 @@ struct BundleSteps {
 
 /// Work on one record: each does for the rays of `rays` what the kernels of kernel.h do for one.
 struct BundleIntersectors {
-  /// Adds the children that some of the rays meet, with these rays, to the waiting ones. `in_order`: the nearest last.
-  void (*meet_children)(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays, bool in_order);
+  /// Adds the children that some of the rays meet, with these rays, to the waiting ones, the nearest last; with bundle.any in the
+  /// node's order, and without where rays enter.
+  void (*meet_children)(RayBundle& bundle, const BvhNode& bvh_node, RayMask rays);
   /// Sets `next` and `next_rays` to the last waiting child that some of its rays may still want; none if there is none.
   void (*take_child)(RayBundle& bundle);
-  /// How often rays of `rays` would still visit waiting children.
-  std::uint64_t (*count_wanted)(const RayBundle& bundle, RayMask rays);
+  /// How many waiting children rays of `rays` have met, each counted once for each ray.
+  std::uint64_t (*count_waiting)(const RayBundle& bundle, RayMask rays);
   /// Merges hits with the triangles of the leaf at `leaf` into `best` and `found`. With bundle.any a ray's first hit will do.
   void (*hit_triangles)(RayBundle& bundle, const TriangleRows& triangles, Address leaf, RayMask rays);
 };

@@ -35,7 +35,7 @@ HWY_INLINE const float* floats_of(const RayBundle& bundle, std::size_t ray, std:
 /// Transposes four floats of each ray to four rows.
 HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* row0, float* row1, float* row2, float* row3) {
 #if HWY_TARGET == HWY_SCALAR
-  for (std::size_t i = 0; i < bundle_rays_max; ++i) {
+  for (std::size_t i = 0; i < bundle.count; ++i) {
     const float* const from = floats_of(bundle, i, offset);
     row0[i] = from[0];
     row1[i] = from[1];
@@ -44,7 +44,7 @@ HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* ro
   }
 #else
   const Four tag;
-  for (std::size_t i = 0; i < bundle_rays_max; i += 4) {
+  for (std::size_t i = 0; i < bundle.count; i += 4) {
     const auto four = [&](std::size_t ray) { return hn::LoadU(tag, floats_of(bundle, i + ray, offset)); };
     const auto a = four(0), b = four(1), c = four(2), d = four(3);
     const auto ab_low = hn::InterleaveLower(tag, a, b), ab_high = hn::InterleaveUpper(tag, a, b);
@@ -78,7 +78,7 @@ HWY_INLINE void load(RayBundle& bundle) {
   Row<float> ignored;
   load_rows(bundle, offsetof(Ray, direction), bundle.direction[0].data(), bundle.direction[1].data(), bundle.direction[2].data(),
             ignored.data());
-  bundle.ignored_primitive = std::bit_cast<Row<std::uint32_t>>(ignored);
+  std::memcpy(bundle.ignored_primitive.data(), ignored.data(), sizeof(ignored));
   bundle.rest_most = largest_rest(bundle);
 }
 
@@ -100,15 +100,14 @@ HWY_INLINE void clear_hits(RayBundle& bundle) {
   }
 }
 
-HWY_INLINE void clear(RayBundle& bundle) {
-  clear_hits(bundle);
-  bundle.left = 0;
-  bundle.forward = bundle.backward = {};
-  bundle.sheared_along = {};
-}
+/// The rays whose direction has a sign, or is longest along an axis.
+struct RayBits {
+  std::array<RayMask, 3> forward{}, below{};
+  RayMask along_x = 0, along_y = 0, down = 0, finite = 0;
+};
 
 /// ShearedRay's constructor for the rays from `first` on.
-HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
+HWY_INLINE void shear(RayBundle& bundle, std::size_t first, RayBits& bits) {
   const Floats tag;
   const auto d = [&](std::size_t axis) { return hn::Load(tag, bundle.direction[axis].data() + first); };
   const auto d0 = d(0), d1 = d(1), d2 = d(2);
@@ -125,12 +124,60 @@ HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
   hn::Store(scale, tag, bundle.scale_z.data() + first);
   hn::Store(hn::Mul(hn::IfThenElse(is_down, last, next), scale), tag, bundle.shear_x.data() + first);
   hn::Store(hn::Mul(hn::IfThenElse(is_down, next, last), scale), tag, bundle.shear_y.data() + first);
-  const RayMask down = bits_of(tag, is_down), x_bits = bits_of(tag, is_x), y_bits = bits_of(tag, is_y);
-  const std::array<RayMask, 3> axis_bits{x_bits, y_bits, first_bits(lanes_of<Floats>()) & ~(x_bits | y_bits)};
+  bits.along_x |= bits_of(tag, is_x) << first;
+  bits.along_y |= bits_of(tag, is_y) << first;
+  bits.down |= bits_of(tag, is_down) << first;
+}
+
+/// Reciprocals of the directions from `first` on: as in double and then rounded, since a double has more than twice a float's
+/// bits. -0 and values that count as 0 have the direction of their sign.
+HWY_INLINE void find_reciprocals(RayBundle& bundle, std::size_t first, RayBits& bits) {
+  const Floats tag;
+  const auto small = hn::Set(tag, smallest_component), zero = hn::Zero(tag);
+  auto sum = zero;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    bundle.sheared_along[axis][0] |= (axis_bits[axis] & ~down) << first;
-    bundle.sheared_along[axis][1] |= (axis_bits[axis] & down) << first;
+    const auto d = hn::Load(tag, bundle.direction[axis].data() + first);
+    const auto origin = hn::Load(tag, bundle.origin[axis].data() + first);
+    sum = hn::Add(sum, hn::Mul(hn::Add(hn::Mul(d, zero), origin), zero));
+    const auto nonzero = hn::IfThenElse(hn::Ge(hn::Abs(d), small), d, hn::CopySign(small, d));
+    const auto reciprocal = hn::Div(hn::Set(tag, 1.0F), nonzero);
+    hn::Store(reciprocal, tag, bundle.reciprocal[axis].data() + first);
+    bits.forward[axis] |= bits_of(tag, hn::Ge(d, small)) << first;
+    bits.below[axis] |= bits_of(tag, hn::Lt(reciprocal, zero)) << first;
   }
+  bits.finite |= bits_of(tag, hn::Eq(sum, zero)) << first;
+}
+
+HWY_INLINE void find_shears(RayBundle& bundle, const RayBits& bits) {
+  const std::array<RayMask, 3> along{bits.along_x, bits.along_y, bundle.all() & ~(bits.along_x | bits.along_y)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bundle.sheared_along[axis] = {along[axis] & ~bits.down, along[axis] & bits.down};
+  }
+}
+
+/// Finds the rows of a BVH node's bounds that all rays reach first, if all have the same direction along each axis.
+HWY_INLINE void find_octant(RayBundle& bundle, const RayBits& bits) {
+  const RayMask all = bundle.all();
+  bundle.is_one_octant = true;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const RayMask below = bits.below[axis] & all;
+    bundle.is_one_octant = bundle.is_one_octant && (below == 0 || below == all);
+    bundle.near_row[axis] = below == all ? axis + 3 : axis;
+    bundle.far_row[axis] = below == all ? axis : axis + 3;
+  }
+}
+
+/// Finds what follows from the rays alone; returns those all of whose numbers are finite.
+HWY_INLINE RayMask find_directions(RayBundle& bundle) {
+  RayBits bits;
+  for (std::size_t first = 0; first < bundle.count; first += lanes_of<Floats>()) {
+    shear(bundle, first, bits);
+    find_reciprocals(bundle, first, bits);
+  }
+  bundle.forward = bits.forward;
+  find_shears(bundle, bits);
+  find_octant(bundle, bits);
+  return bits.finite & bundle.all();
 }
 
 /// The starts of rays along an axis, relative to the grid's begin.
@@ -144,42 +191,21 @@ HWY_INLINE hn::Vec<Doubles> from_grid(const RayBundle& bundle, std::size_t axis,
 HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size_t first) {
   const Doubles tag;
   const HalfFloats half;
-  const auto small = hn::Set(half, smallest_component);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto d = hn::Load(half, bundle.direction[axis].data() + first);
-    const auto is_forward = hn::Ge(d, small), is_backward = hn::Le(d, hn::Neg(small));
-    const auto counts = hn::Or(is_forward, is_backward);
-    const auto nonzero = hn::IfThenElse(counts, d, hn::CopySign(small, d));
-    const auto reciprocal = hn::Div(hn::Set(tag, 1.0), hn::PromoteTo(tag, nonzero));
-    hn::Store(hn::DemoteTo(half, reciprocal), half, bundle.reciprocal[axis].data() + first);
-    const auto origin = from_grid(bundle, axis, first);
-    const RayMask forward = bits_of(half, is_forward), backward = bits_of(half, is_backward);
-    const auto steps = mask_of(tag, forward | backward);
+    const auto d = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
+    const auto steps = hn::Ge(hn::Abs(d), hn::Set(tag, double{smallest_component}));
+    const auto reciprocal = hn::Div(hn::Set(tag, 1.0), d);
     const auto slope = hn::Mul(hn::Set(tag, double{frame.finest_cell}), reciprocal);
     hn::Store(hn::IfThenElseZero(steps, slope), tag, bundle.slope[axis].data() + first);
-    const auto offset = hn::Mul(hn::Neg(origin), reciprocal);
+    const auto offset = hn::Mul(hn::Neg(from_grid(bundle, axis, first)), reciprocal);
     hn::Store(hn::IfThenElse(steps, offset, hn::Set(tag, never)), tag, bundle.offset[axis].data() + first);
-    bundle.forward[axis] |= forward << first;
-    bundle.backward[axis] |= backward << first;
   }
 }
 
-/// Finds the rows of a BVH node's bounds that all rays reach first, if all have the same direction along each axis. -0 and values
-/// that count as 0 have the direction of their sign, like a reciprocal.
-HWY_INLINE void find_octant(RayBundle& bundle) {
-  const Floats tag;
-  const RayMask all = bundle.all();
-  bundle.is_one_octant = true;
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    RayMask below = 0;
-    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Floats>()) {
-      below |= bits_of(tag, hn::Lt(hn::Load(tag, bundle.reciprocal[axis].data() + first), hn::Zero(tag))) << first;
-    }
-    below &= all;
-    bundle.is_one_octant = bundle.is_one_octant && (below == 0 || below == all);
-    bundle.near_row[axis] = below == all ? axis + 3 : axis;
-    bundle.far_row[axis] = below == all ? axis : axis + 3;
-  }
+/// Those of the rays from `first` on that cross planes of the axis.
+HWY_INLINE hn::Mask<Doubles> has_step(const RayBundle& bundle, std::size_t axis, std::size_t first) {
+  const Doubles tag;
+  return hn::Ne(hn::Load(tag, bundle.slope[axis].data() + first), hn::Zero(tag));
 }
 
 // --- Planes and cells ---
@@ -205,7 +231,8 @@ struct Cells {
 /// CellTraversal::locate(), starting from a guess.
 std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, double t, std::int32_t cell, const Cells& among,
                     std::size_t entry_axis) {
-  const std::int32_t step = (bundle.forward[axis] >> ray & 1U) != 0 ? 1 : (bundle.backward[axis] >> ray & 1U) != 0 ? -1 : 0;
+  const double slope = bundle.slope[axis][ray];
+  const std::int32_t step = slope > 0.0 ? 1 : slope < 0.0 ? -1 : 0;
   return settle(cell, among.low, among.high, step,
                 [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); });
 }
@@ -216,8 +243,7 @@ HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std
   const HalfFloats half;
   const auto origin = from_grid(bundle, axis, first);
   const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
-  const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
-  const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
+  const auto along = hn::IfThenElse(has_step(bundle, axis, first), hn::Add(origin, hn::Mul(t, direction)), origin);
   return hn::Mul(along, hn::Set(tag, bundle.finest_cells));
 }
 
@@ -226,6 +252,11 @@ HWY_INLINE void locate_macro(RayBundle& bundle, std::size_t axis, std::size_t fi
                              const Cells& among, std::size_t entry_axis) {
   const Doubles tag;
   const HalfIntegers integers;
+  if (((among.low ^ (among.high - 1)) & -finest_per_macro) == 0) {  // all in one macro cell
+    hn::BlendedStore(hn::Set(integers, among.low & -finest_per_macro), mask_of(integers, wanted), integers,
+                     bundle.cells[axis].data() + first);
+    return;
+  }
   const auto guess = hn::Min(hn::Max(place(bundle, axis, first, t), hn::Set(tag, static_cast<double>(among.low))),
                              hn::Set(tag, static_cast<double>(among.high - 1)));
   const auto cell = hn::DemoteTo(integers, guess);
@@ -265,13 +296,13 @@ HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted,
         hn::Min(hn::Max(place(bundle, axis, first, t), hn::Zero(tag)), hn::Set(tag, static_cast<double>(size - 1)));
     const auto cell = hn::DemoteTo(integers, guess);
     hn::BlendedStore(cell, mask_of(integers, here), integers, bundle.arrival[axis].data() + first);
+    const auto slope = hn::Load(tag, bundle.slope[axis].data() + first);
     const auto crossed_before = [&](hn::Vec<HalfIntegers> index) {
-      const auto at = hn::Add(hn::Mul(hn::PromoteTo(tag, index), hn::Load(tag, bundle.slope[axis].data() + first)),
-                              hn::Load(tag, bundle.offset[axis].data() + first));
+      const auto at = hn::Add(hn::Mul(hn::PromoteTo(tag, index), slope), hn::Load(tag, bundle.offset[axis].data() + first));
       return bits_of(tag, hn::Lt(at, t)) | (bits_of(tag, hn::Eq(at, t)) & ties >> first);
     };
     const RayMask low = crossed_before(cell), high = crossed_before(hn::Add(cell, hn::Set(integers, 1)));
-    const RayMask forward = bundle.forward[axis] >> first, backward = bundle.backward[axis] >> first;
+    const RayMask forward = bundle.forward[axis] >> first, backward = bits_of(tag, hn::Lt(slope, hn::Zero(tag)));
     for (RayMask off = here & ((forward & (~low | high)) | (backward & (low | ~high))); off != 0; off &= off - 1) {
       const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(off));
       const std::size_t entry_axis = (ties >> ray & 1U) != 0 ? traversal_starts : 0;
@@ -374,29 +405,25 @@ RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32
   return inside;
 }
 
-/// CellTraversal::enter() for the rays from `first` on: those that hit the grid.
-HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
+/// CellTraversal::enter() for the rays of `finite` from `first` on: those that hit the grid.
+HWY_INLINE RayMask enter_grid(RayBundle& bundle, RayMask finite, std::size_t first) {
   const Doubles tag;
   const HalfFloats half;
   const auto zero = hn::Zero(tag);
-  auto sum = zero, t_enter = zero, t_exit = hn::PromoteTo(tag, hn::Load(half, bundle.t_max.data() + first));
-  RayMask inside = first_bits(lanes_of<Doubles>());
+  auto t_enter = zero, t_exit = hn::PromoteTo(tag, hn::Load(half, bundle.t_max.data() + first));
+  RayMask inside = (finite & ~bundle.arrived) >> first;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto origin = from_grid(bundle, axis, first);
-    sum = hn::Add(sum, hn::Add(origin, hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first))));
-    const RayMask forward = bundle.forward[axis] >> first, steps = forward | bundle.backward[axis] >> first;
-    const auto is_forward = mask_of(tag, forward), has_step = mask_of(tag, steps);
+    const auto steps = has_step(bundle, axis, first);
     const auto low = plane(bundle, axis, first, 0), high = plane(bundle, axis, first, bundle.grid_size[axis]);
-    t_enter = hn::IfThenElse(has_step, hn::Max(t_enter, hn::IfThenElse(is_forward, low, high)), t_enter);
-    t_exit = hn::IfThenElse(has_step, hn::Min(t_exit, hn::IfThenElse(is_forward, high, low)), t_exit);
-    const auto at = hn::Mul(origin, hn::Set(tag, bundle.finest_cells));
-    const auto between = hn::And(hn::Ge(at, zero), hn::Lt(at, hn::Set(tag, static_cast<double>(bundle.grid_size[axis]))));
-    inside &= steps | bits_of(tag, between);
+    t_enter = hn::Max(t_enter, hn::IfThenElseZero(steps, hn::Min(low, high)));
+    t_exit = hn::Min(t_exit, hn::Max(low, high));  // infinite without a step
+    if (!hn::AllTrue(tag, steps)) {
+      const auto at = hn::Mul(from_grid(bundle, axis, first), hn::Set(tag, bundle.finest_cells));
+      const auto between = hn::And(hn::Ge(at, zero), hn::Lt(at, hn::Set(tag, static_cast<double>(bundle.grid_size[axis]))));
+      inside &= bits_of(tag, hn::Or(steps, between));
+    }
   }
-  // Something is not finite: doubles cannot overflow from floats.
-  inside &= bits_of(tag, hn::Eq(hn::Mul(sum, zero), zero));
   inside &= bits_of(tag, hn::Lt(t_enter, t_exit));
-  inside &= ~(bundle.arrived >> first);
   hn::BlendedStore(t_enter, mask_of(tag, ~(bundle.arrived >> first)), tag, bundle.t_enter.data() + first);
   for (std::size_t axis = 0; axis < 3 && inside != 0; ++axis) {
     locate_macro(bundle, axis, first, inside, t_enter, {0, bundle.grid_size[axis]}, traversal_starts);
@@ -407,23 +434,18 @@ HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
 void enter(RayBundle& bundle, const GridFrame& frame, const Region& region) {
   bundle.grid_size = grid_size(frame);
   bundle.region = region;
-  bundle.is_whole = region == Region{.high = bundle.grid_size};
+  bundle.is_whole = is_whole(region, bundle.grid_size);
   bundle.grid_low = frame.low;
   bundle.finest_cells = 1.0 / double{frame.finest_cell};
-  clear(bundle);
+  clear_hits(bundle);
   load(bundle);
-  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Floats>()) {
-    shear(bundle, first);
-  }
-  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+  const RayMask finite = find_directions(bundle);
+  bundle.alive = bundle.left = 0;
+  for (std::size_t first = 0; first < bundle.count; first += lanes_of<Doubles>()) {
     find_planes(bundle, frame, first);
+    const bool have_arrived = (~bundle.arrived >> first & first_bits(lanes_of<Doubles>())) == 0;
+    bundle.alive |= have_arrived ? 0 : enter_grid(bundle, finite, first) << first;
   }
-  find_octant(bundle);
-  bundle.alive = 0;
-  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
-    bundle.alive |= enter_grid(bundle, first) << first;
-  }
-  bundle.alive &= bundle.all();
   if (!bundle.is_whole) {
     bundle.alive = stay(bundle, bundle.alive, traversal_starts, 0);
   }
@@ -441,7 +463,26 @@ HWY_INLINE hn::Vec<Integers> progress(const RayBundle& bundle, std::size_t first
   return sum;
 }
 
+/// Selects the rays of `candidates` that are in the cell of one of them.
+HWY_INLINE void select_cell_of(RayBundle& bundle, RayMask candidates) {
+  const Integers tag;
+  const auto leader = static_cast<std::size_t>(std::countr_zero(candidates));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bundle.cell[axis] = bundle.cells[axis][leader];
+    RayMask same = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+      same |= bits_of(tag, hn::Eq(hn::Load(tag, bundle.cells[axis].data() + first), hn::Set(tag, bundle.cell[axis]))) << first;
+    }
+    candidates &= same;
+  }
+  bundle.group = candidates;
+}
+
 void next_group(RayBundle& bundle) {
+  select_cell_of(bundle, bundle.alive);
+  if (bundle.group == bundle.alive) {
+    return;
+  }
   const Integers tag;
   alignas(64) Row<std::int32_t> way;
   auto least = hn::Set(tag, std::numeric_limits<std::int32_t>::max());
@@ -456,17 +497,7 @@ void next_group(RayBundle& bundle) {
   for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
     candidates |= bits_of(tag, hn::Eq(hn::Load(tag, way.data() + first), nearest)) << first;
   }
-  candidates &= bundle.alive;
-  const auto leader = static_cast<std::size_t>(std::countr_zero(candidates));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bundle.cell[axis] = bundle.cells[axis][leader];
-    RayMask same = 0;
-    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
-      same |= bits_of(tag, hn::Eq(hn::Load(tag, bundle.cells[axis].data() + first), hn::Set(tag, bundle.cell[axis]))) << first;
-    }
-    candidates &= same;
-  }
-  bundle.group = candidates;
+  select_cell_of(bundle, candidates & bundle.alive);
 }
 
 /// CellTraversal::exit_through() for the rays from `first` on; t_at(axis) is where they reach their plane of an axis.
@@ -497,8 +528,10 @@ void find_exits(RayBundle& bundle, const PlanesAhead& ahead) {
       continue;
     }
     const auto exit = exit_through(bundle, first, [&](std::size_t axis) {
-      return hn::IfThenElse(mask_of(tag, bundle.forward[axis] >> first), plane(bundle, axis, first, ahead.above[axis]),
-                            plane(bundle, axis, first, ahead.below[axis]));
+      const auto slope = hn::Load(tag, bundle.slope[axis].data() + first);
+      const auto index = hn::IfNegativeThenElse(slope, hn::Set(tag, static_cast<double>(ahead.below[axis])),
+                                                hn::Set(tag, static_cast<double>(ahead.above[axis])));
+      return hn::Add(hn::Mul(index, slope), hn::Load(tag, bundle.offset[axis].data() + first));
     });
     hn::Store(hn::DemoteTo(half, hn::Load(tag, bundle.t_enter.data() + first)), half, bundle.t_low.data() + first);
     hn::Store(hn::Min(hn::DemoteTo(half, exit), hn::Load(half, bundle.t_max.data() + first)), half, bundle.t_high.data() + first);

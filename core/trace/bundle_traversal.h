@@ -165,7 +165,7 @@ class BundleTraversal {
           test_leaf(record, address, wanted);
         } else {
           operations_.bvh_node_reads += wanted;
-          intersectors_.meet_children(bundle_, *reinterpret_cast<const BvhNode*>(record), bundle_.next_rays, !bundle_.any);
+          intersectors_.meet_children(bundle_, *reinterpret_cast<const BvhNode*>(record), bundle_.next_rays);
         }
         intersectors_.take_child(bundle_);
       }
@@ -202,10 +202,10 @@ class BundleTraversal {
   void meet_bvh_nodes(const BvhNode& bvh_node) {
     if (bundle_.is_inside) {
       bundle_.swap_rows();
-      intersectors_.meet_children(bundle_, padded(bvh_node, bundle_.mesh_pad), bundle_.next_rays, !bundle_.any);
+      intersectors_.meet_children(bundle_, padded(bvh_node, bundle_.mesh_pad), bundle_.next_rays);
       bundle_.swap_rows();
     } else {
-      intersectors_.meet_children(bundle_, bvh_node, bundle_.next_rays, !bundle_.any);
+      intersectors_.meet_children(bundle_, bvh_node, bundle_.next_rays);
     }
   }
 
@@ -263,7 +263,7 @@ class BundleTraversal {
         const std::uint32_t wanted = count_of(bundle_.next_rays);
         operations_.bvh_node_reads += wanted;
         const std::byte* const record = find(bundle_.next.address(), wanted);
-        intersectors_.meet_children(bundle_, *reinterpret_cast<const BvhNode*>(record), bundle_.next_rays, true);
+        intersectors_.meet_children(bundle_, *reinterpret_cast<const BvhNode*>(record), bundle_.next_rays);
       }
       intersectors_.take_child(bundle_);
     }
@@ -339,7 +339,7 @@ class BundleTraversal {
       hit_curved(bundle_, record, leaf, rays);
     }
     if (bundle_.any && bundle_.found != found) {
-      operations_.skipped.any_hit += intersectors_.count_wanted(bundle_, bundle_.found & ~found);
+      operations_.skipped.any_hit += intersectors_.count_waiting(bundle_, bundle_.found & ~found);
     }
   }
 

@@ -7,12 +7,6 @@
 namespace dmpc::core {
 namespace {
 
-/// Written out, since a comparison of arrays is a function call.
-bool is_whole(const Region& region, const Corner& size) {
-  return (region.low[0] | region.low[1] | region.low[2]) == 0 && region.high[0] == size[0] && region.high[1] == size[1] &&
-         region.high[2] == size[2];
-}
-
 /// The number of macro cells on the way from one to another, from neighbour to neighbour.
 std::int32_t macro_cells_between(const Corner& from, const Corner& to) {
   return (std::abs(to[0] - from[0]) + std::abs(to[1] - from[1]) + std::abs(to[2] - from[2])) / finest_per_macro;

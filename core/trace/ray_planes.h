@@ -14,6 +14,12 @@
 
 namespace dmpc::core {
 
+/// Whether a region is a whole grid of this size. Written out, since a comparison of arrays is a function call.
+constexpr bool is_whole(const Region& region, const Corner& size) {
+  return (region.low[0] | region.low[1] | region.low[2]) == 0 && region.high[0] == size[0] && region.high[1] == size[1] &&
+         region.high[2] == size[2];
+}
+
 /// Stands for the axis of the entry plane where the traversal starts in a cell.
 inline constexpr std::uint8_t traversal_starts = 3;
 /// Up to this t a point on a ray, in double, is off by less than 2^-31 of the grid.

@@ -40,9 +40,9 @@ struct Skip {
 
 /// Every skip, in the order of reports.
 inline constexpr std::array all_skips{
-    // Counts the children whose boxes the ray enters before that hit.
-    Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
-         "children of BVH nodes that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
+    // A ray by itself counts the children whose boxes it enters before that hit, a ray of a bundle all children that wait.
+    Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest", "children of BVH nodes that still waited",
+         &Skips::any_hit, &SkippedWork::any_hit},
     Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention traces it)", "shadow rays", &Skips::unlit,
          &SkippedWork::unlit},
     // Does not count what those rays would have spawned.

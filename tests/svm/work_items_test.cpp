@@ -181,14 +181,16 @@ TEST_CASE("of a scan in tiles only the wanted pixels come") {
   CHECK(svm::PixelScan(PixelRectangle{0, 0, 3, 3}, {}, 0).empty());
 }
 
-TEST_CASE("a tile is as square as a power of two allows, of as many pixels as have room for their samples") {
+TEST_CASE("a tile is as square as a power of two allows, of as many pixels as fill bundles with their samples") {
   CHECK(svm::tile_of(16) == svm::PixelTile{4, 4});
   CHECK(svm::tile_of(8) == svm::PixelTile{4, 2});
   CHECK(svm::tile_of(5) == svm::PixelTile{2, 2});
   CHECK(svm::tile_of(1) == svm::PixelTile{1, 1});
   CHECK(svm::tile_of(0) == svm::PixelTile{1, 1});
   CHECK(svm::tile_for(4, 16) == svm::PixelTile{2, 2});
-  CHECK(svm::tile_for(100, 16) == svm::PixelTile{1, 1});
+  CHECK(svm::tile_for(16, 16) == svm::PixelTile{1, 1});
+  CHECK(svm::tile_for(12, 16) == svm::PixelTile{2, 2});
+  CHECK(svm::tile_for(3, 16) == svm::PixelTile{4, 4});
   CHECK(svm::tile_for(1, 1) == svm::PixelTile{1, 1});
 }
 

@@ -35,9 +35,9 @@ namespace {
 
 /// Identify another run with the same results.
 Facts results_of(const RenderRecord& record, const Account& account) {
-  Facts results = {{"film", hash_text(record.film_hash)}};
+  Facts results = {{"film", hash_text(record.film_hash())}};
   if (account.virtual_time) {
-    results.emplace_back("run", hash_text(account.virtual_time->run_hash(record.film_hash)));
+    results.emplace_back("run", hash_text(account.virtual_time->run_hash(record.film_hash())));
   }
   return results;
 }

@@ -327,7 +327,7 @@ Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
 
 std::string stats_json(const RenderRecord& record) {
   const Account account = account_of(record.report);
-  const VirtualStats timed = virtual_stats(account, record.film_hash);
+  const VirtualStats timed = virtual_stats(account, record.film_hash());
   const std::optional<nodes::Machine>& machine = record.options.computer.machine;
   const StrategyStats special =
       std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
@@ -336,7 +336,7 @@ std::string stats_json(const RenderRecord& record) {
               {"options", options_json(record, account)},
               {"runner", name_of(record.options.runner.kind)},
               {"machine", machine ? machine_json(*machine) : Json()},
-              {"film_hash", hash_text(record.film_hash)},
+              {"film_hash", hash_text(record.film_hash())},
               {"film_scale", account.film.scale().factor()},
               {"sampling", sampling_json(record, account)},
               {"rays", rays_json(account.operations.rays)},

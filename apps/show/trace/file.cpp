@@ -57,7 +57,7 @@ TraceView view_of(const RenderRecord& record) {
   if (account.virtual_time) {
     view.remarks.push_back({"machine", options.computer.machine->name});
     view.remarks.push_back({"machine_digest", hash_text(account.virtual_time->machine_digest)});
-    view.remarks.push_back({"run_hash", hash_text(account.virtual_time->run_hash(record.film_hash))});
+    view.remarks.push_back({"run_hash", hash_text(account.virtual_time->run_hash(record.film_hash()))});
   }
   if (account.ranks.size() > 1) {
     view.remarks.push_back({"clocks", clocks_text(account.ranks, *record.trace)});

@@ -61,6 +61,28 @@ Vec3d sum_of(const FixedColor& plane) {
   return {static_cast<double>(plane.channel[0]), static_cast<double>(plane.channel[1]), static_cast<double>(plane.channel[2])};
 }
 
+/// Film::radiance() of one pixel after the other: divides only where the number of samples changes.
+class Means {
+ public:
+  explicit Means(const Film& film) : film_(film), by_scale_(1 / film.scale().factor()) {}
+
+  Vec3d radiance(std::uint32_t pixel) {
+    const std::uint32_t samples = film_.samples(pixel);
+    expect(samples > 0, "a picture has samples");
+    if (samples != samples_) {
+      samples_ = samples;
+      unit_ = film_resolution / samples;
+    }
+    const PixelSums sums = film_.sums(pixel);
+    return (sum_of(sums.plane[0]) + sum_of(sums.plane[1])) * unit_ * by_scale_;
+  }
+
+ private:
+  const Film& film_;
+  double by_scale_, unit_ = 0;
+  std::uint32_t samples_ = 0;
+};
+
 bool is_full(const PixelSums& sums, std::size_t channel) {
   return std::any_of(sums.plane.begin(), sums.plane.end(),
                      [channel](const FixedColor& plane) { return plane.channel[channel] == film_channel_max; });
@@ -112,6 +134,16 @@ std::uint64_t Film::samples() const {
   return std::accumulate(own.begin(), own.end(), of_all);
 }
 
+void Film::copy_radiance(std::size_t first, std::span<float> rgb) const {
+  Means means(*this);
+  for (std::size_t place = 0; place < rgb.size(); place += 3) {
+    const Vec3d radiance = means.radiance(static_cast<std::uint32_t>(first + place / 3));
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      rgb[place + channel] = static_cast<float>(radiance[channel]);
+    }
+  }
+}
+
 Vec3d Film::scaled_mean(std::uint32_t pixel) const {
   expect(samples(pixel) > 0, "a picture has samples");
   const Vec3d first = sum_of(first_[pixel]);
@@ -149,8 +181,9 @@ std::uint64_t Film::hash() const {
 
 FilmRange range_of(const Film& film) {
   FilmRange range;
+  Means means(film);
   for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-    const Vec3d radiance = film.radiance(pixel);
+    const Vec3d radiance = means.radiance(pixel);
     bool is_cut = false;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       range.brightest = std::max(range.brightest, radiance[channel]);

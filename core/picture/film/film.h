@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/base/vec.h"
 #include "core/base/zeroed_array.h"
@@ -97,6 +98,8 @@ class Film {
   std::uint64_t samples() const;
   /// Mean linear radiance of a pixel; requires samples(pixel) > 0.
   Vec3d radiance(std::uint32_t pixel) const { return scaled_mean(pixel) * (1 / scale_.factor()); }
+  /// The radiance of pixels from `first` on, as floats, three for each.
+  void copy_radiance(std::size_t first, std::span<float> rgb) const;
   /// Mean linear scaled radiance of a pixel; requires samples(pixel) > 0.
   Vec3d scaled_mean(std::uint32_t pixel) const;
   /// Scaled light of a pixel on a plane.

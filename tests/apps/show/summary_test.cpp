@@ -42,6 +42,15 @@ TEST_CASE("the closing lines of a pool tell that pages are counted as copies, un
   CHECK_FALSE(tells(small(Strategy::dataflow), 2));
 }
 
+TEST_CASE("the film's hash is found when the closing lines name it, and not before") {
+  const Rendered rendered(small());
+  const RenderRecord record = rendered.record();
+  CHECK_FALSE(record.found_film_hash);
+  std::ostringstream output;
+  print_summary(output, record);
+  CHECK(record.found_film_hash == account_of(*rendered.report).film.hash());
+}
+
 TEST_CASE("the closing lines of replicated do without pages") {
   const std::string text = summary(small(Strategy::replicated));
   CHECK_FALSE(contains(text, "pages    "));

@@ -179,6 +179,24 @@ TEST_CASE("a film's hash tells its integers, its planes and its size apart") {
   CHECK(one.hash() != row.hash());
 }
 
+TEST_CASE("the radiance of several pixels at once is that of each, however many samples they have, and of none without one") {
+  for (const std::uint32_t planes : {1U, 2U}) {
+    Random random(planes);
+    Film film(40, 1, {3}, planes);
+    for (std::uint32_t pixel = 0; pixel < 39; ++pixel) {
+      const auto light = [&] { return to_fixed(Color(random.in_box(0, 9)), film.scale()); };
+      film.deposit(pixel, {{light(), planes == 2 ? light() : FixedColor{}}});
+      film.add_samples(pixel, random.below(3) + 1);
+    }
+    std::array<float, 3 * 20> rgb{};
+    film.copy_radiance(19, rgb);
+    for (std::uint32_t place = 0; place < rgb.size(); ++place) {
+      CHECK(rgb[place] == static_cast<float>(film.radiance(19 + place / 3)[place % 3]));
+    }
+    CHECK_THROWS_AS(film.copy_radiance(20, rgb), InternalError);
+  }
+}
+
 TEST_CASE("a film tells its brightest radiance, as it is without the scale") {
   for (const int exponent : {-20, 0, 20}) {
     Film film(2, 1, {exponent});
