@@ -43,7 +43,8 @@ std::uint64_t allocated_by(const svm::Strategy* strategy, const svm::RunOptions&
   for (std::uint32_t i = 0; i < options.computer.node_count + (error == 0 ? 1 : 0); ++i) {
     specifications[i] = watched(specifications[i]);
   }
-  nodes::ThreadsRunner runner(specifications);
+  const nodes::ComputerRequest& computer = options.computer;
+  nodes::ThreadsRunner runner(specifications, std::nullopt, nullptr, computer.pool_threads, computer.immutable());
   return allocated_in_run(runner);
 }
 
@@ -60,6 +61,13 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
   CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.count_pages = true;
   CHECK(allocated_by<svm::CountingPager>(svm::svm_strategy(), options) == 0);
+}
+
+TEST_CASE("nodes of a pool, which refer to pages, allocate nothing while they render, either") {
+  svm::RunOptions options{.computer = {.node_count = 5, .pool_threads = 2}};
+  CHECK(allocated_by<svm::LocalCopy, core::BundleTask>(svm::replicated_strategy(), options) == 0);
+  options.pages.cache_pages = 1;
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::svm_strategy(), options) == 0);
 }
 
 TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
