@@ -28,20 +28,26 @@ void blend(PlainSurface& surface, const core::PatchNormals& normals, float u, fl
 
 }  // namespace
 
-std::optional<PlainSurface> EmbreeQueries::surface_along(const Vec3d& origin, const Vec3d& direction) {
+template <class T>
+std::optional<PlainSurface> EmbreeQueries::surface_along(const core::Vec3<T>& origin, const core::Vec3<T>& direction) {
   ++rays_;
   RTCRayHit asked;
   asked.ray = embree::ray_of(Vec3f(origin), Vec3f(direction), endless);
-  context_.origin = origin;
-  context_.direction = direction;
+  if (stage_.is_curved()) {
+    context_.origin = Vec3d(origin);
+    context_.direction = Vec3d(direction);
+  }
   asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(stage_.tree().library(), stage_.tree().scene(), context_.embree, asked);
   if (asked.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return std::nullopt;
   }
-  return stage_.is_triangle(asked.hit.geomID) ? triangle_at(asked, Vec3f(origin), Vec3f(direction))
-                                              : stage_.curved_at(asked.hit.primID, origin, direction, asked.ray.tfar);
+  return stage_.is_triangle(asked.hit.geomID)
+             ? triangle_at(asked, Vec3f(origin), Vec3f(direction))
+             : stage_.curved_at(asked.hit.primID, context_.origin, context_.direction, asked.ray.tfar);
 }
+template std::optional<PlainSurface> EmbreeQueries::surface_along(const Vec3f&, const Vec3f&);
+template std::optional<PlainSurface> EmbreeQueries::surface_along(const Vec3d&, const Vec3d&);
 
 PlainSurface EmbreeQueries::triangle_at(const RTCRayHit& asked, const Vec3f& origin, const Vec3f& direction) const {
   PlainSurface surface;
@@ -55,7 +61,6 @@ PlainSurface EmbreeQueries::triangle_at(const RTCRayHit& asked, const Vec3f& ori
   } else {
     surface.material = stage_.flat_material_of(asked.hit.primID);
   }
-  surface.exact_normal = Vec3d(surface.normal);
   return surface;
 }
 

@@ -20,8 +20,8 @@ inline core::Vec3f plain_start(const PlainSurface& surface, const core::Vec3f& t
   return surface.point + surface.geometric_normal * side;
 }
 
-/// As above for a reflected or refracted ray; a curved surface is told from others by doubles, not by an offset.
-inline core::Vec3d plain_exact_start(const PlainSurface& surface, const core::Vec3d& towards) {
+/// As above in double precision; doubles tell a curved surface from its ray, without an offset.
+inline core::Vec3d plain_start(const PlainSurface& surface, const core::Vec3d& towards) {
   return surface.is_curved ? surface.exact_point : core::Vec3d(plain_start(surface, core::Vec3f(towards)));
 }
 
@@ -35,7 +35,8 @@ class EmbreeQueries {
  protected:
   const PlainStage& stage() const { return stage_; }
   /// Returns the nearest surface; nothing if the ray hits none.
-  std::optional<PlainSurface> surface_along(const core::Vec3d& origin, const core::Vec3d& direction);
+  template <class T>
+  std::optional<PlainSurface> surface_along(const core::Vec3<T>& origin, const core::Vec3<T>& direction);
   /// Returns the direct light that the surface, hit along `direction`, reflects, after a shadow ray to each light that may
   /// contribute.
   core::Color lights_on(const PlainSurface& surface, const PlainMaterial& material, const core::Vec3f& direction);

@@ -28,7 +28,6 @@ namespace {
 
 using core::brightest;
 using core::Color;
-using core::Vec3d;
 using core::Vec3f;
 
 /// Limit for the difference of means, relative.
@@ -42,43 +41,49 @@ double square_noise_of(const core::Film& film, std::uint32_t pixel) {
   return dot(apart, apart) / (film.scale().factor() * film.scale().factor()) / (1 / on_first + 1 / on_second) / samples;
 }
 
+/// Works on rays in single precision, or in double where mirrors are curved, which multiply what rounding leaves.
+template <class T>
 class Painter : public EmbreeQueries {
  public:
   using EmbreeQueries::EmbreeQueries;
+  using Vec = core::Vec3<T>;
 
-  Color light_along(const Vec3d& origin, const Vec3d& way, int depth) {
-    const std::optional<PlainSurface> surface = surface_along(origin, way);
+  Color color(int x, int y) {
+    return light_along(Vec(stage().camera().eye), stage().camera().towards(static_cast<T>(x), static_cast<T>(y)), 1);
+  }
+
+ private:
+  Color light_along(const Vec& origin, const Vec& direction, int depth) {
+    const std::optional<PlainSurface> surface = surface_along(origin, direction);
     if (!surface) {
       return stage().settings().header.background;
     }
     const PlainMaterial& material = stage().materials()[surface->material];
-    const Vec3f direction(way);
     Color light = material.emission + stage().settings().header.ambient * (material.color * material.diffuse) +
-                  lights_on(*surface, material, direction);
+                  lights_on(*surface, material, Vec3f(direction));
     if (depth < stage().settings().shade.depth_max) {
-      light = light + passed_on(*surface, material, way, depth);
+      light = light + passed_on(*surface, material, direction, depth);
     }
     return light;
   }
 
- private:
   /// Returns the light from reflection and refraction.
-  Color passed_on(const PlainSurface& surface, const PlainMaterial& material, const Vec3d& direction, int depth) {
-    const double inside = double{material.inside_index()};
-    const double index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, surface.exact_normal);
-    const double behind = 1 - index * index * (1 - cosine * cosine);
+  Color passed_on(const PlainSurface& surface, const PlainMaterial& material, const Vec& direction, int depth) {
+    const Vec normal = surface.is_curved ? Vec(surface.exact_normal) : Vec(surface.normal);
+    const T inside{material.inside_index()}, index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, normal);
+    const T behind = 1 - index * index * (1 - cosine * cosine);
     const bool is_total = index > 1 && behind < 0;
     const float total = is_total ? material.transmittance : 0;
     const Color share = material.highlight * material.mirror + Color{total, total, total};
     Color light{};
     if (!(share == Color{})) {
-      const Vec3d towards = normalize(plain_mirrored(direction, surface.exact_normal));
-      light = light_along(plain_exact_start(surface, towards), towards, depth + 1) * share;
+      const Vec towards = normalize(plain_mirrored(direction, normal));
+      light = light_along(plain_start(surface, towards), towards, depth + 1) * share;
     }
     if (!is_total && material.transmittance > 0) {
-      const Vec3d bent = direction * index + surface.exact_normal * (index * cosine - std::sqrt(std::max(behind, 0.0)));
-      const Vec3d towards = normalize(bent);
-      light = light + light_along(plain_exact_start(surface, towards), towards, depth + 1) * material.transmittance;
+      const Vec bent = direction * index + normal * (index * cosine - std::sqrt(std::max(behind, T{})));
+      const Vec towards = normalize(bent);
+      light = light + light_along(plain_start(surface, towards), towards, depth + 1) * material.transmittance;
     }
     return light;
   }
@@ -134,15 +139,12 @@ class Walker : public EmbreeQueries {
       x += static_cast<float>(place.x) - 0.5F;
       y += static_cast<float>(place.y) - 0.5F;
     }
-    return {.pixel = pixel,
-            .sample = sample,
-            .origin = Vec3f(stage().camera().eye),
-            .direction = Vec3f(stage().camera().towards(double{x}, double{y}))};
+    return {.pixel = pixel, .sample = sample, .origin = Vec3f(stage().camera().eye), .direction = stage().camera().towards(x, y)};
   }
 
   Color light_of(Walk walk) {
     Color light{};
-    while (const std::optional<PlainSurface> surface = surface_along(Vec3d(walk.origin), Vec3d(walk.direction))) {
+    while (const std::optional<PlainSurface> surface = surface_along(walk.origin, walk.direction)) {
       const PlainMaterial& material = stage().materials()[surface->material];
       light = light + walk.weight * material.emission * mis_weight(walk, *surface, material);
       if (walk.depth > depth_max() || !step(walk, *surface, material, light)) {
@@ -264,9 +266,9 @@ PlainPicture PlainRenderer::render(std::uint32_t thread_count) const {
   if (stage_->settings().shade.transport.is_by_paths()) {
     return painted<Walker>(*stage_, thread_count, [](Walker& walker, int x, int y) { return walker.mean_of(x, y); });
   }
-  return painted<Painter>(*stage_, thread_count, [this](Painter& painter, int x, int y) {
-    return painter.light_along(stage_->camera().eye, stage_->camera().towards(x, y), 1);
-  });
+  const auto color = [](auto& painter, int x, int y) { return painter.color(x, y); };
+  return stage_->is_curved() ? painted<Painter<double>>(*stage_, thread_count, color)
+                             : painted<Painter<float>>(*stage_, thread_count, color);
 }
 
 double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene) {

@@ -23,8 +23,8 @@ struct PlainPicture {
 /// Recursive shading after Whitted in single precision: single rays in Embree's robust tree, one process, one copy of the scene,
 /// and threads that take the next tile of the picture when they finish one. It emulates nothing, counts only rays, and guarantees
 /// no equal bits. The rays are ours: Haines' convention, the same offsets, and the same rays left out because they cannot
-/// contribute. Spheres and cones, which Embree lacks, are its user geometry (PlainQuadric). Eye rays, and those of mirrors and
-/// glass, are kept in double precision, since curved mirrors multiply what rounding leaves. There are no textures.
+/// contribute. Spheres and cones, which Embree lacks, are its user geometry (PlainQuadric); beside them eye rays, and those of
+/// mirrors and glass, are in double precision, since curved mirrors multiply what rounding leaves. There are no textures.
 ///
 /// If the subject's picture is by paths, these are ours, too: the random numbers (core/picture/sampling/sample_pair.h) and their
 /// purposes, positions in pixels, the scattering of surfaces with microfacets, light sampling and its weights, roulette, sky and

@@ -25,7 +25,10 @@ struct PlainCamera {
 
   explicit PlainCamera(const core::Camera& camera);
   /// Returns a unit vector.
-  core::Vec3d towards(double x, double y) const { return normalize(corner + right * x + down * y); }
+  template <class T>
+  core::Vec3<T> towards(T x, T y) const {
+    return normalize(core::Vec3<T>(corner) + core::Vec3<T>(right) * x + core::Vec3<T>(down) * y);
+  }
 };
 
 /// Replaces highlight and mirror for a microfacet surface.
@@ -55,7 +58,7 @@ struct PlainSurface {
   std::uint32_t material = 0;
   bool is_leaving = false;
   bool is_curved = false;
-  core::Vec3d exact_point, exact_normal;  ///< the point only of a curved surface
+  core::Vec3d exact_point, exact_normal;  ///< of a curved surface
   float radius = 0;                       ///< spheres only
 };
 
@@ -73,6 +76,8 @@ class PlainStage {
   /// The emitters that paths sample, and the alias table from which they are drawn.
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
   const std::vector<core::EmitterChoice>& choices() const { return choices_; }
+  /// Whether there are spheres or cones.
+  bool is_curved() const { return !tree_.shapes().quadrics.empty(); }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !tree_.shapes().triangles.empty(); }
   /// Returns the normals of a triangle in Embree's numbering; nullptr if it is flat.
   const core::PatchNormals* normals_of(unsigned triangle) const {
