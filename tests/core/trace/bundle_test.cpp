@@ -418,6 +418,21 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   CHECK(hits > 5);
 }
 
+TEST_CASE("rays that come from elsewhere walk together with rays that start") {
+  for_some_bundles(81, 1000, [](const Database& database, const BundleRays& rays) {
+    LocalRecords records(database.bytes());
+    Operations operations;
+    const auto bundle = bundle_of(rays);
+    for (std::size_t i = 1; i < rays.size(); i += 3) {
+      if (const auto passage = first_passage(rays[i], database.header().frame)) {
+        bundle->arrive(i, *passage);
+      }
+    }
+    trace(*bundle, records, database.header(), {}, operations);
+    check_hits(*bundle, walk_alone(database, rays));
+  });
+}
+
 TEST_CASE("rays pass boxes of their own together as each does alone, whatever instructions the processor has") {
   for (std::size_t set = 0; bundle_steps(set) != nullptr; ++set) {
     CAPTURE(set);
