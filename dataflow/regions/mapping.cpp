@@ -44,56 +44,116 @@ std::uint32_t hops(const nodes::Topology& topology, std::uint32_t a, std::uint32
 class HopTable {
  public:
   explicit HopTable(const nodes::Topology& topology) : node_count_(topology.node_count()) {
-    hops_.reserve(std::size_t{node_count_} * node_count_);
+    hops_.resize(std::size_t{node_count_} * node_count_);
     for (std::uint32_t a = 0; a < node_count_; ++a) {
-      for (std::uint32_t b = 0; b < node_count_; ++b) {
-        hops_.push_back(static_cast<std::uint16_t>(hops(topology, a, b)));  // up to region_count_max nodes the distance fits
+      for (std::uint32_t b = 0; b < a; ++b) {
+        hops_[at(a, b)] = hops_[at(b, a)] =
+            static_cast<std::uint16_t>(hops(topology, a, b));  // up to region_count_max nodes the distance fits
       }
     }
   }
   /// The distances from `node` to all nodes.
-  const std::uint16_t* from(std::uint32_t node) const { return hops_.data() + std::size_t{node} * node_count_; }
+  const std::uint16_t* from(std::uint32_t node) const { return hops_.data() + at(node, 0); }
 
  private:
+  std::size_t at(std::uint32_t from, std::uint32_t to) const { return std::size_t{from} * node_count_ + to; }
+
   std::uint32_t node_count_;
   std::vector<std::uint16_t> hops_;
 };
 
-/// The cost of a region's flows on `node` without those to `other`, with which it may swap: their distance stays.
-std::uint64_t cost_at(const Mapping& mapping, const Neighbours& neighbours, const HopTable& hops, std::uint32_t region,
-                      std::uint32_t node, std::uint32_t other) {
-  const std::uint16_t* const hops_to = hops.from(node);
-  std::uint64_t sum = 0;
-  for (const auto& [neighbour, amount] : neighbours.of(region)) {
-    sum += neighbour == other ? 0 : amount * hops_to[mapping[neighbour]];
+/// Exchanges two regions' nodes as long as that helps: goes through all pairs in order, again and again. Of most pairs it is
+/// known beforehand that it does not. (1) Neither they nor their neighbours have moved since the pair was examined. (2) Let d be
+/// the hops between the nodes of a and b, and a region's cost the sum of amount * hops over its flows. A neighbour at h hops from
+/// a's node is at least d - h hops away from b's (triangle inequality), so a's cost would be amount * d - cost or more, and
+/// together they would save nothing unless d * (both amounts) < 2 * (both costs). (Flows between a and b, whose hops stay, save
+/// less still.)
+class Descent {
+ public:
+  Descent(Mapping& mapping, const Neighbours& neighbours, const HopTable& hops)
+      : mapping_(mapping), neighbours_(neighbours), hops_(hops), flow_(mapping.size()), changed_(mapping.size()) {
+    for (std::uint32_t region = 0; region < mapping.size(); ++region) {
+      add_up(region);
+    }
   }
-  return sum;
-}
 
-bool exchange_helps(const Mapping& mapping, const Neighbours& neighbours, const HopTable& hops, std::uint32_t a,
-                    std::uint32_t b) {
-  const std::uint64_t now =
-      cost_at(mapping, neighbours, hops, a, mapping[a], b) + cost_at(mapping, neighbours, hops, b, mapping[b], a);
-  const std::uint64_t then =
-      cost_at(mapping, neighbours, hops, a, mapping[b], b) + cost_at(mapping, neighbours, hops, b, mapping[a], a);
-  return then < now;
-}
-
-/// Terminates, since every swap decreases an integer sum.
-void descend(Mapping& mapping, const Neighbours& neighbours, const HopTable& hops) {
-  const auto count = static_cast<std::uint32_t>(mapping.size());
-  for (bool has_changed = true; has_changed;) {
-    has_changed = false;
-    for (std::uint32_t a = 0; a < count; ++a) {
-      for (std::uint32_t b = a + 1; b < count; ++b) {
-        if (exchange_helps(mapping, neighbours, hops, a, b)) {
-          std::swap(mapping[a], mapping[b]);
-          has_changed = true;
+  /// Terminates, since every exchange decreases an integer sum.
+  void run() {
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (std::uint32_t a = 0; a < count(); ++a, ++now_) {
+        for (std::uint32_t b = next_new(a, a + 1); b < count(); b = next_new(a, b + 1)) {
+          if (may_help(a, b) && helps(a, b)) {
+            exchange(a, b);
+            has_changed = true;
+          }
         }
       }
     }
   }
-}
+
+ private:
+  /// The sums over a region's flows.
+  struct Flown {
+    std::uint64_t amount = 0, cost = 0;
+  };
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(mapping_.size()); }
+
+  /// Whether the region or a neighbour has moved since it was examined with the same one in the round before.
+  bool is_new(std::uint32_t region) const { return changed_[region] + count() >= now_; }
+  /// The first region from `b` on that makes a new pair with a.
+  std::uint32_t next_new(std::uint32_t a, std::uint32_t b) const {
+    while (b < count() && !is_new(b) && !is_new(a)) {
+      ++b;
+    }
+    return b;
+  }
+
+  bool may_help(std::uint32_t a, std::uint32_t b) const {
+    return hops_.from(mapping_[a])[mapping_[b]] * (flow_[a].amount + flow_[b].amount) < 2 * (flow_[a].cost + flow_[b].cost);
+  }
+  bool helps(std::uint32_t a, std::uint32_t b) const {
+    return cost_at(a, mapping_[b], b) + cost_at(b, mapping_[a], a) < cost_at(a, mapping_[a], b) + cost_at(b, mapping_[b], a);
+  }
+
+  /// The cost of a region's flows on `node` without those to `other`, with which it may swap: their distance stays.
+  std::uint64_t cost_at(std::uint32_t region, std::uint32_t node, std::uint32_t other) const {
+    const std::uint16_t* const hops_to = hops_.from(node);
+    std::uint64_t sum = 0;
+    for (const auto& [neighbour, amount] : neighbours_.of(region)) {
+      sum += neighbour == other ? 0 : amount * hops_to[mapping_[neighbour]];
+    }
+    return sum;
+  }
+
+  void exchange(std::uint32_t a, std::uint32_t b) {
+    std::swap(mapping_[a], mapping_[b]);
+    for (const std::uint32_t moved : {a, b}) {
+      note_change(moved);
+      for (const Neighbours::Entry& entry : neighbours_.of(moved)) {
+        note_change(entry.region);
+      }
+    }
+  }
+  void note_change(std::uint32_t region) {
+    changed_[region] = now_;
+    add_up(region);
+  }
+  void add_up(std::uint32_t region) {
+    flow_[region] = {.cost = cost_at(region, mapping_[region], region)};
+    for (const Neighbours::Entry& entry : neighbours_.of(region)) {
+      flow_[region].amount += entry.amount;
+    }
+  }
+
+  Mapping& mapping_;
+  const Neighbours& neighbours_;
+  const HopTable& hops_;
+  std::vector<Flown> flow_;             ///< by region
+  std::vector<std::uint64_t> changed_;  ///< by region: when it or a neighbour moved last
+  std::uint64_t now_ = 0;               ///< counts the regions a of all rounds
+};
 
 /// The number of descents and their starting points, the most promising first.
 std::uint64_t beginning_count(std::uint32_t region_count) {
@@ -155,7 +215,7 @@ Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::To
   for (std::uint64_t index = 0; index < beginning_count(bsp.region_count()) && best_hops > least_hops; ++index) {
     Mapping mapping = beginning(bsp, index);
     if (total_hops(mapping, flows, topology) > least_hops) {
-      descend(mapping, neighbours, hops ? *hops : hops.emplace(topology));
+      Descent(mapping, neighbours, hops ? *hops : hops.emplace(topology)).run();
     }
     if (const std::uint64_t found_hops = total_hops(mapping, flows, topology); found_hops < best_hops) {
       best = std::move(mapping);
