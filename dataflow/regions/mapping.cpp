@@ -19,15 +19,16 @@ class Neighbours {
  public:
   struct Entry {
     std::uint32_t region;
-    std::uint64_t amount;
+    std::int64_t amount;
   };
 
   Neighbours(std::span<const Flow> flows, std::uint32_t region_count) : of_(region_count) {
     for (const Flow& flow : flows) {
       core::expect(flow.first < region_count && flow.second < region_count && flow.first != flow.second,
                    "a flow goes between two regions");
-      of_[flow.first].push_back({flow.second, flow.amount});
-      of_[flow.second].push_back({flow.first, flow.amount});
+      const auto amount = static_cast<std::int64_t>(flow.amount);
+      of_[flow.first].push_back({flow.second, amount});
+      of_[flow.second].push_back({flow.first, amount});
     }
   }
   std::span<const Entry> of(std::uint32_t region) const { return of_[region]; }
@@ -64,10 +65,9 @@ class HopTable {
 
 /// Exchanges two regions' nodes as long as that helps: goes through all pairs in order, again and again. Of most pairs it is
 /// known beforehand that it does not. (1) Neither they nor their neighbours have moved since the pair was examined. (2) Let d be
-/// the hops between the nodes of a and b, and a region's cost the sum of amount * hops over its flows. A neighbour at h hops from
-/// a's node is at least d - h hops away from b's (triangle inequality), so a's cost would be amount * d - cost or more, and
-/// together they would save nothing unless d * (both amounts) < 2 * (both costs). (Flows between a and b, whose hops stay, save
-/// less still.)
+/// the hops between the nodes of a and b, and a region's cost the sum of amount * hops over its flows. On b's node a's neighbours
+/// would be one hop away or more, and one that is h hops away now at least d - h (triangle inequality): so a saves at most cost -
+/// amount, and at most 2 * cost - amount * d. (Flows between a and b, whose hops stay, only make this less.)
 class Descent {
  public:
   Descent(Mapping& mapping, const Neighbours& neighbours, const HopTable& hops)
@@ -82,6 +82,7 @@ class Descent {
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
       for (std::uint32_t a = 0; a < count(); ++a, ++now_) {
+        new_since_ = now_ - std::min<std::uint64_t>(now_, count());
         for (std::uint32_t b = next_new(a, a + 1); b < count(); b = next_new(a, b + 1)) {
           if (may_help(a, b) && helps(a, b)) {
             exchange(a, b);
@@ -95,34 +96,44 @@ class Descent {
  private:
   /// The sums over a region's flows.
   struct Flown {
-    std::uint64_t amount = 0, cost = 0;
+    std::int64_t amount = 0, cost = 0;
+
+    std::int64_t saved_most(std::int64_t hops) const { return std::min(cost - amount, 2 * cost - amount * hops); }
   };
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(mapping_.size()); }
 
   /// Whether the region or a neighbour has moved since it was examined with the same one in the round before.
-  bool is_new(std::uint32_t region) const { return changed_[region] + count() >= now_; }
+  bool is_new(std::uint32_t region) const { return changed_[region] >= new_since_; }
   /// The first region from `b` on that makes a new pair with a.
   std::uint32_t next_new(std::uint32_t a, std::uint32_t b) const {
-    while (b < count() && !is_new(b) && !is_new(a)) {
-      ++b;
+    if (is_new(a)) {
+      return b;
     }
-    return b;
+    const auto from = changed_.begin() + b;
+    return b + static_cast<std::uint32_t>(
+                   std::find_if(from, changed_.end(), [this](std::uint64_t when) { return when >= new_since_; }) - from);
   }
 
+  std::int64_t hops_between(std::uint32_t a, std::uint32_t b) const { return hops_.from(mapping_[a])[mapping_[b]]; }
   bool may_help(std::uint32_t a, std::uint32_t b) const {
-    return hops_.from(mapping_[a])[mapping_[b]] * (flow_[a].amount + flow_[b].amount) < 2 * (flow_[a].cost + flow_[b].cost);
+    const std::int64_t hops = hops_between(a, b);
+    return flow_[a].saved_most(hops) + flow_[b].saved_most(hops) > 0;
   }
   bool helps(std::uint32_t a, std::uint32_t b) const {
-    return cost_at(a, mapping_[b], b) + cost_at(b, mapping_[a], a) < cost_at(a, mapping_[a], b) + cost_at(b, mapping_[b], a);
+    const Flown at_b = flown_at(mapping_[b], a, b), at_a = flown_at(mapping_[a], b, a);
+    const std::int64_t between = (flow_[a].amount - at_b.amount) * hops_between(a, b);
+    return at_b.cost + at_a.cost < flow_[a].cost + flow_[b].cost - 2 * between;
   }
 
-  /// The cost of a region's flows on `node` without those to `other`, with which it may swap: their distance stays.
-  std::uint64_t cost_at(std::uint32_t region, std::uint32_t node, std::uint32_t other) const {
+  /// The sums if the region were on `node`, without its flows to `other`.
+  Flown flown_at(std::uint32_t node, std::uint32_t region, std::uint32_t other) const {
     const std::uint16_t* const hops_to = hops_.from(node);
-    std::uint64_t sum = 0;
+    Flown sum;
     for (const auto& [neighbour, amount] : neighbours_.of(region)) {
-      sum += neighbour == other ? 0 : amount * hops_to[mapping_[neighbour]];
+      const std::int64_t counted = neighbour == other ? 0 : amount;
+      sum.amount += counted;
+      sum.cost += counted * hops_to[mapping_[neighbour]];
     }
     return sum;
   }
@@ -140,12 +151,7 @@ class Descent {
     changed_[region] = now_;
     add_up(region);
   }
-  void add_up(std::uint32_t region) {
-    flow_[region] = {.cost = cost_at(region, mapping_[region], region)};
-    for (const Neighbours::Entry& entry : neighbours_.of(region)) {
-      flow_[region].amount += entry.amount;
-    }
-  }
+  void add_up(std::uint32_t region) { flow_[region] = flown_at(mapping_[region], region, region); }
 
   Mapping& mapping_;
   const Neighbours& neighbours_;
@@ -153,11 +159,12 @@ class Descent {
   std::vector<Flown> flow_;             ///< by region
   std::vector<std::uint64_t> changed_;  ///< by region: when it or a neighbour moved last
   std::uint64_t now_ = 0;               ///< counts the regions a of all rounds
+  std::uint64_t new_since_ = 0;         ///< when the same region was a in the round before
 };
 
 /// The number of descents and their starting points, the most promising first.
 std::uint64_t beginning_count(std::uint32_t region_count) {
-  constexpr std::uint32_t random_regions_max = 128;  // with more regions each descent takes seconds
+  constexpr std::uint32_t random_regions_max = 128;  // with more regions each descent takes tenths of a second
   constexpr std::uint64_t random_count = 24;
   return region_count <= random_regions_max ? 2 + random_count : 2;
 }
