@@ -323,6 +323,7 @@ PageCapacity Plan::pages() const {
           .resident = resident,
           .cache = {frames, request.page_size_bytes, request.pages.replacement},
           .in_flight = task_count(),
+          .rays_a_task = pixels_a_task,
           .faults_max = faults_max(),
           .request_credits = request_credits,
           .leading_pages = request.strategy->leading_pages(request),

@@ -66,7 +66,8 @@ PlanRequest request_of(const Strategy& strategy, const core::Database& database,
           .refinement = settings.refinement,
           .film_scale = settings.shade.film_scale,
           .start = options.continuation.start,
-          .bundles = settings.skips.bundles && strategy.takes_bundles() && walks_in_bundles(options),
+          .bundles =
+              settings.skips.bundles && strategy.takes_bundles(settings.header.has_instances != 0) && walks_in_bundles(options),
           .has_instances = settings.header.has_instances != 0};
 }
 

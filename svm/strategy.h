@@ -39,8 +39,8 @@ class Strategy {
   virtual const char* name() const = 0;
   /// Whether nodes fetch pages: otherwise they have no caches, and homes of pages cannot be chosen.
   virtual bool fetches_pages() const { return false; }
-  /// Whether rays of neighbouring pixels may be traced together.
-  virtual bool takes_bundles() const { return true; }
+  /// Whether rays of neighbouring pixels may be traced together, with or without base meshes.
+  virtual bool takes_bundles(bool /*has_instances*/) const { return true; }
 
   // Before there is a plan.
 

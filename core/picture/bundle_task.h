@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -9,6 +10,7 @@
 #include "core/picture/hits/bundle_hit.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/bundle.h"
+#include "core/trace/bundle_below.h"
 #include "core/trace/instance_bundle.h"
 
 namespace dmpc::core {
@@ -38,6 +40,28 @@ class BundleTaskWith {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
+  // As those of PixelTask:
+  bool is_tracing() const { return tracing_; }
+  /// Calls ask(ray, below, number of rays after it) for each ray that waits for what lies below the absent record.
+  template <class Ask>
+  void for_each_below(const Ask& ask) const {
+    std::uint32_t left = count_of(bundle_.next_rays);
+    for (RayMask rays = bundle_.next_rays; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::uint32_t>(std::countr_zero(rays));
+      ask(ray, core::below(bundle_, ray), --left);
+    }
+  }
+  /// Takes what a ray has found there. Returns whether none waits any more: run() goes on after it.
+  bool take_below(std::uint32_t ray, const Hit& found, Operations& operations) {
+    expect(tracing_, "a traversal is what waits for what lies below");
+    return core::take_below(bundle_, ray, found, operations);
+  }
+  RecordKind absent_kind() const {
+    const BundleHit* const hits = tracing_ ? nullptr : &stack_[stack_size_ - 1U];
+    return hits != nullptr          ? record_kind_of(hits->hit[hits->next])
+           : bundle_.next.is_leaf() ? RecordKind::leaf
+                                    : RecordKind::bvh_node;
+  }
   /// Number of rays that ended in the last run() that returned `more`.
   std::uint32_t rays_ended() const { return ended_; }
   std::uint32_t pixel_count() const { return pixel_count_; }

@@ -53,6 +53,9 @@ class BundleTraversal {
     return true;
   }
 
+  /// Visits what bundle.next_rays may hit below bundle.next: all of its records are present.
+  void visit_below() { expect(visit_waiting(), "whoever has a child's record has all that is below it"); }
+
   /// RayTraversal::first_leaf() for rays whose rows run() has filled, each from its cell and t_enter on, in a proxy that is fully
   /// present. Returns the rays that meet a leaf, with t in best.t. The rays' positions are not kept.
   RayMask find_first_leaves(RayMask rays) {
@@ -151,6 +154,15 @@ class BundleTraversal {
 
   /// Visits the children of the cell that some rays meet, then leaves it.
   bool visit_children() {
+    if (!visit_waiting()) {
+      return false;
+    }
+    leave_cell(rays_done());
+    return true;
+  }
+
+  /// Visits bundle.next and all that wait behind it.
+  bool visit_waiting() {
     while (bundle_.next.found()) {
       const Address address = bundle_.next.address();
       const std::uint32_t wanted = count_of(bundle_.next_rays);
@@ -170,7 +182,6 @@ class BundleTraversal {
         intersectors_.take_child(bundle_);
       }
     }
-    leave_cell(rays_done());
     return true;
   }
 

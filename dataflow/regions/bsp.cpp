@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "core/base/units.h"
 
@@ -346,25 +347,48 @@ double average_load(std::span<const double> loads) {
   return most > 0 ? std::accumulate(loads.begin(), loads.end(), 0.0) / (most * static_cast<double>(loads.size())) : 1.0;
 }
 
-std::vector<Boundary> boundaries_of(const Bsp& bsp, const CutAxes& axes) {
-  std::vector<Rectangle> boxes;
-  for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
-    boxes.push_back(rectangle_of(bsp.region_at(region), axes));
-  }
-  std::vector<Boundary> found;
-  for (std::uint32_t a = 0; a < boxes.size(); ++a) {
-    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
-      for (std::size_t along = 0; along < 2; ++along) {
-        const bool touch =
-            boxes[a].high[1 - along] == boxes[b].low[1 - along] || boxes[b].high[1 - along] == boxes[a].low[1 - along];
-        const std::int32_t length =
-            std::min(boxes[a].high[along], boxes[b].high[along]) - std::max(boxes[a].low[along], boxes[b].low[along]);
-        if (touch && length > 0) {
-          found.push_back({a, b, length});
-        }
+namespace {
+
+/// One side of a region's rectangle, on a line across an axis.
+struct Side {
+  std::int32_t at, low, high;  ///< the line, and the extent along it
+  std::uint32_t region;
+};
+
+/// Adds the boundaries on lines at one place `along` an axis: `ends` are regions' upper sides there, `begins` lower ones, both
+/// ascending by place and extent.
+void add_boundaries(const std::vector<Side>& ends, const std::vector<Side>& begins, std::vector<Boundary>& found) {
+  auto same_line = begins.begin();
+  for (const Side& end : ends) {
+    same_line = std::find_if(same_line, begins.end(), [&](const Side& begin) { return begin.at >= end.at; });
+    for (auto begin = same_line; begin != begins.end() && begin->at == end.at && begin->low < end.high; ++begin) {
+      const std::int32_t length = std::min(end.high, begin->high) - std::max(end.low, begin->low);
+      if (length > 0 && begin->region != end.region) {
+        found.push_back({std::min(begin->region, end.region), std::max(begin->region, end.region), length});
       }
     }
   }
+}
+
+}  // namespace
+
+std::vector<Boundary> boundaries_of(const Bsp& bsp, const CutAxes& axes) {
+  const auto before = [](const Side& a, const Side& b) { return std::tie(a.at, a.low) < std::tie(b.at, b.low); };
+  std::vector<Boundary> found;
+  for (std::size_t along = 0; along < 2; ++along) {
+    std::vector<Side> ends, begins;
+    for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
+      const Rectangle box = rectangle_of(bsp.region_at(region), axes);
+      ends.push_back({box.high[1 - along], box.low[along], box.high[along], region});
+      begins.push_back({box.low[1 - along], box.low[along], box.high[along], region});
+    }
+    std::sort(ends.begin(), ends.end(), before);
+    std::sort(begins.begin(), begins.end(), before);
+    add_boundaries(ends, begins, found);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Boundary& a, const Boundary& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -31,8 +31,8 @@ double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& t
 
 /// A mapping with few hops for the given flows: the best of several starting points (gray_mapping(), region i on node i and, up
 /// to 128 regions, a few random ones), each improved by exchanging two regions' nodes as long as an exchange helps.
-/// Deterministic; a local optimum. Takes about regions^2 * neighbours steps per round, a few rounds per starting point; stops
-/// once every flow takes one hop. Requires as many nodes as regions.
+/// Deterministic; a local optimum. Looks once at each pair of regions per starting point, and after that at those that have
+/// changed; stops once every flow takes one hop. Requires as many nodes as regions.
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology);
 
 /// Assigns the regions to the nodes of such a machine by map_regions(), with boundaries across `axes` as flows.

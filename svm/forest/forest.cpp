@@ -1,9 +1,11 @@
 #include "svm/forest/forest.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
+#include "core/trace/bundle_below.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::svm {
@@ -75,18 +77,20 @@ std::size_t question_packet_bytes(const PageCapacity& capacity) {
   if (capacity.node_count <= 1) {
     return 0;
   }
-  const std::uint32_t questions = std::min(capacity.in_flight, packet_questions_max);
+  const std::uint32_t questions = std::min(capacity.in_flight * capacity.rays_a_task, packet_questions_max);
   const QuestionKind longest = capacity.open_pages > 0 ? QuestionKind::below_in_mesh : QuestionKind::below;
   return std::max(questions * question_bytes(longest), answer_bytes_max(QuestionKind::leaf));
 }
 
-nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ReportedInstance> Forest::own_layout(
+nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ReportedInstance, core::RayBundle> Forest::own_layout(
     const PageCapacity& capacity) {
-  return {{Category::queues, capacity.in_flight},
+  const std::uint32_t rays = capacity.in_flight * capacity.rays_a_task;
+  return {{Category::queues, rays},
           {Category::queues, capacity.node_count},
           {Category::queues, question_packet_bytes(capacity)},
           {Category::queues, lent_bytes},
-          {Category::queues, capacity.open_pages > 0 ? capacity.in_flight : 0}};
+          {Category::queues, capacity.open_pages > 0 ? rays : 0},
+          {core::MemoryUse::ray_stacks, capacity.rays_a_task > 1 ? 1U : 0U}};
 }
 
 nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
@@ -100,8 +104,9 @@ Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::Byt
       closed_from_(capacity.leading_bytes() + asked_open_bytes(capacity)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
+      rays_a_task_(capacity.rays_a_task),
       node_(&node) {
-  std::tie(asked_, queues_, packet_, lent_, places_) = own_layout(capacity).in(node.memory());
+  std::tie(asked_, queues_, packet_, lent_, places_, answered_) = own_layout(capacity).in(node.memory());
   grant_requests(node, capacity);
 }
 
@@ -117,37 +122,47 @@ const std::byte* Forest::find_below(core::Address address) {
   return nullptr;
 }
 
-void Forest::ask(std::uint32_t slot, const core::Below& below) { ask_below(slot, QuestionKind::below, below); }
+void Forest::ask(std::uint32_t slot, const core::Below& below, std::uint32_t behind) {
+  ask_below(slot, QuestionKind::below, below, behind);
+}
 
 void Forest::ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place) {
   places_[slot] = place;
-  ask_below(slot, QuestionKind::below_in_mesh, below);
+  ask_below(slot, QuestionKind::below_in_mesh, below, 0);
 }
 
-void Forest::ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below) {
+void Forest::ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below, std::uint32_t behind) {
   asked_[slot].below = below;
   asked_[slot].kind = kind;
   ++questions_counted_.rays_asked;
-  add(slot, below.child.address());
+  add(slot, below.child.address(), behind);
 }
 
 void Forest::ask(std::uint32_t slot, core::RecordKind kind, core::Address address) {
   asked_[slot].record = address;
   asked_[slot].kind = question_about(kind);
   ++questions_counted_.records_asked;
-  add(slot, address);
+  add(slot, address, 0);
 }
 
-void Forest::add(std::uint32_t slot, core::Address address) {
+/// Sends packets only where no more questions of the same bundle follow.
+void Forest::add(std::uint32_t slot, core::Address address, std::uint32_t behind) {
   const std::uint32_t owner = homes_.home_of(geometry_.page_of(address));
   core::expect(owner != self_, "what is at home is never asked for");
   Queue& queue = queues_[owner];
   asked_[slot].next = no_slot;
+  asked_[slot].behind = static_cast<std::uint8_t>(behind);
   (queue.first == no_slot ? queue.first : asked_[queue.last].next) = slot;
   queue.last = slot;
   ++waiting_;
-  if (++queue.count >= packet_questions_max) {
-    send(owner);
+  ++queue.count;
+  if (behind == 0) {
+    send_full(owner);
+  }
+}
+
+void Forest::send_full(std::uint32_t owner) {
+  while (queues_[owner].count >= packet_questions_max && send(owner)) {
   }
 }
 
@@ -159,7 +174,8 @@ void Forest::flush() {
   }
 }
 
-/// Sends the oldest questions, as many as fit a packet together with their answers. Returns whether a credit was available.
+/// Sends the oldest questions, as many as fit a packet together with their answers, those of a bundle all or none. Returns
+/// whether a credit was available.
 bool Forest::send(std::uint32_t owner) {
   if (node_->credits(nodes::NodeId{owner}, request_channel) == 0) {
     return false;
@@ -169,11 +185,12 @@ bool Forest::send(std::uint32_t owner) {
   std::size_t answers_left = packet_.size();
   while (queue.count > 0) {
     const Question& question = asked_[queue.first];
-    if (question_bytes(question.kind) > writer.left() || answer_bytes_max(question.kind) > answers_left) {
+    const std::size_t together = question.behind + std::size_t{1};
+    if (together * question_bytes(question.kind) > writer.left() || together * answer_bytes_max(question.kind) > answers_left) {
       break;
     }
     answers_left -= answer_bytes_max(question.kind);
-    writer.add(QuestionHeader{.slot = static_cast<std::uint16_t>(queue.first), .kind = question.kind});
+    writer.add(QuestionHeader{.slot = static_cast<std::uint16_t>(queue.first), .kind = question.kind, .behind = question.behind});
     if (!is_about_ray(question.kind)) {
       writer.add(question.record);
     } else {
@@ -196,18 +213,24 @@ void Forest::answer(const nodes::Packet& questions, const core::DatabaseHeader& 
   for (std::span<const std::byte> rest = questions.payload; !rest.empty();) {
     const auto header = core::read<QuestionHeader>(rest.data());
     const std::byte* const content = rest.data() + sizeof(header);
-    rest = rest.subspan(question_bytes(header.kind));
-    if (is_about_ray(header.kind)) {
-      const auto below = core::read<core::Below>(content);
-      const core::Hit hit = header.kind == QuestionKind::below
-                                ? core::trace_below(below, *this, operations)
-                                : core::trace_below(below, core::read<core::ReportedInstance>(content + sizeof(below)), *this,
-                                                    database, operations);
-      writer.add(AnswerHeader{header.slot, hit.found() ? std::uint16_t{sizeof(hit)} : std::uint16_t{0}});
+    const auto answer_ray = [&](std::uint16_t slot, const core::Hit& hit) {
+      writer.add(AnswerHeader{slot, hit.found() ? std::uint16_t{sizeof(hit)} : std::uint16_t{0}});
       if (hit.found()) {
         writer.add(hit);
       }
       ++questions_counted_.rays_answered;
+    };
+    if (header.behind > 0) {
+      rest = answer_together(rest, database, operations, answer_ray);
+      continue;
+    }
+    rest = rest.subspan(question_bytes(header.kind));
+    if (is_about_ray(header.kind)) {
+      const auto below = core::read<core::Below>(content);
+      answer_ray(header.slot, header.kind == QuestionKind::below
+                                  ? core::trace_below(below, *this, operations)
+                                  : core::trace_below(below, core::read<core::ReportedInstance>(content + sizeof(below)), *this,
+                                                      database, operations));
     } else {
       const std::byte* const record = find(core::read<core::Address>(content));
       core::expect(record != nullptr, "a question about a record reaches its owner");
@@ -221,13 +244,30 @@ void Forest::answer(const nodes::Packet& questions, const core::DatabaseHeader& 
   node_->send_reserved(questions.source, bulk_channel, number_of(Kind::answers), writer.bytes());
 }
 
+/// Answers the questions at the beginning that are about rays of one bundle. Returns those behind them.
+template <class Answer>
+std::span<const std::byte> Forest::answer_together(std::span<const std::byte> questions, const core::DatabaseHeader& database,
+                                                   core::Operations& operations, const Answer& answer) {
+  constexpr std::size_t each = question_bytes(QuestionKind::below);
+  const std::size_t count = core::read<QuestionHeader>(questions.data()).behind + std::size_t{1};
+  core::expect(count <= core::bundle_rays_max && rays_a_task_ > 1, "rays that ask together fit a bundle");
+  std::array<core::Below, core::bundle_rays_max> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    rays[i] = core::read<core::Below>(questions.data() + i * each + sizeof(QuestionHeader));
+  }
+  core::RayBundle& bundle = answered_.front();
+  core::trace_below(bundle, std::span<const core::Below>(rays).first(count), *this, database, operations);
+  for (std::size_t i = 0; i < count; ++i) {
+    answer(core::read<QuestionHeader>(questions.data() + i * each).slot, core::found_below(bundle, i));
+  }
+  return questions.subspan(count * each);
+}
+
 /// Waiting questions may need the packet's credit.
 std::span<const std::byte> Forest::begin_taking(const nodes::Packet& answers) {
   node_->grant(answers.source, request_channel);
   const std::uint32_t owner = nodes::index_of(answers.source);
-  if (queues_[owner].count >= packet_questions_max) {
-    send(owner);
-  }
+  send_full(owner);
   return answers.payload;
 }
 

@@ -3,12 +3,13 @@
 // Goldsmith, "A Hypercube Ray-tracer", 1988).
 //
 // Invariants: (1) a page after the forest holds everything below its part of the tree, so its home answers from its own memory at
-// once, and waits for nothing; (2) a pixel waits for at most one answer, so there are never more questions than slots; (3)
+// once, and waits for nothing; (2) a ray waits for at most one answer, so there are never more questions than slots; (3)
 // packets of questions are answered one by one, so that an answer's slot is reserved by its questions. Invariant (1) does not
 // hold for open pages, which lead into base meshes: if there are few, every node has them, otherwise a traversal asks for one
 // record after the other, and goes on by itself; in a mesh (1) holds again, and the question includes the instance.
 //
-// Questions and answers between nodes of strategy forest are values, without pointers. A packet has as many as fill it.
+// Questions and answers between nodes of strategy forest are values, without pointers. A packet has as many as fill it. Rays that
+// share a bundle ask together, and their questions stay together in one packet, so that the owner traces them together, too.
 //
 //   kind                   from -> to          channel   size   its slot in the target's mailbox is reserved by
 //   questions              node -> owner       request   any    the sender's request credits for that owner
@@ -22,11 +23,13 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 #include "core/record/record_kind.h"
 #include "core/record/records.h"
 #include "core/trace/below.h"
 #include "core/trace/below_in_mesh.h"
+#include "core/trace/bundle.h"
 #include "core/trace/operations.h"
 #include "nodes/immutable_pieces.h"
 #include "nodes/layout.h"
@@ -49,9 +52,9 @@ constexpr bool is_about_ray(QuestionKind kind) { return kind == QuestionKind::be
 
 /// Precedes a core::Below, in a mesh followed by a core::ReportedInstance, or, for a record, its core::Address.
 struct QuestionHeader {
-  std::uint16_t slot = 0;  ///< the waiting pixel's, for the answer
+  std::uint16_t slot = 0;  ///< the question's, for the answer
   QuestionKind kind{};
-  std::uint8_t padding = 0;
+  std::uint8_t behind = 0;  ///< how many of the questions after this one are about rays of the same bundle
 };
 static_assert(sizeof(QuestionHeader) == 4);
 
@@ -103,11 +106,11 @@ class Forest : public PlainRecords {
         answer(packet, waiting.settings().header, waiting.operations());
         return true;
       case Kind::answers:
-        take(packet, [&waiting](std::uint32_t slot, const core::Hit* hit) {
-          if (hit != nullptr) {
-            waiting.task(slot).take_below(*hit, waiting.settings().skips, waiting.operations());
+        take(packet, [this, &waiting](std::uint32_t slot, const core::Hit* hit) {
+          const std::uint32_t task = slot / rays_a_task_;
+          if (hit == nullptr || take_below(waiting.task(task), slot % rays_a_task_, *hit, waiting)) {
+            waiting.go_on(task);
           }
-          waiting.go_on(slot);
         });
         return true;
       default:
@@ -118,16 +121,24 @@ class Forest : public PlainRecords {
   template <class Waiting>
   void lacks(std::uint32_t slot, Waiting& waiting) {
     const auto& task = waiting.task(slot);
+    const std::uint32_t first = slot * rays_a_task_;
     if (!task.is_tracing() || is_open(task.absent())) {
-      ask(slot, task.absent_kind(), task.absent());
-    } else if (const auto place = task.instance_of_traversal()) {
-      ask(slot, task.below(waiting.settings().skips), *place);
+      return ask(first, task.absent_kind(), task.absent());
+    }
+    if constexpr (is_single<decltype(task)>) {
+      if (const auto place = task.instance_of_traversal()) {
+        ask(first, task.below(waiting.settings().skips), *place);
+      } else {
+        ask(first, task.below(waiting.settings().skips));
+      }
     } else {
-      ask(slot, task.below(waiting.settings().skips));
+      task.for_each_below(
+          [&](std::uint32_t ray, const core::Below& below, std::uint32_t behind) { ask(first + ray, below, behind); });
     }
   }
-  /// Asks what the ray of `slot` hits below a child that find() has just reported absent.
-  void ask(std::uint32_t slot, const core::Below& below);
+  /// Asks, as question `slot`, what a ray hits below a child that find() has just reported absent. `behind`: how many questions
+  /// about rays of the same bundle follow.
+  void ask(std::uint32_t slot, const core::Below& below, std::uint32_t behind = 0);
   /// As above, in a mesh, by its instance.
   void ask(std::uint32_t slot, const core::Below& below, const core::ReportedInstance& place);
   /// Asks for a record that find() has just reported absent, for `slot`.
@@ -172,6 +183,7 @@ class Forest : public PlainRecords {
     core::Below below;
     core::Address record = core::no_address;
     QuestionKind kind{};
+    std::uint8_t behind = 0;       ///< as in QuestionHeader
     std::uint32_t next = no_slot;  ///< the next slot that waits for the same owner
   };
   /// Questions to be sent to one owner, by slot, in the order of their arrival.
@@ -180,13 +192,31 @@ class Forest : public PlainRecords {
     std::uint32_t count = 0;
   };
 
-  static nodes::Layout<Question, Queue, std::byte, std::byte, core::ReportedInstance> own_layout(const PageCapacity& capacity);
+  template <class Task>
+  static constexpr bool is_single = std::decay_t<Task>::pixels_max == 1;
+  /// Whether the task has what it waits for, and goes on.
+  template <class Task, class Waiting>
+  static bool take_below(Task& task, std::uint32_t ray, const core::Hit& found, Waiting& waiting) {
+    if constexpr (is_single<Task>) {
+      task.take_below(found, waiting.settings().skips, waiting.operations());
+      return true;
+    } else {
+      return task.take_below(ray, found, waiting.operations());
+    }
+  }
+
+  static nodes::Layout<Question, Queue, std::byte, std::byte, core::ReportedInstance, core::RayBundle> own_layout(
+      const PageCapacity& capacity);
   const std::byte* find_below(core::Address address);
   /// For a record that is not in the forest.
   bool is_open(core::Address address) const { return core::byte_offset(address) < closed_from_; }
-  void ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below);
-  void add(std::uint32_t slot, core::Address address);
+  void ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below, std::uint32_t behind);
+  void add(std::uint32_t slot, core::Address address, std::uint32_t behind);
+  void send_full(std::uint32_t owner);
   bool send(std::uint32_t owner);
+  template <class Answer>
+  std::span<const std::byte> answer_together(std::span<const std::byte> questions, const core::DatabaseHeader& database,
+                                             core::Operations& operations, const Answer& answer);
   std::span<const std::byte> begin_taking(const nodes::Packet& answers);
   void lend(core::Address address, std::span<const std::byte> bytes);
 
@@ -195,6 +225,7 @@ class Forest : public PlainRecords {
   std::uint64_t closed_from_;  ///< from here on pages hold everything below their records
   HomePages homes_;
   std::uint32_t self_;
+  std::uint32_t rays_a_task_;
   PageCounters counters_;
   QuestionCounters questions_counted_;
   nodes::Node* node_;
@@ -203,6 +234,7 @@ class Forest : public PlainRecords {
   std::span<std::byte> packet_;
   std::span<std::byte> lent_;
   std::span<core::ReportedInstance> places_;  ///< for questions in meshes, by slot
+  std::span<core::RayBundle> answered_;       ///< one, for rays that are answered together
   core::Address lent_address_ = core::no_address;
   std::uint32_t waiting_ = 0, under_way_ = 0;
 };

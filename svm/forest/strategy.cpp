@@ -30,7 +30,8 @@ void check_conservation_at(const NodeReport& node) {
 class ForestStrategy final : public Strategy {
  public:
   const char* name() const override { return "forest"; }
-  bool takes_bundles() const override { return false; }
+  /// In a base mesh a question names the instance that one ray is in.
+  bool takes_bundles(bool has_instances) const override { return !has_instances; }
 
   void check(const PlanRequest& request) const override {
     core::check_use(
@@ -44,14 +45,15 @@ class ForestStrategy final : public Strategy {
     }
     const std::uint64_t workers = std::max(request.worker_count(), 1U);
     const std::uint64_t quarter = std::uint64_t{request.width} * request.height / (4 * workers);
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(quarter, forest_in_flight_least, forest_in_flight_most));
+    const auto pixels = std::clamp<std::uint64_t>(quarter, forest_in_flight_least, forest_in_flight_most);
+    return static_cast<std::uint32_t>(pixels / (request.bundles ? bundle_pixels : 1));
   }
   std::uint32_t leading_pages(const PlanRequest& request) const override {
     const bool are_held = holds_open_pages(request.open_page_count, request.page_size_bytes);
     return request.forest_page_count + (are_held ? request.open_page_count : 0);
   }
 
-  /// Packets of questions: no more than tasks, each of which asks one question at a time.
+  /// Packets of questions: no more than pixels, each of which asks one question at a time.
   std::uint32_t request_credits(const Plan& plan) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
     if (others == 0) {
@@ -59,14 +61,14 @@ class ForestStrategy final : public Strategy {
     }
     const std::size_t packet_bytes = question_packet_bytes(plan.pages());
     const auto wanted = static_cast<std::uint32_t>(question_room_wanted_bytes / (packet_bytes * others));
-    return std::min(plan.task_count(), std::clamp(wanted, 1U, question_credits_max));
+    return std::min(plan.in_flight, std::clamp(wanted, 1U, question_credits_max));
   }
 
   /// The packets may be small or bulk.
   void add_slots(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
     const std::uint32_t others = plan.request.computer.node_count - 1;
-    const std::uint32_t asked = others * plan.request_credits;         // questions: each other node's credits for this one
-    const std::uint32_t answers = std::min(plan.task_count(), asked);  // one for each packet of questions
+    const std::uint32_t asked = others * plan.request_credits;      // questions: each other node's credits for this one
+    const std::uint32_t answers = std::min(plan.in_flight, asked);  // one for each packet of questions
     capacity.small_slots += asked + answers;
     capacity.bulk_slots += asked + answers;
     capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, question_packet_bytes(plan.pages()));
@@ -82,7 +84,7 @@ class ForestStrategy final : public Strategy {
 
   MakeProgram maker(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                     const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) const override {
-    return maker_over<Forest>(plan, settings, database, watching, reference_logs);
+    return maker_over<Forest, true>(plan, settings, database, watching, reference_logs);
   }
 
   void check_conservation(const Report& report) const override {

@@ -23,7 +23,8 @@ struct PageCapacity {
   std::uint32_t resident_count = 0;       ///< pages that every node keeps permanently, wherever they are at home
   std::span<const PageId> resident = {};  ///< which; as many, once they are known, and they outlive the making of programs
   CacheShape cache;                       ///< with frames of the page size
-  std::uint32_t in_flight = 1;            ///< pixels in flight
+  std::uint32_t in_flight = 1;            ///< pixels, or other tasks, in flight
+  std::uint32_t rays_a_task = 1;          ///< at most, under way at once
   std::uint32_t faults_max = 0;           ///< maximum in flight
   std::uint32_t request_credits = 0;      ///< page requests, or other packets that ask, that may be in flight to one home
   std::uint32_t leading_pages = 0;        ///< the first ones, if every node holds them: they have no home

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "apps/lab/bench/stability/random.h"
 
@@ -277,6 +279,26 @@ TEST_CASE("the connectivity graph of four quarters is a ring") {
   const Bsp bsp = dataflow::equal_size_bsp({64, 64, 64}, {0, 1}, 4);
   const std::vector<Boundary> expected{{0, 1, 32}, {0, 2, 32}, {1, 3, 32}, {2, 3, 32}};
   CHECK(boundaries_of(bsp, {0, 1}) == expected);
+}
+
+TEST_CASE("the connectivity graph has every pair whose rectangles share a length, also where some are empty") {
+  for (const std::uint32_t count : {3U, 17U, 64U, 300U, 2000U}) {
+    const Bsp bsp = count > 300 ? dataflow::equal_size_bsp({16, 64, 16}, axes_xz, count) : build_bsp(hill(), count);
+    std::vector<Boundary> expected;
+    for (std::uint32_t a = 0; a < count; ++a) {
+      for (std::uint32_t b = a + 1; b < count; ++b) {
+        const core::Region low = bsp.region_at(a), high = bsp.region_at(b);
+        for (const auto& [along, across] : {std::pair<std::size_t, std::size_t>{0, 2}, {2, 0}}) {
+          const bool touch = low.high[across] == high.low[across] || high.high[across] == low.low[across];
+          const std::int32_t length = std::min(low.high[along], high.high[along]) - std::max(low.low[along], high.low[along]);
+          if (touch && length > 0) {
+            expected.push_back({a, b, length});
+          }
+        }
+      }
+    }
+    CHECK(boundaries_of(bsp, axes_xz) == expected);
+  }
 }
 
 TEST_CASE("one region has no neighbours") { CHECK(boundaries_of(build_bsp(hill(), 1), axes_xz).empty()); }

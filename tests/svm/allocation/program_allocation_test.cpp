@@ -76,7 +76,7 @@ TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
 
 TEST_CASE("a node of forest allocates nothing while it renders, asks and answers") {
   svm::RunOptions options{.computer = {.node_count = 5}};
-  CHECK(allocated_by<svm::Forest>(svm::forest_strategy(), options) == 0);
+  CHECK(allocated_by<svm::Forest, core::BundleTask>(svm::forest_strategy(), options) == 0);
   options.pages.in_flight = 1;
   CHECK(allocated_by<svm::Forest>(svm::forest_strategy(), options, 0.01) == 0);
 }

@@ -137,23 +137,43 @@ TEST_CASE("without credit questions wait, and leave when an answer has come") {
 }
 
 TEST_CASE("with forest the film, the rays and all that walks do are those of replicated, on any number of nodes") {
-  for (const Subject* subject : {&gears()}) {
-    const core::Skips alone{.bundles = false};
-    const core::Operations expected = run_replicated(*subject, computer_of(1), alone).operations();
-    for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 16U}) {
-      for (const auto in_flight : {std::optional(1U), std::optional(64U), std::optional<std::uint32_t>()}) {
-        CAPTURE(nodes);
-        const svm::Report report = run_forest(*subject, computer_of(nodes, in_flight));
-        CHECK(outcome_of(report) == subject->outcome());
-        const core::Operations done = report.operations();
-        CHECK(done.bvh_node_reads == expected.bvh_node_reads);
-        CHECK(done.cell_steps == expected.cell_steps);
-        CHECK(done.primitive_tests == expected.primitive_tests);
-        CHECK(done.normal_reads == expected.normal_reads);
-        CHECK(done.skipped.any_hit == expected.skipped.any_hit);
-      }
+  const core::Operations alone = run_replicated(gears(), computer_of(1), {.bundles = false}).operations();
+  for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 16U}) {
+    const core::Operations in_bundles = run_replicated(gears(), computer_of(nodes)).operations();
+    for (const auto in_flight : {std::optional(1U), std::optional(64U), std::optional<std::uint32_t>()}) {
+      CAPTURE(nodes);
+      const svm::Report report = run_forest(gears(), computer_of(nodes, in_flight));
+      CHECK(outcome_of(report) == gears().outcome());
+      const core::Operations done = report.operations(), &expected = report.plan.pixels_a_task > 1 ? in_bundles : alone;
+      CHECK(done.bvh_node_reads == expected.bvh_node_reads);
+      CHECK(done.cell_steps == expected.cell_steps);
+      CHECK(done.primitive_tests == expected.primitive_tests);
+      CHECK(done.normal_reads == expected.normal_reads);
+      CHECK(done.skipped.any_hit == expected.skipped.any_hit);
+      CHECK((report.plan.pixels_a_task > 1) == (in_flight != 1U));
     }
   }
+}
+
+TEST_CASE("the questions of a bundle's rays stay together in one packet, however many others wait") {
+  LoneForest small(64);
+  REQUIRE(small.plan.pixels_a_task > 1);
+  const core::Below below{.child = core::BvhChild::bvh_node(record_of(small.plan, 1))};
+  const auto ask = [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      small.forest.ask(first + i, below, count - 1 - i);
+    }
+  };
+  ask(0, 10);
+  CHECK(small.lone.post.parcels.empty());
+  ask(16, 7);
+  REQUIRE(small.lone.post.parcels.size() == 1);
+  constexpr std::size_t each = sizeof(svm::QuestionHeader) + sizeof(core::Below);
+  CHECK(small.lone.post.parcels[0].payload.size() == 10 * each);
+  small.forest.flush();
+  REQUIRE(small.lone.post.parcels.size() == 2);
+  CHECK(small.lone.post.parcels[1].payload.size() == 7 * each);
+  CHECK(core::read<svm::QuestionHeader>(small.lone.post.parcels[1].payload.data()).behind == 6);
 }
 
 TEST_CASE("every question is answered, and on one node there is none") {
