@@ -163,12 +163,22 @@ void SectionFile::read_head(const FileKind& kind, std::size_t section_count) {
   if (head_.bytes != all.size()) {
     refuse("it should have " + bytes_text(head_.bytes) + ", and has " + bytes_text(all.size()));
   }
+  std::uint64_t end = sizeof(FileHead) + section_count * sizeof(SectionEntry);
+  for (const SectionEntry& entry : sections_) {
+    if (entry.offset != core::round_up(end, std::uint64_t{alignment}) || entry.offset > all.size() ||
+        entry.bytes > all.size() - entry.offset) {
+      refuse("its table is damaged");
+    }
+    if (std::ranges::any_of(all.subspan(end, entry.offset - end), [](std::byte byte) { return byte != std::byte{0}; })) {
+      refuse("it is damaged");
+    }
+    end = entry.offset + entry.bytes;
+  }
 }
 
 std::span<const std::byte> SectionFile::read(std::size_t section, std::size_t item_bytes) const {
   const SectionEntry& entry = sections_.at(section);
-  if (entry.offset % alignment != 0 || entry.offset > head_.bytes || entry.bytes > head_.bytes - entry.offset ||
-      entry.bytes % item_bytes != 0) {
+  if (entry.bytes % item_bytes != 0) {
     refuse("its table is damaged");
   }
   const std::span<const std::byte> bytes = mapping_->bytes().subspan(entry.offset, entry.bytes);

@@ -67,11 +67,15 @@ std::vector<std::string> words_of(const core::BuildOptions& built) {
 }
 
 CommandLine::Standing standing_of_scene() {
-  return {"SCENE", [](const std::string& scene, const CommandLine::Standing::IsGiven& is_given) {
+  return {"SCENE", [](const std::string& scene, const CommandLine::Standing::Given& given) {
             std::vector<std::string> words;
-            if (is_database_path(scene) && !is_given("--vary")) {  // a sweep passes it on
+            if (is_database_path(scene) && given("--vary").empty()) {  // a sweep passes it on
               words = DatabaseFile(scene).origin().words;
-              std::erase_if(words, [&](const std::string& word) { return is_given("--system") && is_of_building(word); });
+              std::erase_if(words, [&](const std::string& word) { return !given("--system").empty() && is_of_building(word); });
+            }
+            const std::string own = "--transport=paths";  // what goes with it alone says less than that another is asked for
+            if (std::ranges::count(words, own) > 0 && !given("--transport").empty() && given("--transport").front() != "paths") {
+              std::erase_if(words, [](const std::string& word) { return !is_of_building(word); });
             }
             return words;
           }};

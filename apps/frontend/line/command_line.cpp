@@ -133,17 +133,10 @@ void note_given(DeclaredCommand& command, std::span<const std::string> words) {
   }
 }
 
-bool is_given_in(const DeclaredCommand& command, const std::string& name) {
-  return std::any_of(command.options.begin(), command.options.end(), [&](const DeclaredCommand::Option& option) {
-    return (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) &&
-           !option.given.empty();
-  });
-}
-
-/// The values given for an argument.
-std::vector<std::string> values_of(const DeclaredCommand& command, const std::string& argument) {
+/// The values given for an option, or an argument.
+std::vector<std::string> given_in(const DeclaredCommand& command, const std::string& name) {
   for (const DeclaredCommand::Option& option : command.options) {
-    if (option.is_argument() && option.described.value == argument) {
+    if (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) {
       return option.given;
     }
   }
@@ -274,7 +267,7 @@ void OptionSet::set_brief_help(const std::vector<BriefGroup>& groups) { command_
 
 void OptionSet::check_in_the_end(const std::function<void()>& check) { command_->checks.push_back(check); }
 
-bool OptionSet::is_given(const std::string& name) const { return is_given_in(*command_, name); }
+bool OptionSet::is_given(const std::string& name) const { return !given_in(*command_, name).empty(); }
 
 std::vector<std::string> OptionSet::given_words(const std::vector<std::string>& but) const {
   std::vector<std::string> words;
@@ -316,8 +309,8 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   }
   try {
     note_given(*command, words);
-    for (const std::string& value : standing_ ? values_of(*command, standing_->argument) : std::vector<std::string>()) {
-      note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return is_given_in(*command, name); }));
+    for (const std::string& value : standing_ ? given_in(*command, standing_->argument) : std::vector<std::string>()) {
+      note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
     }
     take_given(*command);
     return line.command;

@@ -121,11 +121,11 @@ class CommandLine {
   std::string help(const std::vector<std::string>& command, bool asks_for_all) const;
 
   /// An argument whose value stands for options, too, each as --name=value. They take effect if the command has them and the
-  /// user does not give them; is_given(name) tells what the user gives.
+  /// user does not give them; given(name) are the values that the user gives.
   struct Standing {
-    using IsGiven = std::function<bool(const std::string&)>;
+    using Given = std::function<std::vector<std::string>(const std::string&)>;
     std::string argument;
-    std::function<std::vector<std::string>(const std::string& value, const IsGiven& is_given)> words_of;
+    std::function<std::vector<std::string>(const std::string& value, const Given& given)> words_of;
   };
   void stand_for_options(const Standing& standing) { standing_ = standing; }
 

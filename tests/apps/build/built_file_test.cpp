@@ -54,7 +54,7 @@ TEST_CASE("a stored database has the bytes, notes and film of its scene, whateve
        {Line{{"rings-1"}, {}},
         {{"balls-1", "--structure=voxels", "--page-size=4KiB"}, {"--nodes=3"}},
         {{"mount-3", "--record-order=scattered", "--light=1,2,3", "--background=0.2"}, {"--camera=0,-2,1/0,0,0"}},
-        {{"tetra-3", "--structure=extents"}, {"--strategy=forest"}},
+        {{"tetra-3", "--structure=extents", "--page-size=4KiB"}, {"--strategy=forest"}},
         {{"teapot-2", "--transport=paths", "--sky=1/0.1", "--light-radius=0.1"}, {"--samples=2"}},
         {{"grove-3", "--instances=keep"}, {}},
         {{square, "--up=z", "--smooth=30"}, {"--samples=1", "--bounces=2"}},
