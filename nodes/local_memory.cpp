@@ -1,11 +1,8 @@
 #include "nodes/local_memory.h"
 
-#include <cstdint>
 #include <cstring>
-#include <new>
 #include <string>
 
-#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/base/zeroed_array.h"
 

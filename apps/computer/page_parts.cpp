@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "apps/computer/record.h"
 #include "apps/frontend/show/page/node_bands.h"

@@ -11,7 +11,6 @@
 #include "apps/computer/page_parts.h"
 #include "apps/computer/program_tables.h"
 #include "apps/computer/program_work.h"
-#include "apps/computer/record.h"
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/machine/machines.h"

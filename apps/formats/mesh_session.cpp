@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <span>
-#include <utility>
 
 #include "apps/formats/named_file.h"
 #include "apps/formats/reading_memory.h"

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <ranges>
-#include <span>
 #include <utility>
 
 #include "apps/formats/nff_reader.h"

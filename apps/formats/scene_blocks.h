@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "apps/formats/indexed_vertices.h"

@@ -9,7 +9,6 @@
 #include "apps/frontend/system/progress.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/glyphs.h"
-#include "apps/picture/image_file.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"

@@ -1,7 +1,6 @@
 #include "apps/info/database_figures.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/database/address_map.h"
 #include "core/record/directory.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-#include <vector>
 
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"

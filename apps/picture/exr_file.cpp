@@ -3,12 +3,10 @@
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <numeric>
-#include <string_view>
 
 #include "apps/picture/deflater.h"
 #include "apps/picture/exr_bytes.h"

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <string>
 
 #include "apps/frontend/line/small_letters.h"
 #include "apps/frontend/system/output_file.h"

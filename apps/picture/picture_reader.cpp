@@ -16,7 +16,6 @@
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
 #include "core/scene/sky_texels.h"
-#include "core/scene/texture.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "apps/frontend/system/digest.h"
 #include "apps/frontend/system/file_source.h"
-#include "apps/picture/film_image.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 

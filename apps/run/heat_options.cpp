@@ -5,7 +5,6 @@
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
-#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "core/record/instance.h"
 #include "core/scene/placed_objects.h"

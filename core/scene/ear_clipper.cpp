@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace dmpc::core {
 namespace {

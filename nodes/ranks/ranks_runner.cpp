@@ -4,9 +4,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/expect.h"
 #include "core/base/usual_arithmetic.h"
@@ -19,7 +17,6 @@
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/gathering_talk.h"
-#include "nodes/ranks/outbox.h"
 #include "nodes/threads/node_threads.h"
 #include "nodes/threads/promptness.h"
 

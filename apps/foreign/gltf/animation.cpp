@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "apps/foreign/mesh/count_note.h"

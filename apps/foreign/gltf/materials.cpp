@@ -1,7 +1,6 @@
 #include "apps/foreign/gltf/materials.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -1,8 +1,6 @@
 #include "apps/foreign/pbrt/spectra.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra_tables.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/parameter_table.h"

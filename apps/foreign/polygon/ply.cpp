@@ -1,7 +1,6 @@
 #include "apps/foreign/polygon/ply.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "apps/foreign/mesh/count_note.h"

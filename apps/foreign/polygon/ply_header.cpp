@@ -1,7 +1,6 @@
 #include "apps/foreign/polygon/ply_header.h"
 
 #include <array>
-#include <limits>
 #include <map>
 
 #include "apps/foreign/text/line_words.h"

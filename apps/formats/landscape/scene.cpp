@@ -1,17 +1,14 @@
 #include "apps/formats/landscape/scene.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/formats/bounding_sphere.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/grove.h"
-#include "apps/formats/landscape/mesh.h"
 #include "apps/formats/landscape/paint.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"

@@ -1,7 +1,6 @@
 #include "apps/frontend/line/typed_line.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 

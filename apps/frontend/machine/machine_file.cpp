@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "apps/frontend/line/json_format.h"

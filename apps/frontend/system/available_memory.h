@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/frontend/system/resource_exhaustion.h"
-
 namespace dmpc::apps {
 
 struct AvailableMemory {

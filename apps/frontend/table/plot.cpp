@@ -1,8 +1,6 @@
 #include "apps/frontend/table/plot.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <set>
 
 #include "apps/frontend/table/plot_axis.h"

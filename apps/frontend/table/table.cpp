@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
-#include <utility>
 
 #include "apps/frontend/line/folded_text.h"
 #include "apps/frontend/line/json_format.h"

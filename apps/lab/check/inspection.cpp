@@ -5,7 +5,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 
 #include "apps/lab/crowd/side_by_side.h"

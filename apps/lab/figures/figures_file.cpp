@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "apps/frontend/line/json_format.h"
 #include "apps/frontend/line/number_text.h"

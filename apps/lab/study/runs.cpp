@@ -6,9 +6,9 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/run/run_strategy.h"
-#include "core/base/expect.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/scale.h"
 #include "apps/frontend/picture/color_map.h"
 #include "apps/picture/glyphs.h"
-#include "apps/picture/image_file.h"
-#include "apps/run/heat_options.h"
-#include "apps/run/render_record.h"
-#include "apps/show/heat/field.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "apps/frontend/show/page/view_tables.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/heat_options.h"
-#include "apps/run/render_record.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"

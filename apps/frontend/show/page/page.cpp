@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <cstddef>
-#include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/show/page/data_url.h"

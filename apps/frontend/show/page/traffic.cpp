@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"

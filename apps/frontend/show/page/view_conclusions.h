@@ -6,7 +6,6 @@
 #include <string>
 
 #include "apps/frontend/run/run_view.h"
-#include "svm/pages/pager.h"
 
 namespace dmpc::apps::html {
 

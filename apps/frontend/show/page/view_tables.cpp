@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/table/geometric_sizes.h"

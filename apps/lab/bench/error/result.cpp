@@ -1,6 +1,5 @@
 #include "apps/lab/bench/error/result.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>

@@ -1,8 +1,5 @@
 #include "apps/lab/study/paper/tables.h"
 
-#include <algorithm>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
