@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/system/digest.h"
 #include "apps/frontend/system/file_source.h"
 #include "core/base/expect.h"
@@ -40,10 +41,9 @@ constexpr std::uint32_t block_pixels = 4096;
 }
 
 std::string head_of(const PictureIdentity& identity) {
-  std::string text = std::string(first_words) + format + "\n";
-  for (const PictureFact& fact : identity.facts) {
-    text += fact.name + "=" + fact.value + "\n";
-  }
+  const std::string text = std::string(first_words) + format + "\n" + joined(identity.facts, "", [&](const PictureFact& fact) {
+                             return fact.name + "=" + fact.value + "\n";
+                           });
   return text + "\n";
 }
 

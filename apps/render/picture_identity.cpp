@@ -10,6 +10,7 @@
 #include "apps/frontend/system/digest.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
+#include "core/base/ranges.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
@@ -212,8 +213,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
 }
 
 const PictureFact* find(const std::vector<PictureFact>& facts, const std::string& name) {
-  const auto found = std::find_if(facts.begin(), facts.end(), [&](const PictureFact& fact) { return fact.name == name; });
-  return found == facts.end() ? nullptr : &*found;
+  return core::find_in(facts, name, &PictureFact::name);
 }
 
 /// How one fact differs; nullptr if a picture has none of the name.

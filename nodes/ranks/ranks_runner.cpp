@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/usual_arithmetic.h"
 #include "nodes/processors.h"
 #include "nodes/ranks/clock_talk.h"
@@ -53,11 +54,8 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
 constexpr int leisure = 16;
 
 std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
-  std::size_t most = small_payload_bytes;
-  for (const NodeSpecification& specification : specifications) {
-    most = std::max(most, specification.mailbox.bulk_payload_bytes);
-  }
-  return most;
+  return core::max_over(specifications, small_payload_bytes,
+                        [&](const NodeSpecification& specification) { return specification.mailbox.bulk_payload_bytes; });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "apps/foreign/mesh/count_note.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::gltf {
 namespace {
@@ -112,10 +113,7 @@ std::vector<Transform> Skins::transforms_of(const PolygonMesh& mesh, const Influ
   transforms.reserve(mesh.vertices.size());
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
     const std::vector<Hold> holds = holds_of(influences, vertex, joints.size(), skin);
-    double all = 0;
-    for (const Hold& hold : holds) {
-      all += hold.weight;
-    }
+    const double all = core::sum_over<double>(holds, &Hold::weight);
     Transform share = holds.empty() ? use.places.front() : nothing;
     for (const Hold& hold : holds) {
       add(share, joints[hold.joint], hold.weight / all);

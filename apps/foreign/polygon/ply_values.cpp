@@ -10,6 +10,7 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/shown_text.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -223,10 +224,8 @@ void BinaryValues::skip(PlyType type, std::uint64_t count) {
 }
 
 std::uint64_t BinaryValues::room_for(const PlyElement& element) const {
-  std::uint64_t bytes = 0;
-  for (const PlyProperty& property : element.properties) {
-    bytes += bytes_of(property.count_type.value_or(property.type));
-  }
+  const std::uint64_t bytes = core::sum_over<std::uint64_t>(
+      element.properties, [&](const PlyProperty& property) { return bytes_of(property.count_type.value_or(property.type)); });
   return left() / std::max<std::uint64_t>(bytes, 1);
 }
 

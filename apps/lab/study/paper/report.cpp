@@ -15,6 +15,7 @@
 #include "apps/lab/study/paper/data.h"
 #include "apps/show/page/sweep_page.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -166,10 +167,9 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
 }
 
 std::string page_of(const PaperReport& report, std::ostream& complaints) {
-  std::vector<html::SweepPart> parts;
-  for (const NamedTable& named : report.tables) {
-    parts.push_back({named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)});
-  }
+  std::vector<html::SweepPart> parts = core::mapped<html::SweepPart>(report.tables, [&](const NamedTable& named) {
+    return html::SweepPart{named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)};
+  });
   return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin(), complaints);
 }
 
