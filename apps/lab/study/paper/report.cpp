@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/frontend/line/folded_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/origin.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/table/plot_program.h"
@@ -105,11 +106,9 @@ std::vector<std::string> introduction(const PaperReport& report) {
 }
 
 std::string head_of(const PaperReport& report) {
-  std::string text = std::string("# ") + title + "\n";
-  for (const std::string& paragraph : introduction(report)) {
-    text += "\n" + folded(paragraph, markdown_width_max, "") + "\n";
-  }
-  return text;
+  return std::string("# ") + title + "\n" + joined(introduction(report), "", [&](const std::string& paragraph) {
+           return "\n" + folded(paragraph, markdown_width_max, "") + "\n";
+         });
 }
 
 std::vector<Plot> plots_of(const std::string& table) {
@@ -123,10 +122,9 @@ std::vector<Plot> plots_of(const std::string& table) {
 }
 
 std::string text_with(const PaperReport& report, const Pictures& pictures, const std::vector<std::string>& complaints) {
-  std::string text = head_of(report);
-  for (const std::string& complaint : complaints) {
-    text += "\n" + folded("Note: " + complaint + ".", markdown_width_max, "") + "\n";
-  }
+  std::string text = head_of(report) + joined(complaints, "", [&](const std::string& complaint) {
+                       return "\n" + folded("Note: " + complaint + ".", markdown_width_max, "") + "\n";
+                     });
   for (const NamedTable& named : report.tables) {
     const auto links = pictures.find(named.name);
     text += "\n" + text_of(named.table, TableFormat::markdown) + (links == pictures.end() ? "" : links->second);
