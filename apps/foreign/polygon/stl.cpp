@@ -30,14 +30,59 @@ class StlTextReader {
   StlTextReader(std::string_view text, ReadingProgress& progress)
       : text_(text), words_(text, 1, without_remarks), progress_(progress) {}
 
-  PlacedFile read();
+  PlacedFile read() {
+    PlacedFile file{.materials = {{plain_material(), {}}}};
+    for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+      if (solids_ > 0 && !is_same(word, "solid")) {
+        file.notes.emplace_back("what follows the last solid is left out");
+        break;
+      }
+      expect(word, "solid");
+      read_solid(file);
+    }
+    return file;
+  }
 
  private:
-  void read_solid(PlacedFile& file);
-  void read_facet(PolygonMesh& mesh);
+  void read_solid(PlacedFile& file) {
+    const std::string name = clipped(words_.rest_of_line(), 100);
+    PolygonMesh mesh{.name = "solid " + std::to_string(++solids_) + (name.empty() ? "" : " '" + name + "'")};
+    for (std::string_view word = words_.next(); !is_same(word, "endsolid"); word = words_.next()) {
+      expect(word, "facet");
+      progress_.ask_for_triangles(++facets_);
+      read_facet(mesh);
+      progress_.show(words_.position());
+    }
+    words_.rest_of_line();
+    add_mesh(std::move(mesh), {}, file);
+  }
+
+  void read_facet(PolygonMesh& mesh) {
+    take("normal");
+    for (int i = 0; i < 3; ++i) {
+      words_.next();  // including -nan(ind)
+    }
+    take("outer");
+    take("loop");
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 3; ++i) {
+      take("vertex");
+      const double x = words_.number("a coordinate"), y = words_.number("a coordinate"), z = words_.number("a coordinate");
+      mesh.vertices.push_back({x, y, z});
+    }
+    take("endloop");
+    take("endfacet");
+    add_face(std::array{first, first + 1, first + 2}, mesh);
+  }
+
   /// Requires the next word to be this one.
   void take(std::string_view word) { expect(words_.next(), word); }
-  void expect(std::string_view found, std::string_view word) const;
+
+  void expect(std::string_view found, std::string_view word) const {
+    if (!is_same(found, word)) {
+      words_.fail_at(found, "'" + std::string(word) + "'");
+    }
+  }
 
   std::string_view text_;
   LineWords words_;
@@ -45,56 +90,6 @@ class StlTextReader {
   std::size_t solids_ = 0;
   std::uint64_t facets_ = 0;
 };
-
-PlacedFile StlTextReader::read() {
-  PlacedFile file{.materials = {{plain_material(), {}}}};
-  for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
-    if (solids_ > 0 && !is_same(word, "solid")) {
-      file.notes.emplace_back("what follows the last solid is left out");
-      break;
-    }
-    expect(word, "solid");
-    read_solid(file);
-  }
-  return file;
-}
-
-void StlTextReader::read_solid(PlacedFile& file) {
-  const std::string name = clipped(words_.rest_of_line(), 100);
-  PolygonMesh mesh{.name = "solid " + std::to_string(++solids_) + (name.empty() ? "" : " '" + name + "'")};
-  for (std::string_view word = words_.next(); !is_same(word, "endsolid"); word = words_.next()) {
-    expect(word, "facet");
-    progress_.ask_for_triangles(++facets_);
-    read_facet(mesh);
-    progress_.show(words_.position());
-  }
-  words_.rest_of_line();
-  add_mesh(std::move(mesh), {}, file);
-}
-
-void StlTextReader::read_facet(PolygonMesh& mesh) {
-  take("normal");
-  for (int i = 0; i < 3; ++i) {
-    words_.next();  // including -nan(ind)
-  }
-  take("outer");
-  take("loop");
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (int i = 0; i < 3; ++i) {
-    take("vertex");
-    const double x = words_.number("a coordinate"), y = words_.number("a coordinate"), z = words_.number("a coordinate");
-    mesh.vertices.push_back({x, y, z});
-  }
-  take("endloop");
-  take("endfacet");
-  add_face(std::array{first, first + 1, first + 2}, mesh);
-}
-
-void StlTextReader::expect(std::string_view found, std::string_view word) const {
-  if (!is_same(found, word)) {
-    words_.fail_at(found, "'" + std::string(word) + "'");
-  }
-}
 
 bool begins_with_solid(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
