@@ -89,7 +89,7 @@ std::vector<CornerTriangle> triangulate(std::span<const Vec3d> vertices) {
     }
     return triangles;
   }
-  return EarClipper(seen).triangles();
+  return clip_ears(seen).triangles;
 }
 
 }  // namespace dmpc::core
