@@ -18,7 +18,7 @@
 #include "apps/formats/view_faults.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/shown_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/frontend/system/stopwatch.h"
 #include "apps/picture/picture_reader.h"

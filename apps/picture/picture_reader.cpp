@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/picture/picture_format.h"
 #include "apps/reader/input_file.h"

@@ -13,7 +13,7 @@
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "core/base/expect.h"
 #include "core/database/parallel.h"
 #include "core/scene/texel.h"

@@ -24,4 +24,11 @@ void check_available_memory(std::uint64_t bytes, const std::string& what, const 
 /// killing a process.
 void bound_memory(const AvailableMemory& room = available_memory());
 
+/// Returns the limit for what foreign files become: three quarters of the memory available to this process or its container at
+/// the first call.
+inline std::uint64_t reader_memory_bytes_max() {
+  static const std::uint64_t bytes = available_memory().bytes / 4 * 3;
+  return bytes;
+}
+
 }  // namespace dmpc::apps

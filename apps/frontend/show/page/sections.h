@@ -14,6 +14,7 @@
 #include "nodes/observers/activity_profile.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/virtual/virtual_times.h"
+#include "svm/pages/node_program.h"
 #include "svm/pages/observers/fetch_observer.h"
 
 namespace dmpc::apps::html {
