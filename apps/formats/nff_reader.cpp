@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/formats/nff_tokens.h"
+#include "apps/formats/view_faults.h"
+#include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 
@@ -18,6 +20,10 @@ namespace {
 using core::Vec3d;
 
 constexpr std::uint64_t entities_a_step = 1024;
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+constexpr std::array<std::string_view, 6> view_parts = {"from", "at", "up", "angle", "hither", "resolution"};
 
 class NffReader {
  public:
@@ -131,7 +137,7 @@ class NffReader {
   void check_view(const core::View& view) {
     const std::optional<ViewFault> fault = fault_of(view);
     if (fault == ViewFault::angle) {
-      tokens_.fail("found " + number_text(view.angle_degrees) +
+      tokens_.fail("found " + shortest(view.angle_degrees) +
                    " as the angle of v (view), expected degrees between 0 and 180, both excluded; correct it");
     }
     check_point(view.from, "from of v (view)");
@@ -148,7 +154,7 @@ class NffReader {
   void check_point(const Vec3d& point, const std::string& name) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (std::abs(point[i]) > view_coordinate_max) {
-        tokens_.fail("found " + number_text(point[i]) + " as a coordinate of " + name +
+        tokens_.fail("found " + shortest(point[i]) + " as a coordinate of " + name +
                      ", expected a number from -1e30 to 1e30: this one is too large to be reckoned with; move it nearer");
       }
     }
@@ -188,7 +194,7 @@ class NffReader {
     expect_range(material.shine, 0, unbounded, "Shine of f (material)");
     expect_range(material.transmittance, 0, 1, "T of f (material)");
     if (material.transmittance > 0 && !(material.refraction_index > 0)) {
-      tokens_.fail("found " + number_text(material.refraction_index) +
+      tokens_.fail("found " + shortest(material.refraction_index) +
                    " as the index of refraction of f (material) with T above 0, expected a number above 0; give 1 for thin air");
     }
   }
@@ -205,7 +211,7 @@ class NffReader {
     const Vec3d apex = vector(entity, "a coordinate of the apex");
     const double apex_radius = tokens_.number(entity, "the apex radius");
     if ((base_radius < 0 && apex_radius > 0) || (base_radius > 0 && apex_radius < 0)) {
-      tokens_.fail("found radii " + number_text(base_radius) + " and " + number_text(apex_radius) +
+      tokens_.fail("found radii " + shortest(base_radius) + " and " + shortest(apex_radius) +
                    " of c (cone or cylinder), expected both 0 or more (outside visible) or both 0 or less (inside visible); "
                    "change a sign");
     }
@@ -266,7 +272,7 @@ class NffReader {
   void expect_range(double value, double low, double high, const char* what) {
     if (!(value >= low && value <= high)) {
       const std::string range = high < unbounded ? "between 0 and 1" : "of 0 or more";
-      tokens_.fail("found " + number_text(value) + " as " + what + ", expected a number " + range + "; correct it");
+      tokens_.fail("found " + shortest(value) + " as " + what + ", expected a number " + range + "; correct it");
     }
   }
 
@@ -283,10 +289,6 @@ class NffReader {
   std::size_t view_line_ = 0, background_line_ = 0;  ///< 0: not read yet
   std::vector<Vec3d> vertices_, normals_;
 };
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-constexpr std::array<std::string_view, 6> view_parts = {"from", "at", "up", "angle", "hither", "resolution"};
 
 std::unique_ptr<TextInput> open(const std::string& path) {
   try {

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <numeric>
 
 #include "apps/picture/deflater.h"
 #include "apps/picture/exr_bytes.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/units.h"
 #include "core/database/parallel.h"
 
@@ -132,6 +132,13 @@ class BlockPacker {
   exr_encode_pipeline_t encoder_ = EXR_ENCODE_PIPELINE_INITIALIZER;
 };
 
+/// Returns an upper bound for the size of blocks, each with two numbers before it, so that the file need not be moved as it
+/// grows.
+std::size_t bytes_max(const std::vector<exr_chunk_info_t>& blocks) {
+  return core::sum_over<std::size_t>(
+      blocks, [](const exr_chunk_info_t& block) { return block.unpacked_size + 2 * sizeof(std::int32_t); });
+}
+
 class ExrWriter {
  public:
   explicit ExrWriter(const ExrRows& picture) : picture_(picture) {
@@ -201,14 +208,6 @@ class ExrWriter {
   std::string file_;
   exr_context_t context_ = nullptr;
 };
-
-/// Returns an upper bound for the size of blocks, each with two numbers before it, so that the file need not be moved as it
-/// grows.
-std::size_t bytes_max(const std::vector<exr_chunk_info_t>& blocks) {
-  return std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, [](std::size_t sum, const exr_chunk_info_t& block) {
-    return sum + block.unpacked_size + 2 * sizeof(std::int32_t);
-  });
-}
 
 }  // namespace
 

@@ -1,8 +1,6 @@
 #include "apps/render/picture_identity.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <iterator>
 #include <span>
 
@@ -32,12 +30,6 @@ void add_all(Digest& digest, const std::vector<T>& values) {
 }
 
 std::string text_of(const Digest& digest) { return "#" + hash_text(digest.value()); }
-
-/// The shortest text that is this number.
-std::string text_of(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
 
 std::string text_of_pools(const core::Scene& scene) {
   static_assert(sizeof(core::Vec3d) == 24 && sizeof(core::TexturedCorner) == 32 && sizeof(core::Sphere) == 32 &&
@@ -173,7 +165,7 @@ std::string zenith_text(const core::Scene& scene) {
 void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture) {
   facts.push_back({"samples", picture.is_refined ? "auto" : std::to_string(picture.samples)});
   if (picture.is_refined) {
-    facts.push_back({"error", text_of(picture.refinement.error)});
+    facts.push_back({"error", shortest(picture.refinement.error)});
     facts.push_back({"samples-max", std::to_string(picture.refinement.samples_max)});
     if (picture.refinement.kind == core::ErrorKind::noise) {
       facts.push_back({"estimate of noise", "by former changes, too"});  // by the last ones alone before there was this fact
@@ -264,7 +256,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {view_fact, view_text(scene.view)},
            picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(depth_of(picture, scene) - 1)}
                                            : PictureFact{"depth", std::to_string(depth_of(picture, scene))},
-           {"cutoff", text_of(picture.cutoff)},
+           {"cutoff", shortest(picture.cutoff)},
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", "world"}};  // there were others: a checkpoint that has them is of another picture
@@ -278,7 +270,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
   }
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement, radiance_bound(picture, scene),
                     film_scale_of(picture, scene)};
-  facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
+  facts.push_back({film_scale_fact, text_of(identity.terms.film_scale)});
   return identity;
 }
 

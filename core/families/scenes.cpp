@@ -109,14 +109,7 @@ constexpr std::array<Family, 11> families = {{
     {"tree", 11, count_tree, scenes::make_tree},
 }};
 
-const Family* find_family(std::string_view name) {
-  for (const Family& family : families) {
-    if (family.name == name) {
-      return &family;
-    }
-  }
-  return nullptr;
-}
+const Family* find_family(std::string_view name) { return find_in(families, name, &Family::name); }
 
 /// The tessellation that a family's scenes actually get.
 int used_tessellation(const Family& family, int tessellation) {

@@ -28,11 +28,11 @@ using Rows = std::vector<Row>;
 
 // What was there on 2026-11-29, and 3 %.
 const Rows sources = {
-    {"apps", 22'520},           {"apps/computer", 5'535},  {"apps/frontend", 15'252},
+    {"apps", 22'505},           {"apps/computer", 5'535},  {"apps/frontend", 15'243},
     {"apps/foreign", 14'549},   {"apps/lab", 2'282},       {"apps/lab/bench", 8'597},
     {"apps/lab/oracle", 5'192}, {"apps/lab/study", 9'894}, {"apps/main", 230},
     {"apps/manual", 276},       {"apps/modules", 670},     {"apps/policy", 690},
-    {"core", 28'509},           {"core/base", 1'580},      {"dataflow", 8'880},
+    {"core", 28'502},           {"core/base", 1'580},      {"dataflow", 8'880},
     {"nodes", 9'897},           {"nodes/pictures", 490},   {"svm", 3'379},
     {"svm/forest", 620},        {"svm/pages", 3'694},
 };
@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 139'676;
+constexpr std::size_t sources_max = 139'645;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {
@@ -108,7 +108,7 @@ TEST_CASE("no library has more lines than its budget") { CHECK(faults_of(count_b
 
 TEST_CASE("no library's tests have more lines than their budget") { CHECK(faults_of(count_below({"tests"}), tests) == Faults{}); }
 
-TEST_CASE("all sources together have at most 139,676 lines") {
+TEST_CASE("all sources together have at most 139,645 lines") {
   const auto counts = count_below(layers);
   const auto add = [](std::size_t sum, const auto& file) { return sum + file.second; };
   CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}, add) <= sources_max);

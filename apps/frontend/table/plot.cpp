@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/table/plot_axis.h"
 #include "core/base/expect.h"
@@ -179,7 +180,7 @@ class Script {
   }
 
   std::string bars() const {
-    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + gnuplot_number(bar_width()) + "\n"
+    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + legend_number(bar_width()) + "\n"
                     : "";
   }
 
@@ -269,12 +270,12 @@ class Script {
   std::string x_of(std::size_t series) const {
     if (!has_places()) {
       const std::string x = "column(" + column(plot_.places.front()) + ")";
-      return plot_.bar_width ? x + " + " + gnuplot_number(*plot_.bar_width / 2) : x;
+      return plot_.bar_width ? x + " + " + legend_number(*plot_.bar_width / 2) : x;
     }
     const std::string name = joined(plot_.places, ".' '.", [&](const std::string& place) { return text_in(place); });
     const double middle = (static_cast<double>(drawn_.size()) - 1) / 2;
     const double shift = plot_.is_stacked ? 0 : (static_cast<double>(series) - middle) * bar_width();
-    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + gnuplot_number(shift));
+    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + legend_number(shift));
   }
 
   /// Returns the series' own column, added to those below it if they are stacked.
