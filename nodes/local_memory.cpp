@@ -1,11 +1,9 @@
 #include "nodes/local_memory.h"
 
-#include <cstdint>
 #include <cstring>
-#include <new>
 #include <string>
 
-#include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/units.h"
 #include "core/base/zeroed_array.h"
 
@@ -47,11 +45,7 @@ std::byte* reserve_zero(std::size_t bytes) {
 }  // namespace
 
 std::size_t MemoryPlan::total() const {
-  std::size_t sum = 0;
-  for (const std::size_t category_bytes : bytes) {
-    sum += category_bytes;
-  }
-  return sum;
+  return core::sum_over<std::size_t>(bytes, [&](const std::size_t category_bytes) { return category_bytes; });
 }
 
 MemoryPlan& MemoryPlan::operator+=(const MemoryPlan& more) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/base/expect.h"
 #include "core/base/refusal.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "nodes/threads/threads_runner.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "nodes/counters.h"
-#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 

@@ -4,12 +4,8 @@
 #include <array>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "apps/computer/record.h"
-#include "apps/frontend/show/page/node_bands.h"
-#include "apps/frontend/show/page/traffic.h"
-#include "apps/frontend/show/page/view_conclusions.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {
@@ -110,36 +106,6 @@ void add_operations(Page& page, const std::vector<OperationCount>& operations, c
     page.begin_section("Operations");
     page.add_table(operation_table(operations, machine));
   }
-}
-
-void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks) {
-  if (!ranks.empty()) {
-    page.add_table(rank_table(ranks));
-  }
-}
-
-void add_losses(Page& page, const Losses& losses) {
-  page.begin_section("Where the time went");
-  page.add_conclusion(loss_conclusion(losses));
-  const Table table = loss_table(losses);
-  add_node_plot(page, loss_plot(losses), table);
-  page.add_table(table);
-}
-
-void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<std::string>& work_names,
-               const std::string& remark) {
-  if (steps.nodes.front().empty()) {
-    return;
-  }
-  page.begin_section("Over time");
-  page.add_conclusion(time_conclusion(steps));
-  if (!remark.empty()) {
-    page.add_text(remark);
-  }
-  const Table table = step_table(steps, work_names);
-  page.add_plot(step_plot(steps, work_names), table);
-  page.add_map(step_map(steps), "Each row is a node, each column a step of time: the darker, the less it did.");
-  page.add_table(table);
 }
 
 }  // namespace dmpc::apps::html

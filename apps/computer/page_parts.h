@@ -9,14 +9,10 @@
 
 #include "apps/computer/options.h"
 #include "apps/frontend/help/glossary.h"
-#include "apps/frontend/show/page/losses.h"
 #include "apps/frontend/show/page/origin.h"
 #include "apps/frontend/show/page/page.h"
-#include "apps/frontend/show/page/view_tables.h"
-#include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table.h"
 #include "nodes/machine.h"
-#include "nodes/ranks/rank_figures.h"
 
 namespace dmpc::apps::html {
 
@@ -48,13 +44,5 @@ struct OperationCount {
 /// Returns a row per operation; with a modelled `machine` also its share of the nodes' computing.
 Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
-
-/// Adds nothing if all nodes are in one process.
-void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks);
-
-void add_losses(Page& page, const Losses& losses);
-/// `remark` names the run if there were several.
-void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<std::string>& work_names,
-               const std::string& remark);
 
 }  // namespace dmpc::apps::html

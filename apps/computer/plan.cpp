@@ -7,6 +7,7 @@
 #include "apps/computer/declared.h"
 #include "apps/frontend/system/digest.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/units.h"
 #include "nodes/runner.h"
 #include "nodes/threads/delayed_packets.h"
@@ -126,11 +127,7 @@ void ProgramPlan::count_places() {
 }
 
 std::size_t ProgramPlan::payload_bytes_max() const {
-  std::size_t longest = small_bytes_max;
-  for (const PacketNeed& packet : needs_.packets) {
-    longest = std::max(longest, packet.bytes_max);
-  }
-  return longest;
+  return core::max_over(needs_.packets, small_bytes_max, &PacketNeed::bytes_max);
 }
 
 std::uint64_t ProgramPlan::digest() const {

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <new>
 #include <optional>
-#include <string>
 #include <variant>
 
 #include "apps/computer/program_call.h"

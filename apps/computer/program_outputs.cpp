@@ -11,12 +11,10 @@
 #include "apps/computer/page_parts.h"
 #include "apps/computer/program_tables.h"
 #include "apps/computer/program_work.h"
-#include "apps/computer/record.h"
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/machine/machines.h"
-#include "apps/frontend/show/page/node_bands.h"
-#include "apps/frontend/show/page/view_conclusions.h"
+#include "apps/frontend/show/page/sections.h"
 #include "apps/frontend/show/references/reference_file.h"
 #include "apps/frontend/system/attempts.h"
 #include "apps/frontend/system/scratch_folder.h"
@@ -63,13 +61,6 @@ void add_pairs(Page& page, const ProgramRecord& record) {
   }
 }
 
-void add_links(Page& page, const nodes::VirtualReport& network) {
-  page.add_text(way_text(network.links));
-  const Table table = link_table(network);
-  page.add_plot(link_plot(), table);
-  page.add_table(table);
-}
-
 void add_packets(Page& page, const ProgramRecord& record) {
   page.begin_section("Packets");
   const std::vector<PacketKindTraffic> packets = packets_of(record);
@@ -84,38 +75,9 @@ void add_packets(Page& page, const ProgramRecord& record) {
   add_ranks(page, record.ranks);
 }
 
-void add_nodes(Page& page, const ProgramRecord& record) {
-  page.begin_section("Nodes");
-  const bool has_pages = record.vocabulary.has_pages();
-  if (!has_pages) {
-    page.add_conclusion(node_conclusion(record));
-  }
-  const Table table = node_table(record);
-  if (!has_pages || record.sum().pages.faults > 0) {
-    add_node_plot(page, node_plot(record), table);
-  }
-  page.add_table(table);
-}
-
-void add_memory(Page& page, const ProgramRecord& record) {
-  page.begin_section("Memory");
-  page.add_conclusion(memory_conclusion(record));
-  const Table table = memory_table(record);
-  add_node_plot(page, memory_plot(record), table);
-  page.add_table(table);
-}
-
 /// Returns which run was observed; nothing if there was only one.
 std::string remark_on_runs(const ProgramRecord& record) {
   return record.tasks.run_count <= 1 ? "" : "Of the last of " + counted(record.tasks.run_count, "run") + ".";
-}
-
-void begin_watched(Page& page, const ProgramRecord& record, const std::string& heading, const std::string& conclusion) {
-  page.begin_section(heading);
-  page.add_conclusion(conclusion);
-  if (const std::string remark = remark_on_runs(record); !remark.empty()) {
-    page.add_text(remark);
-  }
 }
 
 void add_heat(Page& page, const ProgramRecord& record) {
@@ -133,37 +95,13 @@ void add_heat(Page& page, const ProgramRecord& record) {
   page.add_table(hottest_tasks(record));
 }
 
-void add_misses(Page& page, const ProgramRecord& record) {
-  const MissEstimate& misses = *record.view->misses;
-  begin_watched(page, record, "Other caches", cache_conclusion(misses, record.tasks.cache_pages, record.tasks.page_count));
+void add_own_pages(Page& page, const ProgramRecord& record) {
   const svm::PageCounters& pages = record.tasks.last_pages;
-  const Table table = miss_table(misses, record.tasks.page_count, pages.references, record.tasks.cache_pages, pages.faults);
-  page.add_plot(miss_plot(), table);
-  page.add_table(table);
-}
-
-void add_fetches(Page& page, const ProgramRecord& record) {
-  const svm::Fetches& fetches = *record.view->fetches;
-  begin_watched(page, record, "Fetching a page", fetch_conclusion(fetches));
-  const Table table = fetch_table(fetches);
-  page.add_plot(fetch_plot(fetches), table);
-  page.add_table(table);
-  page.add_table(fetch_part_table(fetches));
-}
-
-void add_pages(Page& page, const ProgramRecord& record) {
-  const svm::Fetches& fetches = *record.view->fetches;
-  begin_watched(page, record, "Pages", page_conclusion(record.tasks.last_pages, fetches));
-  if (record.tasks.last_pages.faults == 0) {
-    return;
+  const std::string remark = remark_on_runs(record);
+  add_pages(page, pages, *record.view->fetches, record.nodes.size() <= readable_nodes_max, remark);
+  if (pages.faults > 0) {
+    add_misses(page, *record.view->misses, record.tasks.page_count, record.tasks.cache_pages, pages, remark);
   }
-  if (record.nodes.size() <= readable_nodes_max) {
-    page.add_map(pair_map(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
-  }
-  page.add_plot(page_share_plot(), page_share_table(fetches));
-  page.add_table(page_table(fetches));
-  add_fetches(page, record);
-  add_misses(page, record);
 }
 
 Facts results_of(const ProgramRecord& record) { return record.run_hash ? Facts{{"run", hash_text(*record.run_hash)}} : Facts(); }
@@ -181,16 +119,18 @@ void write_program_page(const ProgramRecord& record, std::ostream& output) {
                   " together, where it does not say otherwise.");
   }
   add_losses(page, losses_of(record));
-  add_steps(page, record.view->steps, program_work(record.vocabulary).names, remark_on_runs(record));
+  add_steps(page, record.view->steps, program_work(record.vocabulary).names, {}, remark_on_runs(record), "");
   if (has_pages) {
     add_heat(page, record);
-    add_pages(page, record);
+    add_own_pages(page, record);
   }
   add_packets(page, record);
   add_operations(page, operations_of(record), record.options.computer.model());
-  add_nodes(page, record);
+  const bool has_plot = !has_pages || record.sum().pages.faults > 0;
+  add_node_section(page, "Nodes", has_pages ? "" : node_conclusion(record), node_table(record),
+                   has_plot ? std::vector{node_plot(record)} : std::vector<Plot>());
   if (!has_pages) {
-    add_memory(page, record);
+    add_node_section(page, "Memory", memory_conclusion(record), memory_table(record), {memory_plot(record)});
   }
   page.add_origin(origin, results_of(record));
   output << page.text();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/show/page/node_table.h"
 #include "apps/frontend/show/page/shares.h"
+#include "core/base/ranges.h"
 #include "svm/pages/packets.h"
 
 namespace dmpc::apps::html {
@@ -45,11 +45,8 @@ TaskHeatKind main_kind(const ProgramRecord& record) {
 }
 
 std::vector<double> heat_by_task(const ProgramRecord& record, TaskHeatKind kind) {
-  std::vector<double> heat;
-  for (const svm::TaskTaken& taken : record.tasks.heat) {
-    heat.push_back(heat_of(machine_of(record), taken, kind));
-  }
-  return heat;
+  return core::mapped<double>(record.tasks.heat,
+                              [&](const svm::TaskTaken& taken) { return heat_of(machine_of(record), taken, kind); });
 }
 
 /// Divides a node's consecutive tasks into `columns` parts of nearly equal size, and appends the mean of each.
@@ -172,11 +169,9 @@ Losses losses_of(const ProgramRecord& record) {
 
 std::vector<PacketKindTraffic> packets_of(const ProgramRecord& record) {
   const nodes::TrafficByKind sent = record.sum().counters.sent;
-  std::vector<PacketKindTraffic> packets;
-  for (const NamedPacket& packet : record.vocabulary.packets) {
-    packets.push_back({packet.name, sent[packet.kind]});
-  }
-  return packets;
+  return core::mapped<PacketKindTraffic>(record.vocabulary.packets, [&](const NamedPacket& packet) {
+    return PacketKindTraffic{packet.name, sent[packet.kind]};
+  });
 }
 
 std::vector<OperationCount> operations_of(const ProgramRecord& record) {
@@ -223,10 +218,8 @@ Plot node_plot(const ProgramRecord& record) {
 }
 
 std::string node_conclusion(const ProgramRecord& record) {
-  std::vector<double> sent_bytes;
-  for (const ProgramNode& node : record.nodes) {
-    sent_bytes.push_back(static_cast<double>(total(node.counters.sent).bytes));
-  }
+  const std::vector<double> sent_bytes = core::mapped<double>(
+      record.nodes, [&](const ProgramNode& node) { return static_cast<double>(total(node.counters.sent).bytes); });
   const std::string even = evenness(sent_bytes, "sent");
   return even.empty() ? "" : even + " number of bytes.";
 }
@@ -255,10 +248,8 @@ Plot memory_plot(const ProgramRecord& record) {
 }
 
 std::string memory_conclusion(const ProgramRecord& record) {
-  std::vector<double> totals;
-  for (const ProgramNode& node : record.nodes) {
-    totals.push_back(static_cast<double>(node.memory.total()));
-  }
+  const std::vector<double> totals =
+      core::mapped<double>(record.nodes, [&](const ProgramNode& node) { return static_cast<double>(node.memory.total()); });
   const std::size_t fullest = largest_at(totals);
   const ProgramNode& node = record.nodes[fullest];
   return "The fullest node, node " + std::to_string(fullest) + ", takes " + bytes_text(node.memory.total()) + ", of which " +

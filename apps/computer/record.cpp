@@ -9,6 +9,7 @@
 #include "apps/frontend/show/trace/view.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "svm/pages/packets.h"
 
 namespace dmpc::apps {
@@ -36,10 +37,8 @@ void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::R
 
 /// Returns "; 1,200 packets between 3 ranks"; empty without ranks.
 std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
-  std::uint64_t packets = 0;
-  for (const nodes::RankFigures& rank : ranks) {
-    packets += rank.traffic.packets_sent;
-  }
+  const std::uint64_t packets =
+      core::sum_over<std::uint64_t>(ranks, [&](const nodes::RankFigures& rank) { return rank.traffic.packets_sent; });
   return ranks.empty() ? "" : "; " + counted(packets, "packet") + " between " + counted(ranks.size(), "rank");
 }
 
@@ -67,11 +66,7 @@ std::vector<const char*> kind_names_of(const Vocabulary& vocabulary) {
   if (vocabulary.has_pages()) {
     return {svm::kind_names.begin(), svm::kind_names.end()};
   }
-  std::vector<const char*> names;
-  for (const NamedPacket& packet : vocabulary.packets) {
-    names.push_back(packet.name.c_str());
-  }
-  return names;
+  return core::mapped<const char*>(vocabulary.packets, [&](const NamedPacket& packet) { return packet.name.c_str(); });
 }
 
 }  // namespace

@@ -1,8 +1,5 @@
 #include "apps/foreign/opened_picture.h"
 
-#include <array>
-#include <cstddef>
-
 #include "core/base/srgb.h"
 #include "core/base/vec.h"
 #include "core/scene/texel.h"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/ranges.h"
 #include "core/base/vec.h"
 
 namespace dmpc::apps {
@@ -14,12 +15,7 @@ struct IndexedVertices {
 };
 
 inline std::vector<core::Vec3d> expanded(const IndexedVertices& vertices) {
-  std::vector<core::Vec3d> all;
-  all.reserve(vertices.indices.size());
-  for (const std::uint32_t index : vertices.indices) {
-    all.push_back(vertices.points[index]);
-  }
-  return all;
+  return core::mapped<core::Vec3d>(vertices.indices, [&](const std::uint32_t index) { return vertices.points[index]; });
 }
 
 }  // namespace dmpc::apps

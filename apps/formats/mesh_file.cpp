@@ -7,6 +7,7 @@
 #include "apps/formats/other_formats.h"
 #include "apps/frontend/line/small_letters.h"
 #include "apps/frontend/line/words.h"
+#include "apps/reader/budget.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -51,7 +52,7 @@ MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, boo
     if (is_other_format(path)) {
       throw core::InputError(how_to_convert(path));
     }
-    return MeshSession(path, options, shows_progress, limits).read();
+    return read_in_session(path, options, shows_progress, limits);
   } catch (const core::CapacityError& error) {
     throw core::CapacityError(with_path(path, error.what()));
   } catch (const core::InputError& error) {

@@ -1,7 +1,6 @@
 // Reads mesh files as scenes in a separate process.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

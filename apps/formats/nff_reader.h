@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/formats/resolution.h"
-#include "apps/formats/view_faults.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

@@ -1,7 +1,6 @@
 #include "apps/formats/nff_tokens.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <istream>
 #include <optional>
@@ -52,11 +51,6 @@ std::string quoted(std::string_view token) {
     text += c >= ' ' && c <= '~' ? c : '?';
   }
   return text + (token.size() > shown_max ? "...'" : "'");
-}
-
-std::string number_text(double value) {
-  std::array<char, 40> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 bool NffTokens::read_line() {
@@ -151,7 +145,7 @@ double NffTokens::number(const char* entity, const char* what) {
 int NffTokens::integer(const char* entity, const char* what, int low, int high) {
   const double value = number(entity, what);
   if (!(value >= low && value <= high) || value != std::floor(value)) {
-    fail("found " + number_text(value) + " as " + what + " of " + entity + ", expected an integer from " + std::to_string(low) +
+    fail("found " + shortest(value) + " as " + what + " of " + entity + ", expected an integer from " + std::to_string(low) +
          " to " + std::to_string(high) + "; correct it");
   }
   return static_cast<int>(value);

@@ -62,7 +62,5 @@ class NffTokens {
 
 /// A token as a message shows it: in quotes, short, printable.
 std::string quoted(std::string_view token);
-/// A number as a message shows it: the shortest text that reads as the same.
-std::string number_text(double value);
 
 }  // namespace dmpc::apps

@@ -8,6 +8,7 @@
 #include "apps/frontend/line/small_letters.h"
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -71,10 +72,7 @@ constexpr std::array other_formats{
 };
 
 const OtherFormat* format_of_path(const std::string& path) {
-  const auto* const found =
-      std::find_if(other_formats.begin(), other_formats.end(),
-                   [ending = ending_of(path)](const OtherFormat& format) { return format.ending == ending; });
-  return found == other_formats.end() ? nullptr : found;
+  return core::find_in(other_formats, ending_of(path), &OtherFormat::ending);
 }
 
 void put_in(std::string& text, std::string_view what, const std::string& with) {

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <ranges>
-#include <span>
 #include <utility>
 
 #include "apps/formats/nff_reader.h"
@@ -16,6 +13,7 @@
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
+#include "core/base/ranges.h"
 #include "core/scene/facet_texture.h"
 #include "core/scene/placed_objects.h"
 
@@ -364,10 +362,8 @@ void SceneReceiver::check_copies() const {
   if (!leaves_copies_out(scene_)) {
     return;
   }
-  std::vector<core::Box> boxes;
-  for (const core::Scene& mesh : scene_.kept->meshes) {
-    boxes.push_back(core::Box::around(mesh.vertices));
-  }
+  const std::vector<core::Box> boxes =
+      core::mapped<core::Box>(scene_.kept->meshes, [&](const core::Scene& mesh) { return core::Box::around(mesh.vertices); });
   for (const core::BaseMeshInstance& place : scene_.kept->places) {
     Unpacker::require(is_in_reach(boxes[place.mesh], place.world));
   }

@@ -6,11 +6,10 @@
 #include <functional>
 #include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "apps/formats/indexed_vertices.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/reader/line.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"

@@ -9,11 +9,11 @@
 #include "apps/frontend/system/progress.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/glyphs.h"
-#include "apps/picture/image_file.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
@@ -39,10 +39,7 @@ constexpr core::Color white{1, 1, 1}, black{0, 0, 0};
 
 /// One of each family, and trees.
 std::vector<std::string> shown_scenes() {
-  std::vector<std::string> names;
-  for (const core::SceneName& scene : core::default_scenes()) {
-    names.push_back(scene.text());
-  }
+  std::vector<std::string> names = core::mapped<std::string>(core::default_scenes(), &core::SceneName::text);
   names.emplace_back("grove-4");
   return names;
 }
@@ -51,10 +48,8 @@ fs::path file_of(const fs::path& folder, const std::string& scene) { return fold
 
 /// Somebody's own, perhaps.
 void check_nothing_there(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const std::string& scene : shown_scenes()) {
-    files.push_back(file_of(folder, scene));
-  }
+  std::vector<fs::path> files =
+      core::mapped<fs::path>(shown_scenes(), [&](const std::string& scene) { return file_of(folder, scene); });
   files.push_back(folder / sheet_name);
   std::error_code error;
   std::erase_if(files, [&error](const fs::path& file) { return !fs::exists(fs::symlink_status(file, error)); });

@@ -4,23 +4,19 @@
 #include <ostream>
 
 #include "apps/frontend/line/typed_line.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/table/table.h"
 #include "apps/help/choices.h"
 #include "apps/help/gallery.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
 
-std::vector<std::string> kinds() {
-  std::vector<std::string> names;
-  for (const ChoiceList& list : all_choices()) {
-    names.push_back(list.kind);
-  }
-  return names;
-}
+std::vector<std::string> kinds() { return core::mapped<std::string>(all_choices(), &ChoiceList::kind); }
 
 std::string kind_named(const std::string& word) {
   const std::vector<std::string> all = kinds();
@@ -36,23 +32,17 @@ std::vector<ChoiceList> chosen(const ListOptions& options) {
   if (options.kinds.empty()) {
     return all;
   }
-  std::vector<ChoiceList> some;
-  for (const std::string& kind : options.kinds) {
-    some.push_back(*std::find_if(all.begin(), all.end(), [&](const ChoiceList& one) { return one.kind == kind; }));
-  }
-  return some;
+  return core::mapped<ChoiceList>(options.kinds, [&](const std::string& kind) {
+    return *std::find_if(all.begin(), all.end(), [&](const ChoiceList& one) { return one.kind == kind; });
+  });
 }
 
 std::string text_of_list(const ChoiceList& list) {
-  std::size_t width = 0;
-  for (const Choice& entry : list.entries) {
-    width = std::max(width, entry.name.size() + 2);
-  }
-  std::string text = list.kind + " (" + list.where + ")\n";
-  for (const Choice& entry : list.entries) {
-    text += "  " + entry.name + std::string(width - entry.name.size(), ' ') + entry.meaning + "\n";
-  }
-  return text;
+  const std::size_t width =
+      core::max_over(list.entries, std::size_t{0}, [&](const Choice& entry) { return entry.name.size() + 2; });
+  return list.kind + " (" + list.where + ")\n" + joined(list.entries, "", [&](const Choice& entry) {
+           return "  " + entry.name + std::string(width - entry.name.size(), ' ') + entry.meaning + "\n";
+         });
 }
 
 /// One row a word.

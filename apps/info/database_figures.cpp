@@ -1,8 +1,8 @@
 #include "apps/info/database_figures.h"
 
 #include <algorithm>
-#include <array>
 
+#include "core/base/ranges.h"
 #include "core/database/address_map.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
@@ -145,10 +145,9 @@ double DatabaseFigures::bytes_each() const { return ratio(bytes, primitives); }
 double DatabaseFigures::copies_each() const { return ratio(copies, primitives); }
 
 double DatabaseFigures::primitives_a_leaf() const {
-  std::uint64_t leaves = 0;
-  for (const RecordFigures& record : records) {
-    leaves += std::find(leaf_names.begin(), leaf_names.end(), record.kind) != leaf_names.end() ? record.count : 0;
-  }
+  const std::uint64_t leaves = core::sum_over<std::uint64_t>(records, [&](const RecordFigures& record) {
+    return std::find(leaf_names.begin(), leaf_names.end(), record.kind) != leaf_names.end() ? record.count : 0;
+  });
   return ratio(copies, leaves);
 }
 

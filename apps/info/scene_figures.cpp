@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-#include <vector>
 
+#include "core/base/ranges.h"
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
@@ -45,11 +45,8 @@ ObjectCounts count_objects(const core::Scene& scene) {
 }
 
 std::uint64_t triangle_count(const core::Scene& mesh) {
-  std::uint64_t count = 0;
-  for (const core::Object& object : mesh.objects) {
-    count += object.vertex_count - std::uint64_t{2};
-  }
-  return count;
+  return core::sum_over<std::uint64_t>(mesh.objects,
+                                       [&](const core::Object& object) { return object.vertex_count - std::uint64_t{2}; });
 }
 
 MeshFigures count_meshes(const core::Scene& scene) {

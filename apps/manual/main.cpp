@@ -133,11 +133,7 @@ const CommandDescription& command_of(const CommandDescription& outer, const std:
 }
 
 std::string joined_calls(const std::vector<Call>& calls) {
-  std::string text;
-  for (const Call& call : calls) {
-    text += function(call);
-  }
-  return text;
+  return joined(calls, "", [&](const Call& call) { return function(call); });
 }
 
 void collect(const CommandDescription& outer, std::set<std::string>& with_commas, std::set<std::string>& repeated) {

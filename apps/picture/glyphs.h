@@ -1,7 +1,6 @@
 // Letters and digits of five by seven dots, for the legends of pictures.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "apps/picture/image_file.h"

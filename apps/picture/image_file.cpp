@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <string>
 
 #include "apps/frontend/line/small_letters.h"
 #include "apps/frontend/system/output_file.h"
@@ -30,27 +27,6 @@ struct PictureValues {
   std::span<const std::byte> values;
 };
 
-/// The process dmpc_picture_writer starts at the first call and stays alive until the end, so that a finished picture has a
-/// writer; a dead one is replaced. Both functions throw core::InternalError or InstallationError if there is none, and
-/// core::CapacityError if this computer has not enough memory for it. Not thread-safe.
-class PictureWriter {
- public:
-  PictureWriter();
-
-  /// Returns whether there is a writer for files with this extension (".tif").
-  bool writes(const std::string& extension);
-  /// Returns the file that would be written under this name. Throws core::InputError, a sentence that continues "PATH: ...", if
-  /// there is none.
-  std::string file_of(const std::string& name, const PictureValues& picture);
-
- private:
-  template <class Ask>
-  auto ask(const Ask& ask_process);
-
-  ReadingBudget budget_;
-  std::optional<ReaderProcess> process_;
-};
-
 /// Its input is ours, so it gets as much time as the largest picture takes on a busy computer, and no sandbox.
 constexpr ReaderLimits limits{.seconds = 1'000'000, .sandbox = Sandbox::none};
 
@@ -72,42 +48,55 @@ std::string received_file(ReaderProcess& process) {
   }
 }
 
-PictureWriter::PictureWriter() : budget_(limits) {}
+/// The process dmpc_picture_writer starts at the first call and stays alive until the end, so that a finished picture has a
+/// writer; a dead one is replaced. Both functions throw core::InternalError or InstallationError if there is none, and
+/// core::CapacityError if this computer has not enough memory for it. Not thread-safe.
+class PictureWriter {
+ public:
+  PictureWriter() : budget_(limits) {}
 
-template <class Ask>
-auto PictureWriter::ask(const Ask& ask_process) {
-  for (bool is_new = !process_.has_value();; is_new = true) {
-    try {
-      if (is_new) {
-        process_.reset();
-        process_.emplace("dmpc_picture_writer", 0, budget_);
-      }
-      return ask_process(*process_);
-    } catch (const ReaderDeath& death) {
-      if (is_new) {
-        process_.reset();
-        throw core::InputError(std::string("cannot be written: dmpc_picture_writer ") + death.what());
+  /// Returns whether there is a writer for files with this extension (".tif").
+  bool writes(const std::string& extension) {
+    return ask([&](ReaderProcess& process) {
+      process.send(Saying::writes, Packer().add_text(extension));
+      return process.receive().saying == Saying::yes;
+    });
+  }
+
+  /// Returns the file that would be written under this name. Throws core::InputError, a sentence that continues "PATH: ...", if
+  /// there is none.
+  std::string file_of(const std::string& name, const PictureValues& picture) {
+    return ask([&](ReaderProcess& process) {
+      const Packer fields =
+          Packer().add_text(name).add(picture.width).add(picture.height).add(static_cast<std::uint8_t>(picture.are_floats));
+      process.send(Saying::write_picture, fields);
+      process.send_bytes(picture.values);
+      return received_file(process);
+    });
+  }
+
+ private:
+  template <class Ask>
+  std::invoke_result_t<Ask, ReaderProcess&> ask(const Ask& ask_process) {
+    for (bool is_new = !process_.has_value();; is_new = true) {
+      try {
+        if (is_new) {
+          process_.reset();
+          process_.emplace("dmpc_picture_writer", 0, budget_);
+        }
+        return ask_process(*process_);
+      } catch (const ReaderDeath& death) {
+        if (is_new) {
+          process_.reset();
+          throw core::InputError(std::string("cannot be written: dmpc_picture_writer ") + death.what());
+        }
       }
     }
   }
-}
 
-bool PictureWriter::writes(const std::string& extension) {
-  return ask([&](ReaderProcess& process) {
-    process.send(Saying::writes, Packer().add_text(extension));
-    return process.receive().saying == Saying::yes;
-  });
-}
-
-std::string PictureWriter::file_of(const std::string& name, const PictureValues& picture) {
-  return ask([&](ReaderProcess& process) {
-    const Packer fields =
-        Packer().add_text(name).add(picture.width).add(picture.height).add(static_cast<std::uint8_t>(picture.are_floats));
-    process.send(Saying::write_picture, fields);
-    process.send_bytes(picture.values);
-    return received_file(process);
-  });
-}
+  ReadingBudget budget_;
+  std::optional<ReaderProcess> process_;
+};
 
 /// Returns the one of this process.
 PictureWriter& picture_writer() {

@@ -10,13 +10,12 @@
 #include <vector>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/picture/picture_format.h"
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
 #include "core/scene/sky_texels.h"
-#include "core/scene/texture.h"
 
 namespace dmpc::apps {
 namespace {

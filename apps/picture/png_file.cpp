@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <csetjmp>
-#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <new>

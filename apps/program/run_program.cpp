@@ -6,7 +6,6 @@
 #include <iostream>
 #include <new>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>

@@ -1,15 +1,20 @@
 #include "apps/render/checkpoint_file.h"
 
+#include <fcntl.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <istream>
 #include <limits>
 #include <span>
+#include <streambuf>
 #include <string>
 #include <vector>
 
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/system/digest.h"
-#include "apps/frontend/system/file_source.h"
-#include "apps/picture/film_image.h"
+#include "apps/frontend/system/files.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
@@ -41,10 +46,9 @@ constexpr std::uint32_t block_pixels = 4096;
 }
 
 std::string head_of(const PictureIdentity& identity) {
-  std::string text = std::string(first_words) + format + "\n";
-  for (const PictureFact& fact : identity.facts) {
-    text += fact.name + "=" + fact.value + "\n";
-  }
+  const std::string text = std::string(first_words) + format + "\n" + joined(identity.facts, "", [&](const PictureFact& fact) {
+                             return fact.name + "=" + fact.value + "\n";
+                           });
   return text + "\n";
 }
 
@@ -92,6 +96,54 @@ void put_pass(Writer& writer, const core::Refinement& refinement) {
   writer.put(std::as_bytes(std::span(&number, 1)));
   writer.put(std::as_bytes(std::span(bytes)));
 }
+
+constexpr std::size_t read_bytes_kept = 65536;
+
+/// A stream from a file that Files opens, which distinguishes the end of the file from an error. Not thread-safe. `files`
+/// outlives it.
+class FileSource final : private std::streambuf, public std::istream {
+ public:
+  /// The first read fails if there is no such file.
+  FileSource(const std::filesystem::path& path, Files& files) : std::istream(this), files_(files), kept_(read_bytes_kept) {
+    do {
+      file_ = files.open(path, O_RDONLY);
+    } while (file_ < 0 && errno == EINTR);
+    if (file_ < 0) {
+      error_ = errno;
+      setstate(std::ios::failbit);
+    }
+  }
+
+  ~FileSource() override {
+    if (file_ >= 0) {
+      files_.close(file_);
+    }
+  }
+
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  /// Returns 0, or the errno of the first call that failed: then the data are incomplete.
+  int error() const { return error_; }
+
+ private:
+  std::streambuf::int_type underflow() override {
+    ssize_t count = -1;
+    while (error_ == 0 && (count = files_.read(file_, kept_)) < 0) {
+      error_ = errno == EINTR ? 0 : errno;
+    }
+    if (count <= 0) {
+      return std::char_traits<char>::eof();
+    }
+    setg(kept_.data(), kept_.data(), kept_.data() + count);
+    return std::char_traits<char>::to_int_type(*gptr());
+  }
+
+  Files& files_;
+  int file_ = -1;
+  int error_ = 0;
+  std::vector<char> kept_;
+};
 
 /// Bytes from a file, and whether they are those that were written.
 class Reader {

@@ -1,7 +1,6 @@
 #include "apps/render/frame_scenes.h"
 
 #include <exception>
-#include <string>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/scene/load_scene.h"

@@ -7,7 +7,6 @@
 #include "apps/frontend/system/opened_files.h"
 #include "apps/run/render_options.h"
 #include "apps/scene/camera_path.h"
-#include "core/base/box.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/ranges.h"
+
 namespace dmpc::apps {
 
 namespace {
@@ -75,11 +77,8 @@ std::vector<double> shares_between(const LiveMoment& before, const LiveMoment& a
       sums[work] += after.busy[node][work] - before.busy[node][work];
     }
   }
-  std::vector<double> shares;
-  for (const std::uint64_t sum_ns : sums) {
-    shares.push_back(part_of(sum_ns, (after.ns - before.ns) * after.busy.size()));
-  }
-  return shares;
+  return core::mapped<double>(
+      sums, [&](const std::uint64_t sum_ns) { return part_of(sum_ns, (after.ns - before.ns) * after.busy.size()); });
 }
 
 }  // namespace dmpc::apps

@@ -1,7 +1,6 @@
 #include "apps/render/live_view.h"
 
 #include <condition_variable>
-#include <exception>
 #include <utility>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include "apps/frontend/run/time_parts.h"
 #include "apps/run/report.h"
 #include "core/base/expect.h"
-#include "core/picture/heat_kind.h"
 #include "dataflow/packets.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_links.h"

@@ -1,8 +1,6 @@
 #include "apps/render/picture_identity.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <iterator>
 #include <span>
 
@@ -10,6 +8,7 @@
 #include "apps/frontend/system/digest.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
+#include "core/base/ranges.h"
 #include "core/scene/placed_objects.h"
 #include "core/scene/stored_objects.h"
 
@@ -42,12 +41,6 @@ std::string stored_or(const core::Scene& scene, const char* name, const Work& wo
 }
 
 std::string text_of(const Digest& digest) { return "#" + hash_text(digest.value()); }
-
-/// The shortest text that is this number.
-std::string text_of(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
 
 std::string text_of_pools(const core::Scene& scene) {
   static_assert(sizeof(core::Vec3d) == 24 && sizeof(core::TexturedCorner) == 32 && sizeof(core::Sphere) == 32 &&
@@ -193,7 +186,7 @@ std::string zenith_text(const core::Scene& scene) {
 void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture) {
   facts.push_back({"samples", picture.is_refined ? "auto" : std::to_string(picture.samples)});
   if (picture.is_refined) {
-    facts.push_back({"error", text_of(picture.refinement.error)});
+    facts.push_back({"error", shortest(picture.refinement.error)});
     facts.push_back({"samples-max", std::to_string(picture.refinement.samples_max)});
     if (picture.refinement.kind == core::ErrorKind::noise) {
       facts.push_back({"estimate of noise", "by former changes, too"});  // by the last ones alone before there was this fact
@@ -235,8 +228,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
 }
 
 const PictureFact* find(const std::vector<PictureFact>& facts, const std::string& name) {
-  const auto found = std::find_if(facts.begin(), facts.end(), [&](const PictureFact& fact) { return fact.name == name; });
-  return found == facts.end() ? nullptr : &*found;
+  return core::find_in(facts, name, &PictureFact::name);
 }
 
 /// How one fact differs; nullptr if a picture has none of the name.
@@ -295,7 +287,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {view_fact, view_text(scene.view)},
            picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(depth_of(picture, scene) - 1)}
                                            : PictureFact{"depth", std::to_string(depth_of(picture, scene))},
-           {"cutoff", text_of(picture.cutoff)},
+           {"cutoff", shortest(picture.cutoff)},
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", "world"}};  // there were others: a checkpoint that has them is of another picture
@@ -309,7 +301,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
   }
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement, radiance_bound(picture, scene),
                     film_scale_of(picture, scene)};
-  facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
+  facts.push_back({film_scale_fact, text_of(identity.terms.film_scale)});
   return identity;
 }
 

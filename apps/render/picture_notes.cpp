@@ -6,7 +6,6 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/scene/scene_setup.h"
 #include "core/base/expect.h"
-#include "core/picture/film/film.h"
 
 namespace dmpc::apps {
 

@@ -5,7 +5,7 @@
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
-#include "core/picture/heat_kind.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -72,11 +72,7 @@ void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy) {
 }
 
 std::vector<HeatKind> kinds_of(const std::vector<HeatRequest>& requests) {
-  std::vector<HeatKind> kinds;
-  for (const HeatRequest& request : requests) {
-    kinds.push_back(request.kind);
-  }
-  return kinds;
+  return core::mapped<HeatKind>(requests, &HeatRequest::kind);
 }
 
 }  // namespace dmpc::apps

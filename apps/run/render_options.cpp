@@ -1,7 +1,6 @@
 #include "apps/run/render_options.h"
 
 #include <algorithm>
-#include <string>
 
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/line/parsed_number.h"

@@ -1,15 +1,11 @@
 #include "apps/run/strategy_rows.h"
 
-#include <algorithm>
 #include <initializer_list>
-#include <iterator>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "apps/frontend/line/option_values.h"
-#include "apps/run/strategy_options.h"
 #include "core/database/database.h"
 #include "dataflow/packets.h"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "apps/run/strategy_options.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

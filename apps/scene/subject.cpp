@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/scene/database_facts.h"
 #include "core/database/database.h"

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
-#include <limits>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>

@@ -2,8 +2,6 @@
 
 #include <sys/mman.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <new>
 

@@ -1,4 +1,5 @@
 // Jacks: three crossed rods with balls at their ends, and eight half-sized copies at the corners of a cube, recursively.
+#include "core/base/ranges.h"
 #include "core/families/families.h"
 #include "core/families/frame.h"
 #include "core/families/tessellation.h"
@@ -20,10 +21,8 @@ class FramedSink final : public SceneSink {
   void material(const Material& material) override { target_.material(material); }
   void polygon(const std::vector<Vec3d>& vertices) override { target_.polygon(points(vertices)); }
   void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override {
-    std::vector<Vec3d> carried;
-    for (const Vec3d& normal : normals) {
-      carried.push_back(frame_.vector(normal) * (1 / (scale_ * scale_)));
-    }
+    std::vector<Vec3d> carried =
+        mapped<Vec3d>(normals, [&](const Vec3d& normal) { return frame_.vector(normal) * (1 / (scale_ * scale_)); });
     target_.patch(points(vertices), carried);
   }
   void sphere(const Vec3d& center, double radius) override { target_.sphere(frame_.point(center), radius * scale_); }
@@ -33,11 +32,7 @@ class FramedSink final : public SceneSink {
 
  private:
   std::vector<Vec3d> points(const std::vector<Vec3d>& vertices) const {
-    std::vector<Vec3d> carried;
-    for (const Vec3d& vertex : vertices) {
-      carried.push_back(frame_.point(vertex));
-    }
-    return carried;
+    return mapped<Vec3d>(vertices, [&](const Vec3d& vertex) { return frame_.point(vertex); });
   }
 
   Frame frame_;

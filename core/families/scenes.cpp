@@ -8,6 +8,7 @@
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 #include "core/families/families.h"
 #include "core/families/tessellation.h"
 
@@ -53,11 +54,7 @@ double rounded(double value) { return round_to_6_digits(value); }
 Vec3d rounded(const Vec3d& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
 std::vector<Vec3d> rounded(const std::vector<Vec3d>& vectors) {
-  std::vector<Vec3d> result;
-  for (const Vec3d& vector : vectors) {
-    result.push_back(rounded(vector));
-  }
-  return result;
+  return mapped<Vec3d>(vectors, [&](const Vec3d& vector) { return rounded(vector); });
 }
 
 /// Rounds every number to the 6 significant digits of an NFF file, so that a built-in scene is the same, bit for bit, as the file
@@ -112,14 +109,7 @@ constexpr std::array<Family, 11> families = {{
     {"tree", 11, count_tree, scenes::make_tree},
 }};
 
-const Family* find_family(std::string_view name) {
-  for (const Family& family : families) {
-    if (family.name == name) {
-      return &family;
-    }
-  }
-  return nullptr;
-}
+const Family* find_family(std::string_view name) { return find_in(families, name, &Family::name); }
 
 /// The tessellation that a family's scenes actually get.
 int used_tessellation(const Family& family, int tessellation) {
@@ -147,10 +137,7 @@ int size_max(const Family& family) {
 }
 
 std::vector<std::string> family_names(std::span<const std::string> others) {
-  std::vector<std::string> names;
-  for (const Family& family : families) {
-    names.emplace_back(family.name);
-  }
+  std::vector<std::string> names = mapped<std::string>(families, &Family::name);
   names.insert(names.end(), others.begin(), others.end());
   return names;
 }
@@ -270,11 +257,8 @@ SceneName parse_scene_name(std::string_view text, std::span<const std::string> o
 }
 
 std::vector<SceneName> default_scenes() {
-  std::vector<SceneName> names;
-  for (const Family& family : families) {
-    names.push_back({.family = std::string(family.name), .size = family.size_default});
-  }
-  return names;
+  return mapped<SceneName>(
+      families, [&](const Family& family) { return SceneName{.family = std::string(family.name), .size = family.size_default}; });
 }
 
 std::string describe_scene_families() {

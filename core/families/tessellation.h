@@ -2,7 +2,6 @@
 // does.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "core/families/frame.h"

@@ -1,7 +1,6 @@
 // How a sky's picture is cut into tiles: by those who write them, and by those who read them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "core/base/units.h"

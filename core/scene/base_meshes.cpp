@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "core/base/ranges.h"
 #include "core/record/instance.h"
 #include "core/scene/placed_objects.h"
 #include "core/scene/stored_objects.h"
@@ -33,10 +33,7 @@ bool shines(const Scene& mesh, const std::vector<Material>& materials) {
 bool can_be_instanced(const Transform& world) {
   // Transformed normals are off by the rounding of products of two rows in double, relative to the volume that the three span.
   constexpr double share_least = 0x1p-24, size_least = 0x1p-200, size_max = 0x1p200;
-  double square = 0;
-  for (const Vec3d& row : world.rows) {
-    square += dot(row, row);
-  }
+  const double square = sum_over<double>(world.rows, [&](const Vec3d& row) { return dot(row, row); });
   const double size = std::sqrt(square);
   return size > size_least && size < size_max && std::fabs(world.determinant()) >= share_least * size * size * size;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/ranges.h"
 #include "core/base/units.h"
 #include "core/scene/frame.h"
 #include "core/scene/placed_objects.h"
@@ -29,10 +30,7 @@ struct Weighted {
 /// The least value such that this share of the weight lies at or below it.
 double quantile(std::vector<Weighted>& all, double share) {
   std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-  double wanted = 0;
-  for (const Weighted& one : all) {
-    wanted += one.weight * share;
-  }
+  const double wanted = sum_over<double>(all, [&](const Weighted& one) { return one.weight * share; });
   auto at = all.begin();
   for (double sum = at->weight; sum < wanted && at + 1 != all.end(); sum += at->weight) {
     ++at;

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/ranges.h"
 #include "core/scene/base_meshes.h"
 #include "core/scene/face_normals.h"
 #include "core/scene/placed_objects.h"
@@ -27,11 +28,7 @@ ExpandedSize size_of(std::span<const Object> objects) {
 }
 
 std::uint64_t triangle_count(std::span<const Object> objects) {
-  std::uint64_t count = 0;
-  for (const Object& object : objects) {
-    count += object.vertex_count - std::uint64_t{2};
-  }
-  return count;
+  return sum_over<std::uint64_t>(objects, [&](const Object& object) { return object.vertex_count - std::uint64_t{2}; });
 }
 
 /// Which meshes become base meshes: large ones with several instances that allow it.

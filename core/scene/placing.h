@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/box.h"
+#include "core/base/ranges.h"
 #include "core/base/vec.h"
 #include "core/record/instance.h"
 #include "core/record/record.h"
@@ -113,10 +114,7 @@ class Placing {
   }
   /// The length of the longest image of a mesh's unit here, or at most the square root of 3 times as much.
   double size_of_unit() const {
-    double square = 0;
-    for (const Vec3d& row : world_.rows) {
-      square += dot(row, row);
-    }
+    const double square = sum_over<double>(world_.rows, [&](const Vec3d& row) { return dot(row, row); });
     return std::sqrt(square) * frame_.scale;
   }
 

@@ -1,11 +1,8 @@
 #include "core/scene/scene.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/base/expect.h"

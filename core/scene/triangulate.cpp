@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/ranges.h"
 #include "core/scene/ear_clipper.h"
 #include "core/scene/flat_polygon.h"
 
@@ -39,11 +40,7 @@ constexpr double size_min = 0x1p-240;
 constexpr double enlargement = 0x1p480;
 
 double size_of(std::span<const Vec3d> vertices) {
-  double size = 0;
-  for (const Vec3d& vertex : vertices) {
-    size = std::max(size, largest_component(vertex - vertices[0]));
-  }
-  return size;
+  return max_over(vertices, double{0}, [&](const Vec3d& vertex) { return largest_component(vertex - vertices[0]); });
 }
 
 bool is_tiny(std::span<const Vec3d> vertices) {
@@ -52,11 +49,7 @@ bool is_tiny(std::span<const Vec3d> vertices) {
 }
 
 std::vector<Vec3d> enlarged_copy(std::span<const Vec3d> vertices) {
-  std::vector<Vec3d> enlarged;
-  for (const Vec3d& vertex : vertices) {
-    enlarged.push_back((vertex - vertices[0]) * enlargement);
-  }
-  return enlarged;
+  return mapped<Vec3d>(vertices, [&](const Vec3d& vertex) { return (vertex - vertices[0]) * enlargement; });
 }
 
 }  // namespace
@@ -96,7 +89,7 @@ std::vector<CornerTriangle> triangulate(std::span<const Vec3d> vertices) {
     }
     return triangles;
   }
-  return EarClipper(seen).triangles();
+  return clip_ears(seen).triangles;
 }
 
 }  // namespace dmpc::core

@@ -1,10 +1,7 @@
 #include "nodes/observers/activity_profile.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "core/base/expect.h"
 #include "nodes/atomics.h"

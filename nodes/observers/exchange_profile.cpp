@@ -4,8 +4,6 @@
 #include <charconv>
 #include <functional>
 
-#include "nodes/program.h"
-
 namespace dmpc::nodes {
 
 namespace {

@@ -1,7 +1,6 @@
 // What each node has done so far, readable during the run; an instrument outside of the computer, whose memory is no node's.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

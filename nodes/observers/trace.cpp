@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <tuple>
 #include <unordered_map>
 #include <utility>

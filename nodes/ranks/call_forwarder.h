@@ -7,7 +7,6 @@
 #include <functional>
 #include <future>
 #include <mutex>
-#include <type_traits>
 
 #include "core/base/usual_arithmetic.h"
 

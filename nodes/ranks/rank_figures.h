@@ -1,7 +1,6 @@
 // Figures of each rank after a run.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>

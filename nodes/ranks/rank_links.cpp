@@ -1,8 +1,5 @@
 #include "nodes/ranks/rank_links.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace dmpc::nodes {
 
 RankLinks::RankLinks(Fabric& fabric, const RankSilence& silence, Idle idle) : fabric_(&fabric), silence_(silence), idle_(idle) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/ranges.h"
 #include "nodes/ranks/outbox.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/streams.h"
@@ -52,11 +53,9 @@ std::vector<PeerMemory> peers_of(const Plan& plan) {
 }
 /// The memories of all nodes from a runner's specifications, then the host's.
 inline std::vector<PeerMemory> peers_of(std::span<const NodeSpecification> specifications) {
-  std::vector<PeerMemory> peers;
-  for (const NodeSpecification& specification : specifications) {
-    peers.push_back({specification.mailbox, specification.plan.total()});
-  }
-  return peers;
+  return core::mapped<PeerMemory>(specifications, [&](const NodeSpecification& specification) {
+    return PeerMemory{specification.mailbox, specification.plan.total()};
+  });
 }
 
 /// A rank's memory. Without links there is one rank, which has all nodes and no network.

@@ -4,11 +4,10 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/usual_arithmetic.h"
 #include "nodes/processors.h"
 #include "nodes/ranks/clock_talk.h"
@@ -19,7 +18,6 @@
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/gathering_talk.h"
-#include "nodes/ranks/outbox.h"
 #include "nodes/threads/node_threads.h"
 #include "nodes/threads/promptness.h"
 
@@ -56,11 +54,8 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
 constexpr int leisure = 16;
 
 std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
-  std::size_t most = small_payload_bytes;
-  for (const NodeSpecification& specification : specifications) {
-    most = std::max(most, specification.mailbox.bulk_payload_bytes);
-  }
-  return most;
+  return core::max_over(specifications, small_payload_bytes,
+                        [&](const NodeSpecification& specification) { return specification.mailbox.bulk_payload_bytes; });
 }
 
 }  // namespace

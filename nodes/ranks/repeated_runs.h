@@ -7,7 +7,6 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"

@@ -1,8 +1,6 @@
 #include "svm/pages/run_tasks.h"
 
-#include <functional>
 #include <memory>
-#include <utility>
 
 #include "core/base/counts.h"
 #include "core/base/expect.h"

@@ -12,7 +12,6 @@
 #include <string>
 
 #include "core/base/expect.h"
-#include "core/picture/memory_use.h"
 #include "core/trace/task_state.h"
 #include "nodes/node.h"
 #include "svm/pages/node_program.h"

@@ -1,7 +1,6 @@
 #include "apps/foreign/gltf/materials.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -113,22 +112,159 @@ class MaterialReader {
         totals_(totals),
         file_(file) {}
 
-  void add(const Part& source, MaterialTraits& traits);
+  void add(const Part& source, MaterialTraits& traits) {
+    static const nlohmann::json nothing = nlohmann::json::object();
+    const Base base = base_of(source, Part(nothing));
+    FileMaterial& material = file_.materials.emplace_back();
+    source.text("name", "");  // which nobody shows, and which is no name if it is no text
+    add_others(source, base, traits);
+    material.material = surface_of(source, base, traits);
+    set_alpha(source, std::clamp(base.colours.numbers(base.color, {1, 1, 1, 1})[3], 0.0, 1.0), material);
+    add_textures(base, material, traits);
+  }
+
   /// How often a texture was named that names no picture.
   std::uint64_t without_picture() const { return without_picture_; }
 
  private:
-  core::Material surface_of(const Part& source, const Base& base, MaterialTraits& traits);
-  void set_alpha(const Part& source, double own, FileMaterial& material);
-  void add_textures(const Base& base, FileMaterial& material, MaterialTraits& traits);
+  core::Material surface_of(const Part& source, const Base& base, MaterialTraits& traits) {
+    const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
+    std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
+    const auto stronger = source.extension("KHR_materials_emissive_strength"), ior = source.extension("KHR_materials_ior"),
+               transmission = source.extension("KHR_materials_transmission"), coat = source.extension("KHR_materials_clearcoat");
+    for (double& channel : light) {
+      channel *= stronger ? stronger->number("emissiveStrength", 1) : 1;
+    }
+    Factors factors;
+    const double opacity = factors.share(color[3]);
+    MetallicSurface surface{
+        .base = factors.color(color), .emission = factors.color(light, std::numeric_limits<double>::max()), .metallic = 0};
+    if (base.is_glossy) {
+      surface.roughness = factors.share(1 - base.roughness.number("glossinessFactor", 1));
+    } else {
+      surface.metallic = factors.share(base.roughness.number("metallicFactor", 1));
+      surface.roughness = factors.share(base.roughness.number("roughnessFactor", 1));
+    }
+    surface.transmission = transmission ? factors.share(transmission->number("transmissionFactor", 0)) : 0;
+    surface.refraction_index = ior ? ior->number("ior", 1.5) : 1.5;
+    surface.opacity = alpha_mode(source) == "BLEND" ? opacity : 1;
+    traits.has_light_texture = traits.has_light_texture && surface.emission != Vec3d{};
+    surface.emission = traits.has_light_texture ? Vec3d{} : surface.emission;
+    traits.shines = surface.emission != Vec3d{};
+    traits.colors_what_shines_through =
+        surface.transmission > 0 && !(surface.base.x == surface.base.y && surface.base.y == surface.base.z);
+    traits.has_clear_coat = coat && coat->number("clearcoatFactor", 0) > 0;
+    traits.has_factor_beyond = factors.are_beyond();
+    return material_of(surface);
+  }
+
+  /// What a texture's alpha does, by which the material's `own` is multiplied.
+  void set_alpha(const Part& source, double own, FileMaterial& material) {
+    const std::string mode = alpha_mode(source);
+    const double cutoff = source.number("alphaCutoff", 0.5);
+    if (mode == "BLEND") {
+      material.material.alpha = core::AlphaUse::blend;
+    } else if (mode == "MASK" && cutoff > 0 && cutoff <= own) {
+      material.material.alpha = core::AlphaUse::cut;
+      material.material.alpha_cutoff = cutoff / own;
+    }
+    material.is_cut_away = mode == "MASK" && own < cutoff;
+  }
+
+  void add_textures(const Base& base, FileMaterial& material, MaterialTraits& traits) {
+    const auto color = base.colours.find(base.texture), facets = base.roughness.find(base.facets);
+    const TextureLayout layout = color ? layout_of(*color) : TextureLayout{};
+    if (color) {
+      material.texture = texture_use(*color);
+      material.place = layout.place;
+    }
+    if (material.texture) {
+      traits.coordinates = layout.coordinates;
+      material.texture->edges.alpha =
+          material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept : TextureAlpha::ignored;
+      material.texture->edges.cutoff = material.material.alpha_cutoff;
+    }
+    if (facets) {
+      material.facets = texture_use(*facets);
+      material.lie_facets_there = layout_of(*facets) == layout;
+    }
+  }
+
   /// All but those of the colour and of what `base` says of metal, at any depth that makes sense.
-  void add_others(const Part& source, const Base& base, MaterialTraits& traits, int level = 0);
+  void add_others(const Part& source, const Base& base, MaterialTraits& traits, int level = 0) {
+    constexpr int levels_max = 16;
+    if (level > levels_max) {
+      source.fail("extensions within each other more than 16 deep, expected one or two");
+    }
+    for (const auto& [key, part] : source.members()) {
+      if (key == "baseColorTexture" || key == "diffuseTexture" || key == base.facets) {
+        continue;
+      }
+      if (is_texture(key)) {
+        const auto image = image_of(part);
+        if (image) {
+          traits.other_textures.insert(*image);
+        }
+        traits.has_light_texture = traits.has_light_texture || (key == "emissiveTexture" && image);
+      } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.starts_with("KHR_")) {
+        add_others(part, base, traits, level + 1);
+      }
+    }
+  }
 
   const Part& texture_of(const Part& use) const { return textures_[use.required_index("index", textures_.size(), "textures")]; }
-  std::optional<std::size_t> image_of(const Part& use);
-  std::optional<TextureUse> texture_use(const Part& use);
+
+  std::optional<std::size_t> image_of(const Part& use) {
+    const Part& texture = texture_of(use);
+    std::optional<std::size_t> image = texture.index("source", images_.size(), "images");
+    for (const char* const format : {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"}) {
+      const auto other = texture.extension(format);
+      if (other && !texture.find("source")) {
+        image = other->index("source", images_.size(), "images");
+        break;
+      }
+    }
+    without_picture_ += image ? 0 : 1;
+    return image;
+  }
+
+  std::optional<TextureUse> texture_use(const Part& use) {
+    const auto image = image_of(use);
+    if (!image) {
+      return std::nullopt;
+    }
+    TextureUse result{.path = name_of(*image), .edges = {}};
+    if (const auto sampler = texture_of(use).index("sampler", samplers_.size(), "samplers")) {
+      result.edges.s = edge_mode(samplers_[*sampler], "wrapS");
+      result.edges.t = edge_mode(samplers_[*sampler], "wrapT");
+    }
+    return result;
+  }
+
   /// What a texture calls it: the name of a file, or, of one within the document, its number behind a star.
-  std::string name_of(std::size_t image);
+  std::string name_of(std::size_t image) {
+    const Part& part = images_[image];
+    const std::string address = part.text("uri", "");
+    if (!address.empty() && !is_data(address)) {
+      return address;
+    }
+    const auto [known, is_new] = numbers_.try_emplace(image, file_.pictures.size());
+    if (is_new) {
+      MadePicture& picture = file_.pictures.emplace_back();
+      if (address.empty()) {
+        const auto view = buffers_.view(part.required_index("bufferView", buffers_.view_count(), "bufferViews")).bytes;
+        totals_.add({.bytes = view.size()}, [&part] { return part.where() + ": "; });  // as others may name the same bytes
+        picture.file.assign(view.begin(), view.end());
+      } else {
+        picture.file = bytes_of_data(address, part);
+      }
+      if (picture.file.size() > std::numeric_limits<std::uint32_t>::max()) {
+        part.fail("is larger than 4 GiB");
+      }
+      picture.format_hint = ending_of(picture.file);
+    }
+    return "*" + std::to_string(known->second);
+  }
 
   Part root_;
   std::vector<Part> textures_, samplers_, images_;
@@ -138,151 +274,6 @@ class MaterialReader {
   std::map<std::size_t, std::size_t> numbers_;  ///< images within the document -> the file's pictures
   std::uint64_t without_picture_ = 0;
 };
-
-std::optional<std::size_t> MaterialReader::image_of(const Part& use) {
-  const Part& texture = texture_of(use);
-  std::optional<std::size_t> image = texture.index("source", images_.size(), "images");
-  for (const char* const format : {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"}) {
-    const auto other = texture.extension(format);
-    if (other && !texture.find("source")) {
-      image = other->index("source", images_.size(), "images");
-      break;
-    }
-  }
-  without_picture_ += image ? 0 : 1;
-  return image;
-}
-
-std::string MaterialReader::name_of(std::size_t image) {
-  const Part& part = images_[image];
-  const std::string address = part.text("uri", "");
-  if (!address.empty() && !is_data(address)) {
-    return address;
-  }
-  const auto [known, is_new] = numbers_.try_emplace(image, file_.pictures.size());
-  if (is_new) {
-    MadePicture& picture = file_.pictures.emplace_back();
-    if (address.empty()) {
-      const auto view = buffers_.view(part.required_index("bufferView", buffers_.view_count(), "bufferViews")).bytes;
-      totals_.add({.bytes = view.size()}, [&part] { return part.where() + ": "; });  // as others may name the same bytes
-      picture.file.assign(view.begin(), view.end());
-    } else {
-      picture.file = bytes_of_data(address, part);
-    }
-    if (picture.file.size() > std::numeric_limits<std::uint32_t>::max()) {
-      part.fail("is larger than 4 GiB");
-    }
-    picture.format_hint = ending_of(picture.file);
-  }
-  return "*" + std::to_string(known->second);
-}
-
-std::optional<TextureUse> MaterialReader::texture_use(const Part& use) {
-  const auto image = image_of(use);
-  if (!image) {
-    return std::nullopt;
-  }
-  TextureUse result{.path = name_of(*image), .edges = {}};
-  if (const auto sampler = texture_of(use).index("sampler", samplers_.size(), "samplers")) {
-    result.edges.s = edge_mode(samplers_[*sampler], "wrapS");
-    result.edges.t = edge_mode(samplers_[*sampler], "wrapT");
-  }
-  return result;
-}
-
-void MaterialReader::add_textures(const Base& base, FileMaterial& material, MaterialTraits& traits) {
-  const auto color = base.colours.find(base.texture), facets = base.roughness.find(base.facets);
-  const TextureLayout layout = color ? layout_of(*color) : TextureLayout{};
-  if (color) {
-    material.texture = texture_use(*color);
-    material.place = layout.place;
-  }
-  if (material.texture) {
-    traits.coordinates = layout.coordinates;
-    material.texture->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept : TextureAlpha::ignored;
-    material.texture->edges.cutoff = material.material.alpha_cutoff;
-  }
-  if (facets) {
-    material.facets = texture_use(*facets);
-    material.lie_facets_there = layout_of(*facets) == layout;
-  }
-}
-
-void MaterialReader::add_others(const Part& source, const Base& base, MaterialTraits& traits, int level) {
-  constexpr int levels_max = 16;
-  if (level > levels_max) {
-    source.fail("extensions within each other more than 16 deep, expected one or two");
-  }
-  for (const auto& [key, part] : source.members()) {
-    if (key == "baseColorTexture" || key == "diffuseTexture" || key == base.facets) {
-      continue;
-    }
-    if (is_texture(key)) {
-      const auto image = image_of(part);
-      if (image) {
-        traits.other_textures.insert(*image);
-      }
-      traits.has_light_texture = traits.has_light_texture || (key == "emissiveTexture" && image);
-    } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.starts_with("KHR_")) {
-      add_others(part, base, traits, level + 1);
-    }
-  }
-}
-
-core::Material MaterialReader::surface_of(const Part& source, const Base& base, MaterialTraits& traits) {
-  const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
-  std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
-  const auto stronger = source.extension("KHR_materials_emissive_strength"), ior = source.extension("KHR_materials_ior"),
-             transmission = source.extension("KHR_materials_transmission"), coat = source.extension("KHR_materials_clearcoat");
-  for (double& channel : light) {
-    channel *= stronger ? stronger->number("emissiveStrength", 1) : 1;
-  }
-  Factors factors;
-  const double opacity = factors.share(color[3]);
-  MetallicSurface surface{
-      .base = factors.color(color), .emission = factors.color(light, std::numeric_limits<double>::max()), .metallic = 0};
-  if (base.is_glossy) {
-    surface.roughness = factors.share(1 - base.roughness.number("glossinessFactor", 1));
-  } else {
-    surface.metallic = factors.share(base.roughness.number("metallicFactor", 1));
-    surface.roughness = factors.share(base.roughness.number("roughnessFactor", 1));
-  }
-  surface.transmission = transmission ? factors.share(transmission->number("transmissionFactor", 0)) : 0;
-  surface.refraction_index = ior ? ior->number("ior", 1.5) : 1.5;
-  surface.opacity = alpha_mode(source) == "BLEND" ? opacity : 1;
-  traits.has_light_texture = traits.has_light_texture && surface.emission != Vec3d{};
-  surface.emission = traits.has_light_texture ? Vec3d{} : surface.emission;
-  traits.shines = surface.emission != Vec3d{};
-  traits.colors_what_shines_through =
-      surface.transmission > 0 && !(surface.base.x == surface.base.y && surface.base.y == surface.base.z);
-  traits.has_clear_coat = coat && coat->number("clearcoatFactor", 0) > 0;
-  traits.has_factor_beyond = factors.are_beyond();
-  return material_of(surface);
-}
-
-/// What a texture's alpha does, by which the material's `own` is multiplied.
-void MaterialReader::set_alpha(const Part& source, double own, FileMaterial& material) {
-  const std::string mode = alpha_mode(source);
-  const double cutoff = source.number("alphaCutoff", 0.5);
-  if (mode == "BLEND") {
-    material.material.alpha = core::AlphaUse::blend;
-  } else if (mode == "MASK" && cutoff > 0 && cutoff <= own) {
-    material.material.alpha = core::AlphaUse::cut;
-    material.material.alpha_cutoff = cutoff / own;
-  }
-  material.is_cut_away = mode == "MASK" && own < cutoff;
-}
-
-void MaterialReader::add(const Part& source, MaterialTraits& traits) {
-  static const nlohmann::json nothing = nlohmann::json::object();
-  const Base base = base_of(source, Part(nothing));
-  FileMaterial& material = file_.materials.emplace_back();
-  source.text("name", "");  // which nobody shows, and which is no name if it is no text
-  add_others(source, base, traits);
-  material.material = surface_of(source, base, traits);
-  set_alpha(source, std::clamp(base.colours.numbers(base.color, {1, 1, 1, 1})[3], 0.0, 1.0), material);
-  add_textures(base, material, traits);
-}
 
 }  // namespace
 

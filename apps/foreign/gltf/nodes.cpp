@@ -67,28 +67,6 @@ struct Standing {
   Transform world;
 };
 
-class Tree {
- public:
-  Tree(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, SceneTotals& totals)
-      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes), pose_(pose), totals_(totals) {}
-
-  /// The node that `where` names, with all below it. A hidden one has nothing to show, and is there for the joints among them.
-  void add(const Part& where, const Transform& parent, int level, bool is_below_hidden);
-
-  Nodes found;
-  std::multimap<std::size_t, Standing> cameras, lights;  ///< by their places in the document
-
- private:
-  void add_shown(const Part& source, const std::string& name, const Transform& world);
-  std::vector<Transform> instances(const Part& instancing, const Transform& world);
-
-  std::vector<Part> nodes_;
-  Accessors& accessors_;
-  const Meshes& meshes_;
-  const Pose& pose_;
-  SceneTotals& totals_;
-};
-
 /// The numbers of one instance of many; a plain one where the attribute is not there.
 std::vector<double> instance(const Values& values, std::size_t i, std::vector<double> plain) {
   for (std::size_t k = 0; k < values.width; ++k) {
@@ -97,72 +75,89 @@ std::vector<double> instance(const Values& values, std::size_t i, std::vector<do
   return plain;
 }
 
-/// Below the node.
-std::vector<Transform> Tree::instances(const Part& instancing, const Transform& world) {
-  const Part attributes = instancing.get("attributes");
-  Values moves, turns, scales;
-  std::size_t count = 0;
-  const auto read = [&](const char* name, std::size_t width, Values& values) {
-    const auto found = attributes.find(name);
-    values = found ? accessors_.values(*found, width) : Values{};
-    if (found && count > 0 && values.count() != count) {
-      found->fail("has another count than the other attributes of the instances");
-    }
-    count = found ? values.count() : count;
-  };
-  read("TRANSLATION", 3, moves);
-  read("ROTATION", 4, turns);
-  read("SCALE", 3, scales);
-  const auto where = [&instancing] { return instancing.where() + ": "; };
-  totals_.add({.bytes = count * sizeof(Transform)}, where);
-  totals_.ask(size_of_places(count), where);  // a mesh has at least one primitive
-  std::vector<Transform> places;
-  places.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    places.push_back(composed(world, transform_of(instance(moves, i, {0, 0, 0}), instance(turns, i, {0, 0, 0, 1}),
-                                                  instance(scales, i, {1, 1, 1}), attributes)));
-  }
-  return places;
-}
+class Tree {
+ public:
+  Tree(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, SceneTotals& totals)
+      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes), pose_(pose), totals_(totals) {}
 
-/// The mesh, the camera and the light of a node.
-void Tree::add_shown(const Part& source, const std::string& name, const Transform& world) {
-  if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
-    const auto instancing = source.extension("EXT_mesh_gpu_instancing");
-    const auto skin = source.find("skin");
-    if (instancing && skin) {
-      source.fail("has instances of a mesh with a skin, of which EXT_mesh_gpu_instancing does not say where they stand");
+  /// The node that `where` names, with all below it. A hidden one has nothing to show, and is there for the joints among them.
+  void add(const Part& where, const Transform& parent, int level, bool is_below_hidden) {
+    constexpr int levels_max = 2000;
+    const std::size_t index = where.as_index(nodes_.size(), "nodes");
+    const Part& source = nodes_[index];
+    const auto posed = pose_.find(index);
+    const Transform world = composed(parent, transform_of(source, posed == pose_.end() ? NodePose{} : posed->second));
+    if (!found.worlds.emplace(index, world).second || level > levels_max) {
+      where.fail(level > levels_max ? "nodes below each other more than 2000 deep"
+                                    : "nodes that are recursive or shared: nodes[" + std::to_string(index) +
+                                          "] hangs below two nodes, or below itself, and nodes must be a tree");
     }
-    found.uses.push_back({name, *mesh, instancing ? instances(*instancing, world) : std::vector{world}, skin});
+    const std::string name = source.text("name", source.where());
+    const bool hides = is_below_hidden || is_hidden(source);
+    if (!hides) {
+      add_shown(source, name, world);
+    }
+    for (const Part& child : source.list("children")) {
+      add(child, world, level + 1, hides);
+    }
   }
-  if (const auto camera = source.find("camera")) {
-    cameras.emplace(camera->as_whole(), Standing{name, world});
-  }
-  if (const auto light = source.extension("KHR_lights_punctual")) {
-    lights.emplace(light->get("light").as_whole(), Standing{name, world});
-  }
-}
 
-void Tree::add(const Part& where, const Transform& parent, int level, bool is_below_hidden) {
-  constexpr int levels_max = 2000;
-  const std::size_t index = where.as_index(nodes_.size(), "nodes");
-  const Part& source = nodes_[index];
-  const auto posed = pose_.find(index);
-  const Transform world = composed(parent, transform_of(source, posed == pose_.end() ? NodePose{} : posed->second));
-  if (!found.worlds.emplace(index, world).second || level > levels_max) {
-    where.fail(level > levels_max ? "nodes below each other more than 2000 deep"
-                                  : "nodes that are recursive or shared: nodes[" + std::to_string(index) +
-                                        "] hangs below two nodes, or below itself, and nodes must be a tree");
+  Nodes found;
+  std::multimap<std::size_t, Standing> cameras, lights;  ///< by their places in the document
+
+ private:
+  /// The mesh, the camera and the light of a node.
+  void add_shown(const Part& source, const std::string& name, const Transform& world) {
+    if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
+      const auto instancing = source.extension("EXT_mesh_gpu_instancing");
+      const auto skin = source.find("skin");
+      if (instancing && skin) {
+        source.fail("has instances of a mesh with a skin, of which EXT_mesh_gpu_instancing does not say where they stand");
+      }
+      found.uses.push_back({name, *mesh, instancing ? instances(*instancing, world) : std::vector{world}, skin});
+    }
+    if (const auto camera = source.find("camera")) {
+      cameras.emplace(camera->as_whole(), Standing{name, world});
+    }
+    if (const auto light = source.extension("KHR_lights_punctual")) {
+      lights.emplace(light->get("light").as_whole(), Standing{name, world});
+    }
   }
-  const std::string name = source.text("name", source.where());
-  const bool hides = is_below_hidden || is_hidden(source);
-  if (!hides) {
-    add_shown(source, name, world);
+
+  /// Below the node.
+  std::vector<Transform> instances(const Part& instancing, const Transform& world) {
+    const Part attributes = instancing.get("attributes");
+    Values moves, turns, scales;
+    std::size_t count = 0;
+    const auto read = [&](const char* name, std::size_t width, Values& values) {
+      const auto found = attributes.find(name);
+      values = found ? accessors_.values(*found, width) : Values{};
+      if (found && count > 0 && values.count() != count) {
+        found->fail("has another count than the other attributes of the instances");
+      }
+      count = found ? values.count() : count;
+    };
+    read("TRANSLATION", 3, moves);
+    read("ROTATION", 4, turns);
+    read("SCALE", 3, scales);
+    const auto where = [&instancing] { return instancing.where() + ": "; };
+    totals_.add({.bytes = count * sizeof(Transform)}, where);
+    totals_.ask(size_of_places(count), where);  // a mesh has at least one primitive
+    std::vector<Transform> places;
+    places.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      places.push_back(composed(world, transform_of(instance(moves, i, {0, 0, 0}), instance(turns, i, {0, 0, 0, 1}),
+                                                    instance(scales, i, {1, 1, 1}), attributes)));
+    }
+    return places;
   }
-  for (const Part& child : source.list("children")) {
-    add(child, world, level + 1, hides);
-  }
-}
+
+  std::vector<Part> nodes_;
+  Accessors& accessors_;
+  const Meshes& meshes_;
+  const Pose& pose_;
+  SceneTotals& totals_;
+};
 
 /// The angle whose tangent is that of `angle` (radians) times `share`, at most 1: Newton's method from the right, where the
 /// tangent is convex. A right angle and more stays what it is, to be refused.

@@ -6,6 +6,7 @@
 
 #include "apps/foreign/mesh/count_note.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::gltf {
 namespace {
@@ -38,51 +39,6 @@ struct Hold {
   double weight;
 };
 
-class Skins {
- public:
-  Skins(const Document& document, Accessors& accessors, const Nodes& nodes)
-      : skins_(document.root().list("skins")),
-        node_count_(document.root().list("nodes").size()),
-        accessors_(accessors),
-        nodes_(nodes) {}
-
-  /// Moves the vertices and normals of a mesh, which is used so, into the world.
-  void pose(PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const;
-
- private:
-  /// What each joint moves vertices by.
-  std::vector<Transform> joints_of(const Part& skin) const;
-  std::vector<Transform> transforms_of(const PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const;
-
-  std::vector<Part> skins_;
-  std::size_t node_count_;
-  Accessors& accessors_;
-  const Nodes& nodes_;
-};
-
-std::vector<Transform> Skins::joints_of(const Part& skin) const {
-  std::vector<Transform> joints;
-  for (const Part& part : skin.list("joints")) {
-    const std::size_t node = part.as_index(node_count_, "nodes");
-    const auto world = nodes_.worlds.find(node);
-    if (world == nodes_.worlds.end()) {
-      part.fail("is of nodes[" + std::to_string(node) + "], which does not stand in the scene that is shown");
-    }
-    joints.push_back(world->second);
-  }
-  if (const auto where = skin.find("inverseBindMatrices")) {
-    const Values binds = accessors_.values(*where, 16);
-    if (binds.count() < joints.size()) {
-      where->fail("has " + std::to_string(binds.count()) + " matrices, expected one for each of " +
-                  std::to_string(joints.size()) + " joints");
-    }
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      joints[i] = composed(joints[i], matrix_of(binds, i));
-    }
-  }
-  return joints;
-}
-
 std::vector<Hold> holds_of(const Influences& influences, std::size_t vertex, std::size_t joint_count, const Part& skin) {
   std::vector<Hold> holds;
   for (std::size_t set = 0; set < influences.joints.size(); ++set) {
@@ -104,45 +60,82 @@ std::vector<Hold> holds_of(const Influences& influences, std::size_t vertex, std
   return holds;
 }
 
-/// The skin's transform for each vertex.
-std::vector<Transform> Skins::transforms_of(const PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const {
-  const Part& skin = skins_[use.skin->as_index(skins_.size(), "skins")];
-  const std::vector<Transform> joints = joints_of(skin);
-  std::vector<Transform> transforms;
-  transforms.reserve(mesh.vertices.size());
-  for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
-    const std::vector<Hold> holds = holds_of(influences, vertex, joints.size(), skin);
-    double all = 0;
-    for (const Hold& hold : holds) {
-      all += hold.weight;
-    }
-    Transform share = holds.empty() ? use.places.front() : nothing;
-    for (const Hold& hold : holds) {
-      add(share, joints[hold.joint], hold.weight / all);
-    }
-    transforms.push_back(share);
-  }
-  return transforms;
-}
+class Skins {
+ public:
+  Skins(const Document& document, Accessors& accessors, const Nodes& nodes)
+      : skins_(document.root().list("skins")),
+        node_count_(document.root().list("nodes").size()),
+        accessors_(accessors),
+        nodes_(nodes) {}
 
-void Skins::pose(PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const {
-  const std::vector<Transform> transforms = transforms_of(mesh, influences, use);
-  for (std::size_t i = 0; i < transforms.size(); ++i) {
-    mesh.vertices[i] = transforms[i].point(mesh.vertices[i]);
-    if (!mesh.normals.empty()) {
-      const Vec3d normal = transforms[i].of_normals().direction(mesh.normals[i]);
-      const double size = length(normal);
-      mesh.normals[i] = size > 0 ? normal * (1 / size) : normal;
+  /// Moves the vertices and normals of a mesh, which is used so, into the world.
+  void pose(PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const {
+    const std::vector<Transform> transforms = transforms_of(mesh, influences, use);
+    for (std::size_t i = 0; i < transforms.size(); ++i) {
+      mesh.vertices[i] = transforms[i].point(mesh.vertices[i]);
+      if (!mesh.normals.empty()) {
+        const Vec3d normal = transforms[i].of_normals().direction(mesh.normals[i]);
+        const double size = length(normal);
+        mesh.normals[i] = size > 0 ? normal * (1 / size) : normal;
+      }
+    }
+    std::size_t first = 0;
+    for (const std::uint32_t end : mesh.faces.ends) {
+      if (transforms[mesh.faces.corners[first]].determinant() < 0) {
+        mesh.turn(first, end);  // what is mirrored looks to its old side again
+      }
+      first = end;
     }
   }
-  std::size_t first = 0;
-  for (const std::uint32_t end : mesh.faces.ends) {
-    if (transforms[mesh.faces.corners[first]].determinant() < 0) {
-      mesh.turn(first, end);  // what is mirrored looks to its old side again
+
+ private:
+  /// What each joint moves vertices by.
+  std::vector<Transform> joints_of(const Part& skin) const {
+    std::vector<Transform> joints;
+    for (const Part& part : skin.list("joints")) {
+      const std::size_t node = part.as_index(node_count_, "nodes");
+      const auto world = nodes_.worlds.find(node);
+      if (world == nodes_.worlds.end()) {
+        part.fail("is of nodes[" + std::to_string(node) + "], which does not stand in the scene that is shown");
+      }
+      joints.push_back(world->second);
     }
-    first = end;
+    if (const auto where = skin.find("inverseBindMatrices")) {
+      const Values binds = accessors_.values(*where, 16);
+      if (binds.count() < joints.size()) {
+        where->fail("has " + std::to_string(binds.count()) + " matrices, expected one for each of " +
+                    std::to_string(joints.size()) + " joints");
+      }
+      for (std::size_t i = 0; i < joints.size(); ++i) {
+        joints[i] = composed(joints[i], matrix_of(binds, i));
+      }
+    }
+    return joints;
   }
-}
+
+  /// The skin's transform for each vertex.
+  std::vector<Transform> transforms_of(const PolygonMesh& mesh, const Influences& influences, const MeshUse& use) const {
+    const Part& skin = skins_[use.skin->as_index(skins_.size(), "skins")];
+    const std::vector<Transform> joints = joints_of(skin);
+    std::vector<Transform> transforms;
+    transforms.reserve(mesh.vertices.size());
+    for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
+      const std::vector<Hold> holds = holds_of(influences, vertex, joints.size(), skin);
+      const double all = core::sum_over<double>(holds, &Hold::weight);
+      Transform share = holds.empty() ? use.places.front() : nothing;
+      for (const Hold& hold : holds) {
+        add(share, joints[hold.joint], hold.weight / all);
+      }
+      transforms.push_back(share);
+    }
+    return transforms;
+  }
+
+  std::vector<Part> skins_;
+  std::size_t node_count_;
+  Accessors& accessors_;
+  const Nodes& nodes_;
+};
 
 /// Onto a line or a point, where no face has an area: so exporters hide what a node places.
 bool leaves_no_area(const Transform& world) {
@@ -176,8 +169,33 @@ class Placing {
     }
     for_each(use, [&](std::size_t i) { --left_[i]; });
   }
+
   /// Notes what is not shown of what was placed, and forgets what was not.
-  void finish(const std::vector<MaterialTraits>& materials);
+  void finish(const std::vector<MaterialTraits>& materials) {
+    std::vector<bool> used(materials.size());
+    std::uint64_t thin = 0, several = 0, targets = 0;
+    for (std::size_t i = 0; i < is_placed_.size(); ++i) {
+      const PrimitiveMesh& primitive = meshes_.list[i];
+      PlacedShape& shape = file_.shapes[i];
+      if (is_placed_[i]) {
+        used[shape.mesh.material] = true;
+        thin += primitive.thin_faces;
+        several += primitive.has_several_places ? 1 : 0;
+        targets += primitive.has_targets ? 1 : 0;
+      }
+      if (shape.uses == 0) {
+        shape.mesh = {.name = {}, .material = shape.mesh.material};
+      }
+    }
+    note_losses(materials, used, file_);
+    std::vector<std::string>& notes = file_.notes;
+    note_count(notes, "points and lines left out", thin);
+    note_count(notes, "meshes with several sets of texture coordinates, of which colours use one", several);
+    note_count(notes, "meshes with a skin, shown in the pose in which their joints stand", posed_);
+    note_count(notes, "meshes with a skin and without joints and weights, shown where their node stands", loose_);
+    note_count(notes, "meshes with morph targets, shown without them", targets);
+    note_count(notes, "corners left over at the ends of lists of triangles, left out", meshes_.corners_left_over);
+  }
 
  private:
   template <class Take>
@@ -186,8 +204,35 @@ class Placing {
       take(i);
     }
   }
-  void place(const MeshUse& use, std::size_t i, const Transform& world);
-  void place_posed(const MeshUse& use, std::size_t i);
+
+  void place(const MeshUse& use, std::size_t i, const Transform& world) {
+    const bool has_joints = !meshes_.list[i].influences.joints.empty(), is_posed = use.skin && has_joints;
+    loose_ += use.skin && !has_joints ? 1 : 0;
+    if (!is_posed && leaves_no_area(world)) {
+      return;
+    }
+    is_placed_[i] = true;
+    if (is_posed) {
+      place_posed(use, i);
+    } else {
+      PlacedShape& shape = file_.shapes[i];
+      const GeometrySize size = shape.uses == 0 ? GeometrySize{} : totals_.size_of_place(size_of_copy(shape.mesh));
+      totals_.add(size, [&use] { return "node '" + use.node + "': "; });
+      file_.places.push_back({static_cast<std::uint32_t>(i), world});
+      ++shape.uses;
+    }
+  }
+
+  /// The last user takes the mesh itself, others a copy.
+  void place_posed(const MeshUse& use, std::size_t i) {
+    PlacedShape& shape = file_.shapes[i];
+    const bool is_last = left_[i] == 1 && shape.uses == 0;
+    totals_.add(is_last ? GeometrySize{} : size_of(shape.mesh), [&] { return "node '" + use.node + "': "; });
+    PolygonMesh mesh = is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
+    skins_.pose(mesh, meshes_.list[i].influences, use);
+    file_.add(std::move(mesh));
+    ++posed_;
+  }
 
   const Skins& skins_;
   const Meshes& meshes_;
@@ -197,61 +242,6 @@ class Placing {
   std::vector<bool> is_placed_;
   std::uint64_t posed_ = 0, loose_ = 0;
 };
-
-void Placing::place(const MeshUse& use, std::size_t i, const Transform& world) {
-  const bool has_joints = !meshes_.list[i].influences.joints.empty(), is_posed = use.skin && has_joints;
-  loose_ += use.skin && !has_joints ? 1 : 0;
-  if (!is_posed && leaves_no_area(world)) {
-    return;
-  }
-  is_placed_[i] = true;
-  if (is_posed) {
-    place_posed(use, i);
-  } else {
-    PlacedShape& shape = file_.shapes[i];
-    const GeometrySize size = shape.uses == 0 ? GeometrySize{} : totals_.size_of_place(size_of_copy(shape.mesh));
-    totals_.add(size, [&use] { return "node '" + use.node + "': "; });
-    file_.places.push_back({static_cast<std::uint32_t>(i), world});
-    ++shape.uses;
-  }
-}
-
-/// The last user takes the mesh itself, others a copy.
-void Placing::place_posed(const MeshUse& use, std::size_t i) {
-  PlacedShape& shape = file_.shapes[i];
-  const bool is_last = left_[i] == 1 && shape.uses == 0;
-  totals_.add(is_last ? GeometrySize{} : size_of(shape.mesh), [&] { return "node '" + use.node + "': "; });
-  PolygonMesh mesh = is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
-  skins_.pose(mesh, meshes_.list[i].influences, use);
-  file_.add(std::move(mesh));
-  ++posed_;
-}
-
-void Placing::finish(const std::vector<MaterialTraits>& materials) {
-  std::vector<bool> used(materials.size());
-  std::uint64_t thin = 0, several = 0, targets = 0;
-  for (std::size_t i = 0; i < is_placed_.size(); ++i) {
-    const PrimitiveMesh& primitive = meshes_.list[i];
-    PlacedShape& shape = file_.shapes[i];
-    if (is_placed_[i]) {
-      used[shape.mesh.material] = true;
-      thin += primitive.thin_faces;
-      several += primitive.has_several_places ? 1 : 0;
-      targets += primitive.has_targets ? 1 : 0;
-    }
-    if (shape.uses == 0) {
-      shape.mesh = {.name = {}, .material = shape.mesh.material};
-    }
-  }
-  note_losses(materials, used, file_);
-  std::vector<std::string>& notes = file_.notes;
-  note_count(notes, "points and lines left out", thin);
-  note_count(notes, "meshes with several sets of texture coordinates, of which colours use one", several);
-  note_count(notes, "meshes with a skin, shown in the pose in which their joints stand", posed_);
-  note_count(notes, "meshes with a skin and without joints and weights, shown where their node stands", loose_);
-  note_count(notes, "meshes with morph targets, shown without them", targets);
-  note_count(notes, "corners left over at the ends of lists of triangles, left out", meshes_.corners_left_over);
-}
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/formats/view_faults.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -34,10 +35,8 @@ Vec3d far_position(const FileLight& light, const BoundingSphere& bounds) {
 }
 
 void scale_down(std::vector<PointLight>& lights) {
-  double sum = 0;
-  for (const PointLight& light : lights) {
-    sum += brightest(light.color) * brightest(light.color);
-  }
+  const double sum =
+      core::sum_over<double>(lights, [&](const PointLight& light) { return brightest(light.color) * brightest(light.color); });
   for (PointLight& light : lights) {
     light.color = light.color * (1 / std::sqrt(std::max(sum, 1.0)));
   }

@@ -1,7 +1,6 @@
 #include "apps/foreign/mesh/round_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 

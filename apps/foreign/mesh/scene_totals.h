@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string>
 
 #include "apps/foreign/mesh/polygon_mesh.h"
 #include "core/base/counts.h"

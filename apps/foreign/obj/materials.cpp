@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "apps/foreign/mesh/count_note.h"
@@ -75,21 +74,105 @@ void note_losses(const std::vector<MtlMaterial>& materials, std::vector<std::str
   }
 }
 
+bool is_unseen_by_tr(const MtlMaterial& material) { return !material.d && material.transparency == 1; }
+
+}  // namespace
+
 class Resolver {
  public:
   Resolver(const Geometry& geometry, const Libraries& libraries) : geometry_(geometry), libraries_(libraries) {}
 
-  Materials resolve();
+  Materials resolve() {
+    is_tr_opaque_ = is_tr_of_what_is_opaque();
+    std::map<std::uint32_t, std::uint32_t> of_names;
+    for (const Run& run : geometry_.runs) {
+      const auto [known, is_new] = of_names.try_emplace(run.name, 0);
+      if (is_new) {
+        known->second = index_of(run.name);
+      }
+      result_.of_runs.push_back(known->second);
+    }
+    note_count(result_.notes,
+               "materials with a Tr of 1 and no d, as all are, shown as opaque: some programs write it so (a d of 0 hides them)",
+               is_tr_opaque_ ? known_.size() : 0);
+    note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
+    judge_textures();
+    note_losses(used_, result_.notes);
+    return std::move(result_);
+  }
 
  private:
-  std::uint32_t add(const MtlMaterial& source);
-  MtlMaterial colored(MtlMaterial material) const;
-  const MtlMaterial* source_of(std::uint32_t name) const;
+  std::uint32_t add(const MtlMaterial& source) {
+    FileMaterial material{.material = shown_material(colored(source))};
+    if (source.texture) {
+      material.texture = TextureUse{.path = source.texture->name, .edges = source.texture->edges};
+      material.texture->edges.alpha = TextureAlpha::said;
+    }
+    result_.list.push_back(std::move(material));
+    result_.places.push_back(source.texture ? source.texture->place : TexturePlace{});
+    return static_cast<std::uint32_t>(result_.list.size() - 1);
+  }
+
+  /// Materials without a colour are white if vertices have colours.
+  MtlMaterial colored(MtlMaterial material) const {
+    if (!material.diffuse && !geometry_.colors.empty()) {
+      material.diffuse = Vec3d{1, 1, 1};
+    }
+    return material;
+  }
+
+  const MtlMaterial* source_of(std::uint32_t name) const {
+    return name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
+  }
+
   /// MeshLab (until 2023) and OpenMVS write a Tr of 1 for opaque materials: faces cannot all be meant to be invisible.
-  bool is_tr_of_what_is_opaque() const;
-  std::uint32_t index_of(std::uint32_t name);
+  bool is_tr_of_what_is_opaque() const {
+    return !geometry_.runs.empty() && std::ranges::all_of(geometry_.runs, [this](const Run& run) {
+      const MtlMaterial* const source = source_of(run.name);
+      return source != nullptr && is_unseen_by_tr(*source);
+    });
+  }
+
+  /// Returns the index of a run's material. All runs without a material share one, with a null key.
+  std::uint32_t index_of(std::uint32_t name) {
+    const MtlMaterial* const source = source_of(name);
+    if (name != none && source == nullptr) {
+      unknown_.push_back(geometry_.material_names[name]);
+    }
+    const auto [known, is_new] = known_.try_emplace(source, 0);
+    if (is_new) {
+      MtlMaterial shown = source == nullptr ? MtlMaterial{} : *source;
+      if (is_tr_opaque_) {
+        shown.transparency.reset();
+      }
+      known->second = add(shown);
+      used_.push_back(std::move(shown));
+    }
+    return known->second;
+  }
+
   /// Drops textures if no face of their material has texture coordinates.
-  void judge_textures();
+  void judge_textures() {
+    std::vector<bool> is_placed(result_.list.size());
+    std::uint64_t plain_faces = 0;
+    std::vector<std::uint64_t> plain(result_.list.size());
+    geometry_.for_each_face([&](std::uint32_t face, std::size_t run) {
+      const bool has_places = geometry_.faces.has_places(face);
+      const std::uint32_t material = result_.of_runs[run];
+      is_placed[material] = is_placed[material] || has_places;
+      plain[material] += has_places ? 0 : 1;
+    });
+    std::set<std::string> without;
+    for (std::size_t i = 0; i < result_.list.size(); ++i) {
+      if (result_.list[i].texture && !is_placed[i]) {
+        without.insert(result_.list[i].texture->path);
+        result_.list[i].texture.reset();
+      }
+      plain_faces += result_.list[i].texture ? plain[i] : 0;
+    }
+    note_count(result_.notes, "textures not shown, since no corner has a place on it", without.size());
+    note_count(result_.notes, "faces without a place on their texture, shown in their plain colour", plain_faces);
+  }
 
   const Geometry& geometry_;
   const Libraries& libraries_;
@@ -99,99 +182,6 @@ class Resolver {
   std::vector<std::string> unknown_;
   bool is_tr_opaque_ = false;  ///< for every material
 };
-
-bool is_unseen_by_tr(const MtlMaterial& material) { return !material.d && material.transparency == 1; }
-
-const MtlMaterial* Resolver::source_of(std::uint32_t name) const {
-  return name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
-}
-
-bool Resolver::is_tr_of_what_is_opaque() const {
-  return !geometry_.runs.empty() && std::ranges::all_of(geometry_.runs, [this](const Run& run) {
-    const MtlMaterial* const source = source_of(run.name);
-    return source != nullptr && is_unseen_by_tr(*source);
-  });
-}
-
-/// Materials without a colour are white if vertices have colours.
-MtlMaterial Resolver::colored(MtlMaterial material) const {
-  if (!material.diffuse && !geometry_.colors.empty()) {
-    material.diffuse = Vec3d{1, 1, 1};
-  }
-  return material;
-}
-
-std::uint32_t Resolver::add(const MtlMaterial& source) {
-  FileMaterial material{.material = shown_material(colored(source))};
-  if (source.texture) {
-    material.texture = TextureUse{.path = source.texture->name, .edges = source.texture->edges};
-    material.texture->edges.alpha = TextureAlpha::said;
-  }
-  result_.list.push_back(std::move(material));
-  result_.places.push_back(source.texture ? source.texture->place : TexturePlace{});
-  return static_cast<std::uint32_t>(result_.list.size() - 1);
-}
-
-/// Returns the index of a run's material. All runs without a material share one, with a null key.
-std::uint32_t Resolver::index_of(std::uint32_t name) {
-  const MtlMaterial* const source = source_of(name);
-  if (name != none && source == nullptr) {
-    unknown_.push_back(geometry_.material_names[name]);
-  }
-  const auto [known, is_new] = known_.try_emplace(source, 0);
-  if (is_new) {
-    MtlMaterial shown = source == nullptr ? MtlMaterial{} : *source;
-    if (is_tr_opaque_) {
-      shown.transparency.reset();
-    }
-    known->second = add(shown);
-    used_.push_back(std::move(shown));
-  }
-  return known->second;
-}
-
-void Resolver::judge_textures() {
-  std::vector<bool> is_placed(result_.list.size());
-  std::uint64_t plain_faces = 0;
-  std::vector<std::uint64_t> plain(result_.list.size());
-  geometry_.for_each_face([&](std::uint32_t face, std::size_t run) {
-    const bool has_places = geometry_.faces.has_places(face);
-    const std::uint32_t material = result_.of_runs[run];
-    is_placed[material] = is_placed[material] || has_places;
-    plain[material] += has_places ? 0 : 1;
-  });
-  std::set<std::string> without;
-  for (std::size_t i = 0; i < result_.list.size(); ++i) {
-    if (result_.list[i].texture && !is_placed[i]) {
-      without.insert(result_.list[i].texture->path);
-      result_.list[i].texture.reset();
-    }
-    plain_faces += result_.list[i].texture ? plain[i] : 0;
-  }
-  note_count(result_.notes, "textures not shown, since no corner has a place on it", without.size());
-  note_count(result_.notes, "faces without a place on their texture, shown in their plain colour", plain_faces);
-}
-
-Materials Resolver::resolve() {
-  is_tr_opaque_ = is_tr_of_what_is_opaque();
-  std::map<std::uint32_t, std::uint32_t> of_names;
-  for (const Run& run : geometry_.runs) {
-    const auto [known, is_new] = of_names.try_emplace(run.name, 0);
-    if (is_new) {
-      known->second = index_of(run.name);
-    }
-    result_.of_runs.push_back(known->second);
-  }
-  note_count(result_.notes,
-             "materials with a Tr of 1 and no d, as all are, shown as opaque: some programs write it so (a d of 0 hides them)",
-             is_tr_opaque_ ? known_.size() : 0);
-  note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
-  judge_textures();
-  note_losses(used_, result_.notes);
-  return std::move(result_);
-}
-
-}  // namespace
 
 Materials materials_of(const Geometry& geometry, const Libraries& libraries) { return Resolver(geometry, libraries).resolve(); }
 

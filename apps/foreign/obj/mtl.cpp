@@ -38,17 +38,125 @@ class MtlParser {
  public:
   MtlParser(const std::function<void(MtlMaterial)>& take, std::vector<std::string>& notes) : take_(take), notes_(notes) {}
 
-  void read(std::string_view file);
+  void read(std::string_view file) {
+    for (TextLines lines(file); lines.next();) {
+      LineWords words(lines.line(), lines.number());
+      const std::string keyword = in_small_letters(words.next());
+      if (!keyword.empty()) {
+        statement(keyword, words);
+      }
+    }
+    finish();
+    if (nameless_ > 0) {
+      notes_.push_back("map_Kd names no file in line " + std::to_string(first_nameless_) +
+                       (nameless_ == 1 ? "" : " and " + std::to_string(nameless_ - 1) + " others") +
+                       ": there the plain colour is shown");
+    }
+    unknown_.note("unknown statements left out", notes_);
+  }
 
  private:
-  void statement(const std::string& keyword, LineWords& words);
-  bool value_statement(const std::string& keyword, LineWords& words);
-  void texture(const std::string& keyword, LineWords& words);
-  void begin(LineWords& words);
-  void finish();
-  std::optional<Vec3d> color(LineWords& words);
-  double opacity(LineWords& words);
-  static double number(LineWords& words);
+  void statement(const std::string& keyword, LineWords& words) {
+    if (keyword == "newmtl") {
+      return begin(words);
+    }
+    if (!material_) {
+      words.fail("expected 'newmtl NAME' before '" + clipped(keyword, 60) + "'");
+    }
+    if (is_texture(keyword)) {
+      return texture(keyword, words);
+    }
+    const bool is_known =
+        value_statement(keyword, words) || std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end();
+    if (!is_known) {
+      unknown_.add(keyword, words.line());
+    }
+  }
+
+  /// Returns whether the statement sets a colour or a number.
+  bool value_statement(const std::string& keyword, LineWords& words) {
+    using Statement = void (*)(MtlMaterial & material, MtlParser & parser, LineWords & words);
+    static const std::map<std::string_view, Statement> statements = {
+        {"kd", [](auto& material, auto& parser, auto& words) { material.diffuse = parser.color(words); }},
+        {"ks", [](auto& material, auto& parser, auto& words) { material.specular = parser.color(words).value_or(Vec3d{}); }},
+        {"ke", [](auto& material, auto& parser, auto& words) { material.emission = parser.color(words).value_or(Vec3d{}); }},
+        {"tf", [](auto& material, auto& parser, auto& words) { material.filter = parser.color(words); }},
+        {"ns", [](auto& material, auto&, auto& words) { material.shine = number(words); }},
+        {"ni", [](auto& material, auto&, auto& words) { material.refraction_index = number(words); }},
+        {"d", [](auto& material, auto& parser, auto& words) { material.d = parser.opacity(words); }},
+        {"tr", [](auto& material, auto&, auto& words) { material.transparency = number(words); }},
+        {"illum", [](auto& material, auto&,
+                     auto& words) { material.illumination = static_cast<int>(std::clamp(number(words), -1.0, 11.0)); }},
+        {"pr", [](auto& material, auto&, auto& words) { material.roughness = number(words); }},
+        {"pm", [](auto& material, auto&, auto& words) { material.metallic = number(words); }},
+        {"pc", [](auto& material, auto&, auto& words) { material.has_clear_coat = number(words) > 0; }}};
+    const auto found = statements.find(keyword);
+    if (found != statements.end()) {
+      found->second(*material_, *this, words);
+    }
+    return found != statements.end();
+  }
+
+  void texture(const std::string& keyword, LineWords& words) {
+    TextureWords said = texture_words(words.rest_of_line());
+    if (said.name.size() > name_bytes_max) {
+      words.fail("the name of a texture has " + grouped(said.name.size()) + " bytes, and no file's has more than " +
+                 grouped(name_bytes_max));
+    }
+    if (keyword != "map_kd") {
+      if (!said.name.empty()) {
+        material_->other_textures.insert(said.name);
+        material_->has_light_texture = material_->has_light_texture || keyword == "map_ke";
+      }
+    } else if (without_remark(said.name).empty()) {
+      first_nameless_ = nameless_++ == 0 ? words.line() : first_nameless_;
+    } else {
+      material_->texture = std::move(said);
+    }
+  }
+
+  void begin(LineWords& words) {
+    finish();
+    material_.emplace();
+    material_->name = words.rest_of_line();
+  }
+
+  void finish() {
+    if (material_) {
+      take_(*std::exchange(material_, std::nullopt));
+    }
+  }
+
+  /// A single number sets all three channels. Returns nothing for spectral curves or CIE XYZ.
+  std::optional<Vec3d> color(LineWords& words) {
+    LineWords ahead = words;
+    const std::string_view first = ahead.next();
+    if (first == "spectral" || first == "xyz") {
+      material_->has_other_colors = true;
+      return std::nullopt;
+    }
+    Vec3d color;
+    color.x = color.y = color.z = words.number();
+    if (words.has_next()) {
+      color.y = words.number();
+      color.z = words.number();
+      words.expect_end();
+    }
+    return color;
+  }
+
+  double opacity(LineWords& words) {
+    LineWords ahead = words;
+    material_->has_halo = ahead.next() == "-halo";
+    words = material_->has_halo ? ahead : words;
+    return number(words);
+  }
+
+  static double number(LineWords& words) {
+    const double value = words.number();
+    words.expect_end();
+    return value;
+  }
 
   const std::function<void(MtlMaterial)>& take_;
   std::vector<std::string>& notes_;
@@ -56,125 +164,6 @@ class MtlParser {
   std::size_t nameless_ = 0, first_nameless_ = 0;  ///< number of textures without a name, and the line of the first
   UnknownWords unknown_;
 };
-
-void MtlParser::read(std::string_view file) {
-  for (TextLines lines(file); lines.next();) {
-    LineWords words(lines.line(), lines.number());
-    const std::string keyword = in_small_letters(words.next());
-    if (!keyword.empty()) {
-      statement(keyword, words);
-    }
-  }
-  finish();
-  if (nameless_ > 0) {
-    notes_.push_back("map_Kd names no file in line " + std::to_string(first_nameless_) +
-                     (nameless_ == 1 ? "" : " and " + std::to_string(nameless_ - 1) + " others") +
-                     ": there the plain colour is shown");
-  }
-  unknown_.note("unknown statements left out", notes_);
-}
-
-void MtlParser::statement(const std::string& keyword, LineWords& words) {
-  if (keyword == "newmtl") {
-    return begin(words);
-  }
-  if (!material_) {
-    words.fail("expected 'newmtl NAME' before '" + clipped(keyword, 60) + "'");
-  }
-  if (is_texture(keyword)) {
-    return texture(keyword, words);
-  }
-  const bool is_known =
-      value_statement(keyword, words) || std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end();
-  if (!is_known) {
-    unknown_.add(keyword, words.line());
-  }
-}
-
-void MtlParser::begin(LineWords& words) {
-  finish();
-  material_.emplace();
-  material_->name = words.rest_of_line();
-}
-
-void MtlParser::finish() {
-  if (material_) {
-    take_(*std::exchange(material_, std::nullopt));
-  }
-}
-
-/// A single number sets all three channels. Returns nothing for spectral curves or CIE XYZ.
-std::optional<Vec3d> MtlParser::color(LineWords& words) {
-  LineWords ahead = words;
-  const std::string_view first = ahead.next();
-  if (first == "spectral" || first == "xyz") {
-    material_->has_other_colors = true;
-    return std::nullopt;
-  }
-  Vec3d color;
-  color.x = color.y = color.z = words.number();
-  if (words.has_next()) {
-    color.y = words.number();
-    color.z = words.number();
-    words.expect_end();
-  }
-  return color;
-}
-
-double MtlParser::number(LineWords& words) {
-  const double value = words.number();
-  words.expect_end();
-  return value;
-}
-
-/// Returns whether the statement sets a colour or a number.
-bool MtlParser::value_statement(const std::string& keyword, LineWords& words) {
-  using Statement = void (*)(MtlMaterial & material, MtlParser & parser, LineWords & words);
-  static const std::map<std::string_view, Statement> statements = {
-      {"kd", [](auto& material, auto& parser, auto& words) { material.diffuse = parser.color(words); }},
-      {"ks", [](auto& material, auto& parser, auto& words) { material.specular = parser.color(words).value_or(Vec3d{}); }},
-      {"ke", [](auto& material, auto& parser, auto& words) { material.emission = parser.color(words).value_or(Vec3d{}); }},
-      {"tf", [](auto& material, auto& parser, auto& words) { material.filter = parser.color(words); }},
-      {"ns", [](auto& material, auto&, auto& words) { material.shine = number(words); }},
-      {"ni", [](auto& material, auto&, auto& words) { material.refraction_index = number(words); }},
-      {"d", [](auto& material, auto& parser, auto& words) { material.d = parser.opacity(words); }},
-      {"tr", [](auto& material, auto&, auto& words) { material.transparency = number(words); }},
-      {"illum", [](auto& material, auto&,
-                   auto& words) { material.illumination = static_cast<int>(std::clamp(number(words), -1.0, 11.0)); }},
-      {"pr", [](auto& material, auto&, auto& words) { material.roughness = number(words); }},
-      {"pm", [](auto& material, auto&, auto& words) { material.metallic = number(words); }},
-      {"pc", [](auto& material, auto&, auto& words) { material.has_clear_coat = number(words) > 0; }}};
-  const auto found = statements.find(keyword);
-  if (found != statements.end()) {
-    found->second(*material_, *this, words);
-  }
-  return found != statements.end();
-}
-
-double MtlParser::opacity(LineWords& words) {
-  LineWords ahead = words;
-  material_->has_halo = ahead.next() == "-halo";
-  words = material_->has_halo ? ahead : words;
-  return number(words);
-}
-
-void MtlParser::texture(const std::string& keyword, LineWords& words) {
-  TextureWords said = texture_words(words.rest_of_line());
-  if (said.name.size() > name_bytes_max) {
-    words.fail("the name of a texture has " + grouped(said.name.size()) + " bytes, and no file's has more than " +
-               grouped(name_bytes_max));
-  }
-  if (keyword != "map_kd") {
-    if (!said.name.empty()) {
-      material_->other_textures.insert(said.name);
-      material_->has_light_texture = material_->has_light_texture || keyword == "map_ke";
-    }
-  } else if (without_remark(said.name).empty()) {
-    first_nameless_ = nameless_++ == 0 ? words.line() : first_nameless_;
-  } else {
-    material_->texture = std::move(said);
-  }
-}
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 // The statements of an OBJ file.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string_view>
 

@@ -6,6 +6,7 @@
 
 #include "apps/foreign/text/line_words.h"
 #include "apps/frontend/line/small_letters.h"
+#include "core/base/ranges.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps::obj {
@@ -44,11 +45,7 @@ Split split(std::string_view text) {
   return {text.substr(0, end), trimmed(text.substr(end))};
 }
 
-const Option* option_of(std::string_view word) {
-  const auto found = std::find_if(options.begin(), options.end(),
-                                  [name = in_small_letters(word)](const Option& option) { return option.name == name; });
-  return found == options.end() ? nullptr : &*found;
-}
+const Option* option_of(std::string_view word) { return core::find_in(options, in_small_letters(word), &Option::name); }
 
 /// An option before a texture's name.
 struct Said {

@@ -1,7 +1,6 @@
 #include "apps/foreign/pbrt/loop.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <unordered_map>

@@ -1,13 +1,12 @@
 #include "apps/foreign/pbrt/spectra.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra_tables.h"
 #include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -87,8 +86,7 @@ double value_at(const std::vector<double>& pairs, double nm) {
 
 template <class Rows>
 const auto* find_in(const Rows& rows, const std::string& name) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
-  return found == rows.end() ? nullptr : &*found;
+  return core::find_in(rows, name, [](const auto& row) { return row.name; });
 }
 
 /// Looks up named metals and glasses, and spectra given as pairs.

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 
 #include "apps/foreign/pbrt/parameters.h"
 #include "core/base/vec.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"

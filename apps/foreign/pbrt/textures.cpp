@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <string>
 
 #include "apps/frontend/line/shown_text.h"
 #include "apps/picture/png_file.h"

@@ -1,8 +1,6 @@
 // Decompresses files that may be compressed with gzip.
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string_view>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include "apps/formats/landscape/gltf.h"
 #include "apps/formats/landscape/grove.h"
-#include "apps/formats/landscape/mesh.h"
 #include "apps/formats/landscape/paint.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/picture/image_file.h"

@@ -1,22 +1,19 @@
 #include "apps/formats/landscape/scene.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/formats/bounding_sphere.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/grove.h"
-#include "apps/formats/landscape/mesh.h"
 #include "apps/formats/landscape/paint.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "core/base/expect.h"
 #include "core/database/parallel.h"
 #include "core/scene/texel.h"

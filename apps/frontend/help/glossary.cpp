@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cstddef>
 
+#include "core/base/ranges.h"
+
 namespace dmpc::apps {
 
 namespace {
@@ -172,10 +174,8 @@ bool occurs(std::string_view word, std::string_view text) {
 }
 
 std::string glossary_text() {
-  std::size_t width = 0;
-  for (const GlossaryEntry& entry : entries) {
-    width = std::max(width, entry.word.size() + 2);
-  }
+  const std::size_t width =
+      core::max_over(entries, std::size_t{0}, [&](const GlossaryEntry& entry) { return entry.word.size() + 2; });
   std::string text;
   for (const GlossaryEntry& entry : entries) {
     text +=

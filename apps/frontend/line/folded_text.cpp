@@ -1,6 +1,5 @@
 #include "apps/frontend/line/folded_text.h"
 
-#include <algorithm>
 #include <sstream>
 #include <vector>
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/frontend/line/folded_text.h"
+#include "apps/frontend/line/words.h"
 
 namespace dmpc::apps {
 namespace {
@@ -62,10 +63,9 @@ std::string explained(const std::string& name, const std::string& text) {
 }
 
 std::string names_and_value(const OptionDescription& option) {
-  std::string text;
-  for (const std::string& name : option.names) {
-    text += (text.empty() ? "" : ",") + name + (option.standard.empty() ? "" : "{" + option.standard + "}");
-  }
+  const std::string text = joined(option.names, ",", [&](const std::string& name) {
+    return name + (option.standard.empty() ? "" : "{" + option.standard + "}");
+  });
   return text + (option.value.empty() ? "" : " " + option.value);
 }
 

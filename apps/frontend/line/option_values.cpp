@@ -2,9 +2,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "apps/frontend/line/parsed_number.h"

@@ -1,13 +1,14 @@
 #include "apps/frontend/line/typed_line.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 
 #include "apps/frontend/line/unknown_option.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -31,19 +32,11 @@ const OptionDescription* find_option(const CommandDescription& command, const st
 }
 
 std::vector<std::string> long_names(const CommandDescription& command) {
-  std::vector<std::string> names;
-  for (const OptionDescription& option : command.options) {
-    names.push_back(long_name(option));
-  }
-  return names;
+  return core::mapped<std::string>(command.options, [&](const OptionDescription& option) { return long_name(option); });
 }
 
 std::vector<std::string> command_names(const CommandDescription& command) {
-  std::vector<std::string> names;
-  for (const CommandDescription& inner : command.commands) {
-    names.push_back(inner.name);
-  }
-  return names;
+  return core::mapped<std::string>(command.commands, &CommandDescription::name);
 }
 
 /// Two commands, one in the other.
@@ -66,10 +59,9 @@ std::string command_with(const CommandDescription& outer, const std::string& opt
 }
 
 std::string usage_of(const std::string& path, const CommandDescription& command) {
-  std::string text = path;
-  for (const OptionDescription& argument : command.arguments) {
-    text += " " + argument.value + (argument.is_list ? "..." : "");
-  }
+  std::string text = path + joined(command.arguments, "", [&](const OptionDescription& argument) {
+                       return " " + argument.value + (argument.is_list ? "..." : "");
+                     });
   for (const OptionDescription& option : command.options) {
     text += option.is_required ? " " + option.names.front() + " " + value_alone(option) : "";
   }

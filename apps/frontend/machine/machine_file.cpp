@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "apps/frontend/line/json_format.h"
@@ -12,6 +11,7 @@
 #include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 #include "core/database/structure.h"
 #include "core/trace/charge.h"
 #include "nodes/topology.h"
@@ -281,10 +281,8 @@ Json parse_json(std::string_view text, const std::string& file) {
 
 /// " Did you mean ipsc2?"; empty if no machine's name is near.
 std::string name_meant(const std::string& typed) {
-  std::vector<std::string> names;
-  for (const MachineDescription& preset : machine_presets()) {
-    names.push_back(preset.machine.name);
-  }
+  const std::vector<std::string> names =
+      core::mapped<std::string>(machine_presets(), [&](const MachineDescription& preset) { return preset.machine.name; });
   return core::did_you_mean(typed, names);
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/voxel_prices.h"
+#include "core/base/ranges.h"
 #include "core/trace/charge.h"
 #include "core/trace/work.h"
 
@@ -206,10 +207,8 @@ MachineDescription with_voxel_prices(MachineDescription ipsc2) {
 
 const std::vector<MachineDescription>& machine_presets() {
   static const std::vector<MachineDescription> all = [] {
-    std::vector<MachineDescription> descriptions;
-    for (const Preset& preset : presets) {
-      descriptions.push_back(description_of(preset));
-    }
+    std::vector<MachineDescription> descriptions =
+        core::mapped<MachineDescription>(presets, [&](const Preset& preset) { return description_of(preset); });
     descriptions.insert(descriptions.begin() + 1, with_voxel_prices(descriptions.front()));
     return descriptions;
   }();
@@ -218,8 +217,7 @@ const std::vector<MachineDescription>& machine_presets() {
 
 const MachineDescription* find_machine_preset(std::string_view name) {
   const auto& all = machine_presets();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& preset) { return preset.machine.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return core::find_in(all, name, [](const auto& preset) { return preset.machine.name; });
 }
 
 std::string machine_preset_names() {

@@ -1,6 +1,7 @@
 #include "apps/frontend/manual/completion.h"
 
 #include "apps/frontend/line/words.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -134,10 +135,8 @@ std::string inner_path(const std::string& path, const std::string& name) { retur
 std::string value_cases(const CommandDescription& command, const std::string& path) {
   std::string text = value_case("\"" + path + ":\"", suggestion_of(command.arguments), false);
   for (const OptionDescription& option : command.options) {
-    std::string pattern;
-    for (const std::string& name : option.names) {
-      pattern += (pattern.empty() ? "" : " | ") + ("\"" + path + ":" + name + "\"");
-    }
+    const std::string pattern =
+        joined(option.names, " | ", [&](const std::string& name) { return "\"" + path + ":" + name + "\""; });
     text += value_case(pattern, option.suggestion, option.is_list);
   }
   for (const CommandDescription& inner : command.commands) {
@@ -157,10 +156,7 @@ std::string declaration_cases(const CommandDescription& command, const std::stri
       }
     }
   }
-  std::vector<std::string> commands;
-  for (const CommandDescription& inner : command.commands) {
-    commands.push_back(inner.name);
-  }
+  const std::vector<std::string> commands = core::mapped<std::string>(command.commands, &CommandDescription::name);
   std::string text = "    \"" + path + "\")" + assignment("commands", joined(commands, " ")) +
                      assignment("options", joined(options, " ")) + assignment("valued", joined(valued, " ")) + " ;;\n";
   for (const CommandDescription& inner : command.commands) {

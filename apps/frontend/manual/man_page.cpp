@@ -171,10 +171,8 @@ class Writer {
   void add_examples() {
     page_.begin_section("EXAMPLES");
     for (const Leaf& leaf : leaves_) {
-      std::string calls;
-      for (const std::string& line : lines_of(leaf.command->examples)) {
-        calls += is_call(line) ? line.substr(2) + "\n" : "";
-      }
+      const std::string calls = joined(lines_of(leaf.command->examples), "",
+                                       [&](const std::string& line) { return is_call(line) ? line.substr(2) + "\n" : ""; });
       if (!calls.empty()) {
         page_.add_lines(calls);
       }

@@ -1,11 +1,8 @@
 #include "apps/frontend/picture/indexed_png.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <string>
 #include <string_view>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdlib>
 #include <iostream>
-#include <string_view>
 
 #include "apps/frontend/line/parsed_number.h"
 #include "core/base/expect.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -29,11 +30,7 @@ RankProcessors own_processors(const std::string& host) {
 }
 
 std::string text_of(const RankProcessors& processors) {
-  std::string text = processors.host;
-  for (const int number : processors.numbers) {
-    text += " " + std::to_string(number);
-  }
-  return text;
+  return processors.host + joined(processors.numbers, "", [&](const int number) { return " " + std::to_string(number); });
 }
 
 RankProcessors parse_processors(const std::string& text) {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <memory>
 #include <optional>
 
 #include "apps/frontend/ranks/launcher.h"
 #include "apps/frontend/ranks/mpi_library.h"
-#include "core/base/expect.h"
 #include "nodes/node_id.h"
 #include "nodes/ranks/frame.h"
 

@@ -1,7 +1,6 @@
 #include "apps/frontend/run/time_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <numeric>
 #include <utility>

@@ -10,6 +10,7 @@
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/last_words.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/frontend/system/resource_exhaustion.h"
-
 namespace dmpc::apps {
 
 struct AvailableMemory {
@@ -25,5 +23,12 @@ void check_available_memory(std::uint64_t bytes, const std::string& what, const 
 /// Limits this process to the available memory, so that further allocations fail and can be reported, instead of the system
 /// killing a process.
 void bound_memory(const AvailableMemory& room = available_memory());
+
+/// Returns the limit for what foreign files become: three quarters of the memory available to this process or its container at
+/// the first call.
+inline std::uint64_t reader_memory_bytes_max() {
+  static const std::uint64_t bytes = available_memory().bytes / 4 * 3;
+  return bytes;
+}
 
 }  // namespace dmpc::apps

@@ -8,8 +8,6 @@
 #include <stop_token>
 #include <thread>
 
-#include "apps/frontend/line/exit_status.h"
-
 namespace dmpc::apps {
 
 /// Thrown by a command that was stopped by a signal, after it has cleaned up. Exit status 130.

@@ -1,7 +1,6 @@
 // Shared modules with foreign libraries that are slow to load: opened on first use.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "apps/frontend/system/companion_path.h"

@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <ostream>
 #include <system_error>
 #include <utility>
 

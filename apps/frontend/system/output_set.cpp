@@ -9,6 +9,7 @@
 
 #include "apps/frontend/system/resource_exhaustion.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -20,11 +21,7 @@ constexpr std::size_t open_files_needed = 8;
 }  // namespace
 
 std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs) {
-  std::vector<NamedFile> files;
-  for (const OutputName& output : outputs) {
-    files.push_back(output.file);
-  }
-  return files;
+  return core::mapped<NamedFile>(outputs, &OutputName::file);
 }
 
 void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<OutputName>& outputs) {

@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <string>
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
 extern char** environ;

@@ -4,13 +4,14 @@
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <string>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/input_memory.h"
+#include "apps/frontend/system/available_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -100,6 +101,21 @@ void TextInput::wait_for_byte() {
     fail("is a pipe that has given nothing for " + std::to_string(timeout_.byte.count() / 1000) +
          " seconds; write it into a file first");
   }
+}
+
+std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected) {
+  TextInput stream(file);
+  std::string text;
+  std::array<char, 65536> part;
+  std::uint64_t bytes = stream.file_bytes();
+  while (bytes <= bytes_max && (stream.read(part.data(), part.size()) || stream.gcount() > 0)) {
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    bytes = std::max<std::uint64_t>(bytes, text.size());
+  }
+  if (bytes > bytes_max) {
+    throw core::InputError(file.string() + ": has more than " + mebibytes_text(bytes_max) + ", expected " + expected);
+  }
+  return text;
 }
 
 }  // namespace dmpc::apps

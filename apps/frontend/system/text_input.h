@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <istream>
 #include <streambuf>
+#include <string>
 #include <vector>
 
 #include "apps/frontend/system/descriptor.h"
@@ -43,5 +44,9 @@ class TextInput final : private std::streambuf, public std::istream {
   std::uint64_t file_bytes_ = 0, bytes_read_ = 0;
   std::vector<char> buffer_;
 };
+
+/// Reads a file or a pipe as text. Throws core::InputError, "PATH: ...", if it cannot be read or has more than `bytes_max` bytes,
+/// which are all that is stored; `expected` describes the expected file.
+std::string bounded_text(const std::filesystem::path& file, std::uint64_t bytes_max, const std::string& expected);
 
 }  // namespace dmpc::apps

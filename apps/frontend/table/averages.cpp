@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
 std::optional<double> geometric_mean(std::span<const double> numbers) {
-  double sum = 0;
-  for (const double number : numbers) {
-    sum += std::log(number);
-  }
+  const double sum = core::sum_over<double>(numbers, [&](const double number) { return std::log(number); });
   return numbers.empty() ? std::nullopt : std::optional(std::exp(sum / static_cast<double>(numbers.size())));
 }
 

@@ -3,10 +3,10 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "apps/frontend/table/table.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -34,20 +34,12 @@ auto only_if(Meant meant, Fill cell) {
 
 template <class Subject>
 std::vector<Column> heads_of(const FilledColumns<Subject>& columns) {
-  std::vector<Column> heads;
-  for (const FilledColumn<Subject>& one : columns) {
-    heads.push_back(one.column);
-  }
-  return heads;
+  return core::mapped<Column>(columns, [&](const FilledColumn<Subject>& one) { return one.column; });
 }
 
 template <class Subject>
 std::vector<Cell> row_of(const FilledColumns<Subject>& columns, const Subject& subject) {
-  std::vector<Cell> row;
-  for (const FilledColumn<Subject>& one : columns) {
-    row.push_back(one.cell(subject));
-  }
-  return row;
+  return core::mapped<Cell>(columns, [&](const FilledColumn<Subject>& one) { return one.cell(subject); });
 }
 
 }  // namespace dmpc::apps

@@ -1,10 +1,10 @@
 #include "apps/frontend/table/plot.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <set>
 
+#include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/table/plot_axis.h"
 #include "core/base/expect.h"
 
@@ -89,10 +89,8 @@ class Script {
   }
 
   void add_place(const std::vector<Cell>& row) {
-    std::string name;
-    for (const std::string& column : plot_.places) {
-      name += (name.empty() ? "" : " ") + text_of_cell(row[number_of_column(table_, column)]);
-    }
+    const std::string name =
+        joined(plot_.places, " ", [&](const std::string& column) { return text_of_cell(row[number_of_column(table_, column)]); });
     if (std::find(places_.begin(), places_.end(), name) == places_.end()) {
       places_.push_back(name);
     }
@@ -182,7 +180,7 @@ class Script {
   }
 
   std::string bars() const {
-    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + gnuplot_number(bar_width()) + "\n"
+    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + legend_number(bar_width()) + "\n"
                     : "";
   }
 
@@ -249,13 +247,11 @@ class Script {
     if (has_places()) {
       names.insert(plot_.places.begin(), plot_.places.end());
     }
-    std::string arrays;
-    for (const std::string& name : names) {
-      arrays += is_quoted(name) ? "array " + array_of(name) + "[" + std::to_string(table_.rows().size()) + "] = [" +
-                                      texts_by_row(name) + "]\n"
-                                : "";
-    }
-    return arrays;
+    return joined(names, "", [&](const std::string& name) {
+      return is_quoted(name)
+                 ? "array " + array_of(name) + "[" + std::to_string(table_.rows().size()) + "] = [" + texts_by_row(name) + "]\n"
+                 : "";
+    });
   }
 
   std::string texts_by_row(const std::string& name) const {
@@ -274,15 +270,12 @@ class Script {
   std::string x_of(std::size_t series) const {
     if (!has_places()) {
       const std::string x = "column(" + column(plot_.places.front()) + ")";
-      return plot_.bar_width ? x + " + " + gnuplot_number(*plot_.bar_width / 2) : x;
+      return plot_.bar_width ? x + " + " + legend_number(*plot_.bar_width / 2) : x;
     }
-    std::string name;
-    for (const std::string& place : plot_.places) {
-      name += (name.empty() ? "" : ".' '.") + text_in(place);
-    }
+    const std::string name = joined(plot_.places, ".' '.", [&](const std::string& place) { return text_in(place); });
     const double middle = (static_cast<double>(drawn_.size()) - 1) / 2;
     const double shift = plot_.is_stacked ? 0 : (static_cast<double>(series) - middle) * bar_width();
-    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + gnuplot_number(shift));
+    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + legend_number(shift));
   }
 
   /// Returns the series' own column, added to those below it if they are stacked.
@@ -337,10 +330,7 @@ class Script {
     if (drawn.mark == PlotMark::bands) {
       return band(series, plot_colors[drawn.color % plot_colors.size()]);
     }
-    std::string ends;
-    for (const std::string& end : ends_of(drawn)) {
-      ends += ":(column(" + column(end) + "))";
-    }
+    const std::string ends = joined(ends_of(drawn), "", [&](const std::string& end) { return ":(column(" + column(end) + "))"; });
     const std::string points = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")";
     const std::string numbers = points + ends + (drawn.mark == PlotMark::line ? " smooth unique" : "") + " with ";
     const std::string below = is_hatched(drawn) ? numbers + "boxes linecolor '" + hatch_ground + "' notitle" + next_line

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
@@ -30,12 +28,6 @@ void widen(PlotAxis& axis, const PlotExtent& extent) {
 }
 
 }  // namespace
-
-std::string gnuplot_number(double number) {
-  std::ostringstream text;
-  text << std::setprecision(4) << number;
-  return text.str();
-}
 
 std::string gnuplot_text(const std::string& text) {
   // gnuplot takes two quotes for an empty text at the beginning, and four of them for the end.
@@ -64,7 +56,7 @@ void PlotExtent::add(double value) {
 }
 
 std::string axis_lines(const std::string& name, const PlotAxis& axis) {
-  const auto end = [](const std::optional<double>& limit) { return limit ? gnuplot_number(*limit) : "*"; };
+  const auto end = [](const std::optional<double>& limit) { return limit ? legend_number(*limit) : "*"; };
   const std::string base = axis.scale == PlotScale::powers_of_2 ? " 2" : " 10";
   return "set " + name + "label " + gnuplot_text(axis.label) + "\nset " + name + "range [" + end(axis.least) + ":" +
          end(axis.most) + "]\n" + (axis.scale == PlotScale::linear ? "" : "set logscale " + name + base + "\n");

@@ -8,8 +8,6 @@
 
 namespace dmpc::apps {
 
-/// Writes no more digits than needed.
-std::string gnuplot_number(double number);
 /// Quotes a text for gnuplot, on one line.
 std::string gnuplot_text(const std::string& text);
 /// Returns a tic's text at a position along its axis. gnuplot takes such a text as a format for the position, so '%' is doubled.

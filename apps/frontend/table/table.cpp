@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
-#include <utility>
 
 #include "apps/frontend/line/folded_text.h"
 #include "apps/frontend/line/json_format.h"
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -23,11 +23,9 @@ constexpr std::size_t row_text_max = 79;
 
 /// Escapes a text so that it cannot end its cell.
 std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char character : text) {
-    safe += character == '|' ? "\\|" : character == '\n' || character == '\r' ? " " : std::string(1, character);
-  }
-  return safe;
+  return joined(text, "", [&](const char character) {
+    return character == '|' ? "\\|" : character == '\n' || character == '\r' ? " " : std::string(1, character);
+  });
 }
 
 struct MarkdownCell {
@@ -142,10 +140,9 @@ std::string markdown_line(const Line& line, const std::vector<Layout>& layouts, 
 }
 
 std::string markdown_rule(const std::vector<Layout>& layouts, const Fold& fold) {
-  std::string text = "|";
-  for (const std::size_t column : fold) {
-    text += std::string(layouts[column].width + 1, '-') + (layouts[column].is_text ? "-|" : ":|");
-  }
+  const std::string text = "|" + joined(fold, "", [&](const std::size_t column) {
+                             return std::string(layouts[column].width + 1, '-') + (layouts[column].is_text ? "-|" : ":|");
+                           });
   return text + "\n";
 }
 
@@ -277,11 +274,9 @@ std::string json(const Table& table) {
 }
 
 std::string json_lines(const Table& table) {
-  std::string text;
-  for (const std::vector<Cell>& row : table.rows()) {
-    text += json_row(table, row).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  }
-  return text;
+  return joined(table.rows(), "", [&](const std::vector<Cell>& row) {
+    return json_row(table, row).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  });
 }
 
 }  // namespace
@@ -290,10 +285,8 @@ std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) {
     return text;
   }
-  std::string quoted = "\"";
-  for (const char character : text) {
-    quoted += character == '"' ? "\"\"" : std::string(1, character);
-  }
+  const std::string quoted =
+      "\"" + joined(text, "", [&](const char character) { return character == '"' ? "\"\"" : std::string(1, character); });
   return quoted + "\"";
 }
 

@@ -1,8 +1,5 @@
 #include "apps/frontend/table/table_files.h"
 
-#include <ostream>
-#include <utility>
-
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/system/scratch_folder.h"
 #include "apps/frontend/table/plot_program.h"

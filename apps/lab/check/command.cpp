@@ -6,7 +6,6 @@
 #include <iostream>
 #include <numeric>
 #include <ostream>
-#include <string>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/option_values.h"

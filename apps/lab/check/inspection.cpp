@@ -5,12 +5,12 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 
 #include "apps/lab/crowd/side_by_side.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/sampling.h"
 #include "core/base/units.h"
 #include "core/picture/render.h"
@@ -37,10 +37,7 @@ class Draw {
   /// Returns them by pixel and shot.
   std::vector<TracedRay> finish() {
     shrink(size_);
-    std::vector<TracedRay> rays;
-    for (const Keyed& keyed : drawn_) {
-      rays.push_back(keyed.traced);
-    }
+    std::vector<TracedRay> rays = core::mapped<TracedRay>(drawn_, &Keyed::traced);
     std::sort(rays.begin(), rays.end(), [](const TracedRay& a, const TracedRay& b) {
       return a.ray.pixel < b.ray.pixel || (a.ray.pixel == b.ray.pixel && a.number < b.number);
     });

@@ -8,6 +8,7 @@
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -23,19 +24,9 @@ constexpr std::array<Measure, 8> measures = {{
     {"pixels", [](const PictureError& error) { return static_cast<double>(error.differing_pixels); }},
 }};
 
-const Measure* find_measure(const std::string& name) {
-  const auto* const found =
-      std::find_if(measures.begin(), measures.end(), [&](const Measure& measure) { return measure.name == name; });
-  return found == measures.end() ? nullptr : found;
-}
+const Measure* find_measure(const std::string& name) { return core::find_in(measures, name, &Measure::name); }
 
-std::vector<std::string> all_names() {
-  std::vector<std::string> names;
-  for (const Measure& measure : measures) {
-    names.emplace_back(measure.name);
-  }
-  return names;
-}
+std::vector<std::string> all_names() { return core::mapped<std::string>(measures, &Measure::name); }
 
 }  // namespace
 

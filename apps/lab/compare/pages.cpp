@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/bounded_text.h"
 #include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/system/text_input.h"
 #include "apps/frontend/table/table.h"
 #include "apps/lab/difference/picture_error.h"
 #include "apps/lab/figures/figures_file.h"

@@ -3,7 +3,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <utility>
 #include <vector>
 
 #include "core/base/usual_arithmetic.h"

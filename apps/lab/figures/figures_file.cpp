@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "apps/frontend/line/json_format.h"
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/system/bounded_text.h"
+#include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

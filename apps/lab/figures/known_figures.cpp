@@ -7,6 +7,7 @@
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -84,8 +85,7 @@ std::vector<std::string> figures_meant(const std::string& typed, bool aside) {
 /// Returns null if there is none.
 const KnownFigure* find_figure(const std::string& name) {
   const std::vector<KnownFigure>& all = known_figures();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const KnownFigure& figure) { return figure.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return core::find_in(all, name, &KnownFigure::name);
 }
 
 /// Returns a question with the figure whose name or last word is near.

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/ranges.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -57,10 +59,7 @@ struct Feature {
 /// Returns how far float rounding may move a ray beside a triangle: the shear moves a vertex by less than 7, the edge function by
 /// less than 1 rounding of the reach (exact_intersection.cpp).
 double rounding_of(const Ray& ray, const std::array<Vec3f, 3>& corner) {
-  double reach = 0;
-  for (const Vec3f& at : corner) {
-    reach = std::max(reach, length(Vec3d(at) - Vec3d(ray.origin)));
-  }
+  const double reach = core::max_over(corner, double{0}, [&](const Vec3f& at) { return length(Vec3d(at) - Vec3d(ray.origin)); });
   return 8 * 0x1p-24 * reach;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/option_values.h"
 #include "apps/lab/crowd/side_by_side.h"
+#include "core/base/ranges.h"
 #include "svm/pages/observers/optimum.h"
 #include "svm/pages/replacement.h"
 
@@ -191,10 +191,8 @@ void add_policies(OptionSet set, std::vector<std::string>& places) {
 }
 
 std::vector<ForeignPolicy> load_policies(const std::vector<std::string>& places, const std::function<void()>& check) {
-  std::vector<ForeignPolicy> policies;
-  for (const std::string& place : places) {
-    policies.emplace_back(place, check);
-  }
+  std::vector<ForeignPolicy> policies =
+      core::mapped<ForeignPolicy>(places, [&](const std::string& place) { return ForeignPolicy(place, check); });
   check_names_differ(policies);
   return policies;
 }

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>

@@ -16,6 +16,7 @@
 #include "apps/run/run_strategy.h"
 #include "apps/scene/camera_path.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/units.h"
 #include "core/picture/camera/frame_settings.h"
 
@@ -85,10 +86,7 @@ class FrameRuns {
 
 /// Returns the most pages that a node fetches for a cold frame if nothing leaves its cache: each fault is another page.
 std::uint32_t working_set_of(const FrameSeries& kept) {
-  std::uint64_t most = 1;
-  for (const FrameFigures& frame : kept.cold) {
-    most = std::max(most, frame.node_faults_max);
-  }
+  const std::uint64_t most = core::max_over(kept.cold, std::uint64_t{1}, &FrameFigures::node_faults_max);
   return static_cast<std::uint32_t>(most);
 }
 
@@ -269,10 +267,8 @@ void FramesStudy::measure(StudyRuns& runs, Table& table) const {
 std::vector<std::string> FramesStudy::notes(const std::string&) const {
   const std::string path = camera_path ? "the camera moves through the keyframes of " + camera_path->string()
                                        : "turned by " + shortest(turntable_degrees) + " degrees a frame";
-  std::vector<std::string> notes;
-  for (const nodes::Machine& machine : machines) {
-    notes.push_back(machine_text(machine) + ".");
-  }
+  std::vector<std::string> notes =
+      core::mapped<std::string>(machines, [&](const nodes::Machine& machine) { return machine_text(machine) + "."; });
   const std::vector<std::string> rest = {
       counted(frame_count, "frame") + ", " + path + "; means over frames 2 to " + std::to_string(frame_count) +
           ". Pages and questions: " + in_flight_text(Strategy::svm) + " in flight.",

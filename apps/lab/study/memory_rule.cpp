@@ -6,6 +6,7 @@
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {
@@ -39,11 +40,7 @@ std::size_t MemoryRule::bytes_of(std::size_t database_bytes, std::size_t rays_by
 }
 
 std::vector<MemoryRule> parse_memory_rules(const std::string& text) {
-  std::vector<MemoryRule> rules;
-  for (const std::string& word : words_between(text, ',')) {
-    rules.push_back(parse_rule(word));
-  }
-  return rules;
+  return core::mapped<MemoryRule>(words_between(text, ','), [&](const std::string& word) { return parse_rule(word); });
 }
 
 }  // namespace dmpc::apps

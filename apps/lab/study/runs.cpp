@@ -6,9 +6,10 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/system/available_memory.h"
 #include "apps/frontend/system/progress.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "apps/run/run_strategy.h"
-#include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
@@ -99,10 +100,9 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
 }
 
 void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Take& take) {
-  std::vector<StudyRun> over_this;
-  for (const StrategyOptions& run : runs) {
-    over_this.push_back({run, &database_, &settings_});
-  }
+  const std::vector<StudyRun> over_this = core::mapped<StudyRun>(runs, [&](const StrategyOptions& run) {
+    return StudyRun{run, &database_, &settings_};
+  });
   run_side_by_side(over_this, take);
 }
 

@@ -7,6 +7,7 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/table/filled_columns.h"
 #include "apps/run/strategy_options.h"
+#include "core/base/ranges.h"
 #include "dataflow/regions/balance.h"
 #include "svm/packets.h"
 
@@ -27,11 +28,7 @@ struct TrafficRow {
 /// Returns the memory of the node that used most.
 template <class Report>
 std::uint64_t memory_max_bytes(const Report& report) {
-  std::size_t most = 0;
-  for (const auto& node : report.nodes) {
-    most = std::max(most, node.memory_used.total());
-  }
-  return most;
+  return core::max_over(report.nodes, std::size_t{0}, [&](const auto& node) { return node.memory_used.total(); });
 }
 
 /// Returns a share of the rays sent; nothing if none was.

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "core/base/expect.h"
-#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/scale.h"
 #include "apps/frontend/picture/color_map.h"
 #include "apps/picture/glyphs.h"
-#include "apps/picture/image_file.h"
-#include "apps/run/heat_options.h"
-#include "apps/run/render_record.h"
-#include "apps/show/heat/field.h"
+#include "core/base/ranges.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
@@ -63,10 +59,7 @@ std::array<std::string, 3> lines_of(const HeatField& field, const NumberScale& s
 
 /// In dots.
 int width_of_legend(const std::array<std::string, 3>& lines) {
-  int width = bar_width_min;
-  for (const std::string& line : lines) {
-    width = std::max(width, text_width(line, 1));
-  }
+  const int width = core::max_over(lines, bar_width_min, [&](const std::string& line) { return text_width(line, 1); });
   return width + 2 * margin;
 }
 

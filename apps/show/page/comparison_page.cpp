@@ -18,6 +18,7 @@
 #include "apps/show/page/player.h"
 #include "apps/show/page/typed_array.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
 
@@ -148,11 +149,7 @@ void add_compared_pictures(Page& page, const Comparison& comparison) {
 
 double sum_of_numbers(const json& array) {
   const std::vector<std::uint64_t> numbers = numbers_of(array).value();
-  double sum = 0;
-  for (const std::uint64_t number : numbers) {
-    sum += static_cast<double>(number);
-  }
-  return sum;
+  return core::sum_over<double>(numbers, [&](const std::uint64_t number) { return static_cast<double>(number); });
 }
 
 /// Returns sums by name of a field, for fields whose sum has a meaning.

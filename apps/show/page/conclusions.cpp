@@ -9,6 +9,7 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/show/page/shares.h"
 #include "apps/run/memory_categories.h"
+#include "core/base/ranges.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::html {
@@ -60,10 +61,8 @@ std::string memory_conclusion(const Account& account, std::size_t database_bytes
   const std::vector<double> used = by_node(account, [&](std::size_t node) { return account.nodes[node].memory_used.total(); });
   const std::size_t fullest = largest_at(used);
   const nodes::MemoryPlan& memory = account.nodes[fullest].memory_used;
-  std::vector<double> parts;
-  for (const NamedCategory& part : memory_categories) {
-    parts.push_back(static_cast<double>(memory[part.category]));
-  }
+  const std::vector<double> parts = core::mapped<double>(
+      memory_categories, [&](const NamedCategory& part) { return static_cast<double>(memory[part.category]); });
   const std::size_t part = largest_at(parts);
   return "The fullest node, " + node_text(fullest) + ", used " + bytes_text(memory.total()) + ", " +
          share_text(share_of(parts[part], used[fullest])) + " of it for " + memory_categories.at(part).name +

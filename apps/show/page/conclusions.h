@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 
-#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/show/heat/field.h"
 

@@ -15,6 +15,7 @@
 #include "apps/run/report.h"
 #include "apps/show/page/page_data.h"
 #include "apps/show/page/typed_array.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
 
@@ -46,8 +47,7 @@ double milliseconds(double ns) { return ns / 1e6; }
 /// Returns the entry with `pages` pages; nullptr if there is none.
 template <class Sized>
 const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
-  const auto found = std::find_if(all.begin(), all.end(), [pages](const Sized& one) { return one.cache_pages == pages; });
-  return found == all.end() ? nullptr : &*found;
+  return core::find_in(all, pages, &Sized::cache_pages);
 }
 
 std::set<std::uint32_t> sizes_of(const ForecastView& view) {

@@ -1,7 +1,5 @@
 #include "apps/show/page/pictures.h"
 
-#include <algorithm>
-
 #include "apps/frontend/show/page/data_url.h"
 #include "apps/frontend/show/page/table.h"
 #include "apps/picture/shrunk.h"

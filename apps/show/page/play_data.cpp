@@ -22,6 +22,7 @@
 #include "apps/show/page/typed_array.h"
 #include "apps/show/stats/stats.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::html {
@@ -245,10 +246,8 @@ json pages_of(const svm::Fetches& fetches) {
 /// Rows of steps, in 255ths of the largest of all: 255 is `most`.
 json steps_of(const nodes::StepCounts& counts, const std::vector<std::span<const std::uint64_t>>& rows, std::uint64_t total) {
   const std::size_t steps = std::min<std::size_t>(counts.step_count_max(), (total + counts.step_ns() - 1) / counts.step_ns());
-  std::uint64_t most = 1;
-  for (const std::span<const std::uint64_t> row : rows) {
-    most = std::max(most, largest(row));
-  }
+  const std::uint64_t most =
+      core::max_over(rows, std::uint64_t{1}, [&](const std::span<const std::uint64_t> row) { return largest(row); });
   Counts values;
   for (const std::span<const std::uint64_t> row : rows) {
     for (std::size_t step = 0; step < steps; ++step) {
@@ -265,10 +264,8 @@ json steps_of(const nodes::StepCounts& counts, const std::vector<std::span<const
 }
 
 json link_steps(const nodes::ExchangeProfile& exchange, const nodes::VirtualReport& report) {
-  std::vector<std::span<const std::uint64_t>> rows;
-  for (const nodes::LinkUse& link : report.busiest_links) {
-    rows.push_back(exchange.link_bytes(link.from, link.to));
-  }
+  const std::vector<std::span<const std::uint64_t>> rows = core::mapped<std::span<const std::uint64_t>>(
+      report.busiest_links, [&](const nodes::LinkUse& link) { return exchange.link_bytes(link.from, link.to); });
   return steps_of(exchange.links(), rows, report.total_ns);
 }
 
@@ -300,10 +297,8 @@ void add_over_time(json& head, const nodes::ExchangeProfile& exchange, const nod
     over["pairs"]["what"] = head["pairs"]["what"] == "pages" ? "pages" : "packets of rays";
   }
   if (!head["pages"].empty()) {
-    std::vector<std::span<const std::uint64_t>> rows;
-    for (const json& page : head["pages"]) {
-      rows.push_back(exchange.numbers().row(page[0]));
-    }
+    const std::vector<std::span<const std::uint64_t>> rows = core::mapped<std::span<const std::uint64_t>>(
+        head["pages"], [&](const json& page) { return exchange.numbers().row(page[0]); });
     over["pages"] = steps_of(exchange.numbers(), rows, report.total_ns);
   }
   head["over"] = std::move(over);

@@ -1,6 +1,5 @@
 #include "apps/show/page/played_run.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
-#include <string>
 #include <variant>
 #include <vector>
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/run/work.h"
-#include "apps/frontend/show/page/node_bands.h"
-#include "apps/frontend/show/page/page.h"
-#include "apps/frontend/show/page/view_conclusions.h"
+#include "apps/frontend/show/page/sections.h"
+#include "apps/frontend/show/page/traffic.h"
 #include "apps/frontend/show/page/view_tables.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/heat_options.h"
-#include "apps/run/render_record.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
@@ -26,6 +22,7 @@
 #include "apps/show/page/play_data.h"
 #include "apps/show/page/player.h"
 #include "apps/show/page/render_tables.h"
+#include "core/base/ranges.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
 
@@ -83,62 +80,26 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
 }
 
 void add_time(Page& page, const RunView& view, const WaitKinds& waits) {
-  if (view.steps.nodes.front().empty()) {
-    return;
-  }
-  page.begin_section("Over time");
   const std::vector<std::string> names(work_names.begin(), work_names.end());
-  std::vector<std::string> wait_names;
-  std::transform(wait_parts.begin(), wait_parts.end(), std::back_inserter(wait_names),
-                 [&waits](TimePart part) { return words_of(part, waits); });
-  page.add_conclusion(time_conclusion(view.steps, wait_names));
-  Table table = step_table(view.steps, names, wait_names);
-  table.add_note("The host is left out.");
-  page.add_plot(step_plot(view.steps, names, wait_names), table);
-  page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
-  page.add_table(table);
+  const auto wait_names = core::mapped<std::string>(wait_parts, [&waits](TimePart part) { return words_of(part, waits); });
+  add_steps(page, view.steps, names, wait_names, "", "The host is left out.");
 }
 
-void add_misses(Page& page, const RenderRecord& record, const MissEstimate& misses) {
+void add_fetched(Page& page, const RenderRecord& record) {
   const auto& report = std::get<svm::Report>(record.report);
   const svm::PageCounters pages = report.pages();
-  page.add_conclusion(cache_conclusion(misses, report.plan.frames, static_cast<std::uint32_t>(record.database.page_count())));
-  const Table table = miss_table(misses, static_cast<std::uint32_t>(record.database.page_count()), pages.references,
-                                 report.plan.frames, pages.faults);
-  page.add_plot(miss_plot(), table);
-  page.add_table(table);
+  add_pages(page, pages, *record.view->fetches, true, "");
+  if (pages.faults == 0 || !record.view->misses) {
+    return;
+  }
+  const auto page_count = static_cast<std::uint32_t>(record.database.page_count());
+  add_misses(page, *record.view->misses, page_count, report.plan.frames, pages, "");
   if (const std::optional<ForecastView> forecast = forecast_view(record)) {
     add_forecast(page, *forecast);
   } else if (!report.virtual_time) {
     page.add_text(
         "The run time with other caches is predicted on modelled machines (`--runner=virtual`) only: times by the wall clock "
         "compare schedules of this computer.");
-  }
-}
-
-void add_fetches(Page& page, const svm::Fetches& fetches) {
-  page.begin_section("Fetching a page");
-  page.add_conclusion(fetch_conclusion(fetches));
-  const Table table = fetch_table(fetches);
-  page.add_plot(fetch_plot(fetches), table);
-  page.add_table(table);
-  page.add_table(fetch_part_table(fetches));
-}
-
-void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
-  page.begin_section("Pages");
-  const svm::PageCounters pages = std::get<svm::Report>(record.report).pages();
-  page.add_conclusion(page_conclusion(pages, fetches));
-  if (pages.faults == 0) {
-    return;
-  }
-  page.add_map(pair_map(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
-  page.add_plot(page_share_plot(), page_share_table(fetches));
-  page.add_table(page_table(fetches));
-  add_fetches(page, fetches);
-  if (record.view->misses) {
-    page.begin_section("Other caches");
-    add_misses(page, record, *record.view->misses);
   }
 }
 
@@ -151,23 +112,8 @@ void add_rays(Page& page, const dataflow::Report& report, const Account& account
   }
 }
 
-void add_nodes(Page& page, const RenderRecord& record) {
-  page.begin_section("Nodes");
-  page.add_conclusion(node_conclusion(account_of(record.report)));
-  const Table table = node_table(record);
-  for (const Plot& plot : node_plots(record)) {
-    add_node_plot(page, plot, table);
-  }
-  page.add_table(table);
-}
-
-void add_losses(Page& page, const Account& account) {
-  page.begin_section("Where the time went");
-  const Losses losses = losses_of(account);
-  page.add_conclusion(loss_conclusion(losses));
-  const Table table = loss_table(losses);
-  add_node_plot(page, loss_plot(losses), table);
-  page.add_table(table);
+void add_time_losses(Page& page, const Account& account) {
+  add_losses(page, losses_of(account));
   if (account.virtual_time && account.virtual_time->critical_path) {
     const nodes::PathTimes& path = account.virtual_time->critical_path->times;
     page.add_conclusion(path_conclusion(path, account.kind_names));
@@ -180,24 +126,10 @@ void add_traffic(Page& page, const Account& account) {
   const std::vector<PacketKindTraffic> packets = packets_of(account);
   page.add_conclusion(traffic_conclusion(packets, account.virtual_time ? &*account.virtual_time : nullptr));
   page.add_table(packet_table(packets));
-  if (!account.ranks.empty()) {
-    page.add_table(rank_table(account.ranks));
+  add_ranks(page, account.ranks);
+  if (account.virtual_time) {
+    add_links(page, *account.virtual_time);
   }
-  if (!account.virtual_time) {
-    return;
-  }
-  page.add_text(way_text(account.virtual_time->links));
-  const Table table = link_table(*account.virtual_time);
-  page.add_plot(link_plot(), table);
-  page.add_table(table);
-}
-
-void add_memory(Page& page, const Account& account, std::size_t database_bytes) {
-  page.begin_section("Memory");
-  page.add_conclusion(memory_conclusion(account, database_bytes));
-  const Table table = memory_table(account);
-  add_node_plot(page, memory_plot(account), table);
-  page.add_table(table);
 }
 
 }  // namespace
@@ -208,19 +140,20 @@ std::string render_page(const RenderRecord& record, const Origin& origin, std::o
   page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts_of(record, account));
   add_pictures(page, record, account);
-  add_losses(page, account);
+  add_time_losses(page, account);
   if (record.view != nullptr) {
     add_time(page, *record.view, account.waits);
   }
   if (record.view != nullptr && record.view->fetches) {
-    add_pages(page, record, *record.view->fetches);
+    add_fetched(page, record);
   }
   if (const auto* const report = std::get_if<dataflow::Report>(&record.report)) {
     add_rays(page, *report, account);
   }
-  add_nodes(page, record);
+  add_node_section(page, "Nodes", node_conclusion(account), node_table(record), node_plots(record));
   add_traffic(page, account);
-  add_memory(page, account, record.database.page_count() * record.database.page_size());
+  add_node_section(page, "Memory", memory_conclusion(account, record.database.page_count() * record.database.page_size()),
+                   memory_table(account), {memory_plot(account)});
   page.add_origin(origin, results_of(record, account));
   if (record.view != nullptr && !record.view->steps.nodes.front().empty()) {
     add_player(page, play_data(record, origin));

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numeric>
 #include <span>
-#include <string>
 #include <utility>
 #include <variant>
 

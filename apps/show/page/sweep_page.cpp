@@ -1,7 +1,5 @@
 #include "apps/show/page/sweep_page.h"
 
-#include "apps/frontend/show/page/page.h"
-
 namespace dmpc::apps::html {
 
 std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints) {

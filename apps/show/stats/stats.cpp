@@ -1,11 +1,9 @@
 #include "apps/show/stats/stats.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <variant>
 
 #include "apps/frontend/line/json_format.h"

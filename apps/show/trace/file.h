@@ -5,7 +5,6 @@
 #include <string>
 
 #include "apps/run/render_record.h"
-#include "apps/run/trace_options.h"
 
 namespace dmpc::apps {
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "svm/pages/observers/reference_log.h"
 #include "svm/pages/pager.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 
 #include "core/base/expect.h"
 #include "nodes/local_memory.h"

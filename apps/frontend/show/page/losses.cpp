@@ -7,6 +7,7 @@
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/show/page/shares.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
 
@@ -54,10 +55,8 @@ std::string virtual_conclusion(const Losses& losses, std::span<const double> par
       text += "; most of the rest was \"" + losses.parts[loss] + "\", " + share_text(share_of(parts[loss], whole));
     }
   }
-  std::vector<double> computing;
-  for (const std::vector<std::uint64_t>& node : losses.nodes) {
-    computing.push_back(static_cast<double>(node[0]));
-  }
+  const std::vector<double> computing =
+      core::mapped<double>(losses.nodes, [&](const std::vector<std::uint64_t>& node) { return static_cast<double>(node[0]); });
   const std::string even = evenness(computing, "computed for");
   return text + "." + (even.empty() ? "" : " " + even + ".");
 }

@@ -1,7 +1,6 @@
 #include "apps/frontend/show/page/number_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "apps/frontend/line/amount.h"

@@ -12,8 +12,6 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <string_view>
-#include <vector>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/words.h"

@@ -2,9 +2,9 @@
 
 #include <cctype>
 #include <cstddef>
-#include <utility>
 
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/data_url.h"
 #include "apps/frontend/show/page/escaped.h"
 #include "apps/frontend/show/page/table.h"
@@ -30,10 +30,7 @@ std::string elements(const std::string& name, std::span<const WebPart> parts) {
 }
 
 std::string notes_of(const Table& table) {
-  std::string text;
-  for (const std::string& note : table.notes()) {
-    text += element("li", note);
-  }
+  const std::string text = joined(table.notes(), "", [&](const std::string& note) { return element("li", note); });
   return text.empty() ? "" : "<ul class=\"notes\">\n" + text + "</ul>\n";
 }
 

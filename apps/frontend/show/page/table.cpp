@@ -11,6 +11,7 @@
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/small_letters.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/escaped.h"
 
 namespace dmpc::apps::html {
@@ -161,10 +162,7 @@ std::string table_element(const Table& table, bool has_caption) {
 }
 
 std::string words_of(const Table& table) {
-  std::string words = table.title();
-  for (const Column& column : table.columns()) {
-    words += "\n" + column.name;
-  }
+  std::string words = table.title() + joined(table.columns(), "", [&](const Column& column) { return "\n" + column.name; });
   for (const std::vector<Cell>& row : table.rows()) {
     for (const Cell& cell : row) {
       if (const auto* const text = std::get_if<std::string>(&cell)) {

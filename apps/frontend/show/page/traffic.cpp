@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/show/page/shares.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
 
@@ -86,10 +86,8 @@ std::string traffic_conclusion(std::span<const PacketKindTraffic> packets, const
   const std::vector<std::uint64_t> counted_bytes = bytes_of(packets);
   const std::vector<double> bytes(counted_bytes.begin(), counted_bytes.end());
   const double all_bytes = sum_of(bytes);
-  std::uint64_t all_packets = 0;
-  for (const PacketKindTraffic& kind : packets) {
-    all_packets += kind.sent.packets;
-  }
+  const std::uint64_t all_packets =
+      core::sum_over<std::uint64_t>(packets, [&](const PacketKindTraffic& kind) { return kind.sent.packets; });
   if (all_packets == 0) {
     return "No packet was sent.";
   }

@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/frontend/run/run_view.h"
-#include "svm/pages/pager.h"
+#include "svm/pages/node_program.h"
 
 namespace dmpc::apps::html {
 

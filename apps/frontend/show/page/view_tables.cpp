@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/table/geometric_sizes.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
 
@@ -105,11 +105,8 @@ void add_distribution(Table& table, const std::string& name, std::vector<double>
 
 template <class ValueOf>
 std::vector<double> values_of(const Fetches& fetches, const ValueOf& value_of) {
-  std::vector<double> values;
-  for (const Fetch& fetch : fetches.sample) {
-    values.push_back(microseconds(static_cast<double>(value_of(fetch))));
-  }
-  return values;
+  return core::mapped<double>(fetches.sample,
+                              [&](const Fetch& fetch) { return microseconds(static_cast<double>(value_of(fetch))); });
 }
 
 std::string sample_note(const Fetches& fetches) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "apps/frontend/run/run_view.h"
 #include "apps/frontend/show/page/number_map.h"

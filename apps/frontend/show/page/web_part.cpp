@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/system/base64.h"
 
 namespace dmpc::apps::html {
@@ -21,10 +22,8 @@ std::string from_hexadecimal(std::string_view digits) {
 }
 
 std::string sources_of(std::span<const WebPart> parts) {
-  std::string sources;
-  for (const WebPart& part : parts) {
-    sources += " 'sha256-" + base64(from_hexadecimal(part.sha256)) + "'";
-  }
+  const std::string sources =
+      joined(parts, "", [&](const WebPart& part) { return " 'sha256-" + base64(from_hexadecimal(part.sha256)) + "'"; });
   return sources.empty() ? " 'none'" : sources;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>

@@ -19,6 +19,7 @@
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {
@@ -124,12 +125,9 @@ std::string first_words(const ErrorOptions& options, std::span<const SceneResult
 }
 
 std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
-  std::vector<PlottedTable> plotted;
-  for (const SceneResult& result : results) {
-    plotted.push_back(
-        {table_of({&result, 1}, result.scene), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))});
-  }
-  return plotted;
+  return core::mapped<PlottedTable>(results, [&](const SceneResult& result) -> PlottedTable {
+    return {table_of({&result, 1}, result.scene), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))};
+  });
 }
 
 /// Shows points that were rendered once; the table has their final times.

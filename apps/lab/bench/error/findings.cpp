@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {

@@ -1,11 +1,11 @@
 #include "apps/lab/bench/error/result.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/base/sampling.h"
 
 namespace dmpc::apps {
@@ -37,10 +37,9 @@ bool is_told(const SceneResult& result, const Measurement& measurement) {
 
 Estimate error_interval(const Measurement& measurement) {
   const double error = error_of(measurement), mean = error * error / pixel_groups;
-  double variance = 0;
-  for (const double square : measurement.squares) {
-    variance += (square - mean) * (square - mean) * pixel_groups / (pixel_groups - 1);
-  }
+  const double variance = core::sum_over<double>(measurement.squares, [&](const double square) {
+    return (square - mean) * (square - mean) * pixel_groups / (pixel_groups - 1);
+  });
   // Twice the deviation, and half of that for the root.
   const double factor = std::exp(std::sqrt(variance) / (error * error));
   return {.low = error / factor, .middle = error, .high = error * factor};

@@ -1,13 +1,11 @@
 #include "apps/lab/bench/error/table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "apps/frontend/table/filled_columns.h"
 #include "apps/lab/bench/error/findings.h"
-#include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {

@@ -17,6 +17,7 @@
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -57,13 +58,7 @@ constexpr int failed_status = 3;
 constexpr std::size_t errors_shown = 10;
 
 /// Returns every family in its own size.
-std::vector<std::string> all_families() {
-  std::vector<std::string> scenes;
-  for (const FamilyExpectation& family : family_expectations) {
-    scenes.emplace_back(family.scene);
-  }
-  return scenes;
-}
+std::vector<std::string> all_families() { return core::mapped<std::string>(family_expectations, &FamilyExpectation::scene); }
 
 TableFiles files_of(const PrecisionOptions& options) {
   OtherFiles others;

@@ -1,7 +1,6 @@
 #include "apps/lab/bench/stability/own_kernels.h"
 
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 
 #include "apps/lab/bench/stability/rays.h"

@@ -5,7 +5,6 @@
 #include "apps/lab/oracle/reference/ray_log.h"
 #include "core/base/expect.h"
 #include "core/picture/lights/emitter_light.h"
-#include "core/picture/sampling/sample_pair.h"
 #include "core/record/emitter.h"
 #include "core/record/records.h"
 

@@ -9,7 +9,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "apps/lab/oracle/reference/scene.h"
 #include "apps/oracle/embree.h"
 
 namespace dmpc::apps {

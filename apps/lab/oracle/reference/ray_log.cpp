@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/ranges.h"
 #include "core/base/sampling.h"
 #include "core/picture/film/film.h"
 #include "core/picture/render.h"
@@ -142,10 +143,7 @@ bool same_values(const ReferenceBody& body, const core::PrimitiveValues& values,
 
 }  // namespace
 
-const LoggedRay* RayLog::find(std::uint64_t path) const {
-  const auto at = std::find_if(rays.begin(), rays.end(), [path](const LoggedRay& ray) { return ray.path == path; });
-  return at == rays.end() ? nullptr : &*at;
-}
+const LoggedRay* RayLog::find(std::uint64_t path) const { return core::find_in(rays, path, &LoggedRay::path); }
 
 Vec3d ProductLog::light(const Vec3d& background) const {
   Vec3d sum;

@@ -1,6 +1,5 @@
 #include "apps/lab/oracle/reference/step_audit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

@@ -6,6 +6,7 @@
 
 #include "apps/lab/oracle/facet_lobes.h"
 #include "apps/lab/oracle/reference/emitters.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -51,10 +52,7 @@ Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction -
 double share_of(double own, double other) { return std::isinf(own) ? 1 : own * own / (own * own + other * other); }
 
 double start_gap(const ReferenceBody& body) {
-  double coordinate = 0;
-  for (const Vec3d& place : body.place) {
-    coordinate = std::max(coordinate, largest_component(place));
-  }
+  const double coordinate = core::max_over(body.place, double{0}, [&](const Vec3d& place) { return largest_component(place); });
   const double radius = std::max(std::fabs(body.radius[0]), std::fabs(body.radius[1]));
   return gap * (coordinate + radius);
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/frontend/line/exit_status.h"
-#include "apps/frontend/system/bounded_text.h"
+#include "apps/frontend/system/text_input.h"
 #include "apps/frontend/system/watched_process.h"
 #include "core/base/expect.h"
 

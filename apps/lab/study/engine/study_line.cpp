@@ -4,15 +4,13 @@
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::apps {
 
 void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts) {
-  std::string listed;
-  for (const std::uint32_t count : counts) {
-    listed += (listed.empty() ? "" : ",") + std::to_string(count);
-  }
+  const std::string listed = joined(counts, ",", [&](const std::uint32_t count) { return std::to_string(count); });
   set.add_text(
       "--nodes", "N,N,... [" + listed + "]",
       [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", nodes::node_count_max); },

@@ -82,8 +82,6 @@ dataflow::RayOptions rays_by(RayWay way) {
     rays.balance.bsp.order = dataflow::CutOrder::longer_axis;
   } else if (way == RayWay::equal_size) {
     rays.balance.balance = dataflow::Balance::equal_size;
-  } else if (way == RayWay::backpressure) {
-    rays.without_backpressure = false;
   } else if (way == RayWay::long_queue) {
     rays.queue_packets = long_queue_packets;
   }

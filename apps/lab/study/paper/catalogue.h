@@ -30,14 +30,12 @@ inline constexpr std::size_t article_item = 3;
 inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
 /// Ways of travelling rays there on 64 nodes.
 enum class RayWay : std::uint8_t {
-  as_in_1994,    ///< cuts in alternating directions from a subsampled picture, no backpressure
-  longer_side,   ///< cuts across the longer side
-  equal_size,    ///< regions of equal size
-  backpressure,  ///< with backpressure
-  long_queue     ///< as in 1994, with a queue that fills the node's memory
+  as_in_1994,   ///< cuts in alternating directions from a subsampled picture, no backpressure
+  longer_side,  ///< cuts across the longer side
+  equal_size,   ///< regions of equal size
+  long_queue    ///< as in 1994, with a queue that fills the node's memory
 };
-inline constexpr std::array<const char*, 5> ray_way_names = {"as in 1994", "longer-side cuts", "equal sizes", "backpressure",
-                                                             "long queue"};
+inline constexpr std::array<const char*, 4> ray_way_names = {"as in 1994", "longer-side cuts", "equal sizes", "long queue"};
 /// With everything else, this many packets fill nearly all of the article's 4 MB on each of 64 nodes.
 inline constexpr std::uint32_t long_queue_packets = 960;
 /// Numbers of nodes for which regions of equal size are cut.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/lab/study/paper/claim_rows.h"
 #include "apps/lab/study/paper/tables.h"
 
@@ -51,11 +52,7 @@ const char* verdict_of_fall(const std::vector<double>& values) {
 
 /// "100.0, 97.5, 96.0".
 std::string listed(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) {
-    text += (text.empty() ? "" : ", ") + fixed(value, 1);
-  }
-  return text;
+  return joined(values, ", ", [&](const double value) { return fixed(value, 1); });
 }
 
 void claim_rays_fall(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {

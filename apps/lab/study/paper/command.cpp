@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include "apps/frontend/system/attempts.h"
 #include "apps/frontend/system/output_file.h"
@@ -13,11 +12,9 @@
 #include "apps/frontend/table/table_options.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/paper/calibration.h"
-#include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/law.h"
 #include "apps/lab/study/paper/report.h"
 #include "apps/lab/study/paper/runs.h"
-#include "apps/lab/study/paper/sensitivity.h"
 #include "apps/lab/study/paper/tables.h"
 
 namespace dmpc::apps {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/frontend/line/number_text.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -117,10 +118,9 @@ std::string on_losses(const Table& table) {
   const std::vector<const Row*> rows = rows_of_most(table, "nodes");
   std::pair<double, std::string> largest;
   for (const Column& column : table.columns()) {
-    double sum = 0;
-    for (const Row* row : rows) {
-      sum += column.unit == "%" && column.name != "computing" ? number_in(table, *row, column.name).value_or(0) : 0;
-    }
+    const double sum = core::sum_over<double>(rows, [&](const Row* row) {
+      return column.unit == "%" && column.name != "computing" ? number_in(table, *row, column.name).value_or(0) : 0;
+    });
     largest = std::max(largest, {sum, column.name});
   }
   if (rows.empty() || largest.first == 0) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/base/ranges.h"
 #include "core/record/records.h"
 #include "svm/packets.h"
 
@@ -32,10 +33,9 @@ core::Corner cell_of_light(const core::DatabaseHeader& header, const core::Light
 }
 
 double shadow_flood(const core::Database& database, const dataflow::Report& report) {
-  std::vector<std::uint64_t> received;
-  for (const dataflow::NodeReport& node : report.nodes) {
-    received.push_back(node.program.rays.in[static_cast<std::size_t>(core::RayKind::shadow)]);
-  }
+  const std::vector<std::uint64_t> received = core::mapped<std::uint64_t>(report.nodes, [&](const dataflow::NodeReport& node) {
+    return node.program.rays.in[static_cast<std::size_t>(core::RayKind::shadow)];
+  });
   const core::LocalRecords records(database.bytes());
   const core::DatabaseHeader& header = database.header();
   double most = 0;

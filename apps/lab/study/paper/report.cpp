@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/frontend/line/folded_text.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/origin.h"
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/table/plot_program.h"
@@ -15,6 +16,7 @@
 #include "apps/lab/study/paper/data.h"
 #include "apps/show/page/sweep_page.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -104,11 +106,9 @@ std::vector<std::string> introduction(const PaperReport& report) {
 }
 
 std::string head_of(const PaperReport& report) {
-  std::string text = std::string("# ") + title + "\n";
-  for (const std::string& paragraph : introduction(report)) {
-    text += "\n" + folded(paragraph, markdown_width_max, "") + "\n";
-  }
-  return text;
+  return std::string("# ") + title + "\n" + joined(introduction(report), "", [&](const std::string& paragraph) {
+           return "\n" + folded(paragraph, markdown_width_max, "") + "\n";
+         });
 }
 
 std::vector<Plot> plots_of(const std::string& table) {
@@ -122,10 +122,9 @@ std::vector<Plot> plots_of(const std::string& table) {
 }
 
 std::string text_with(const PaperReport& report, const Pictures& pictures, const std::vector<std::string>& complaints) {
-  std::string text = head_of(report);
-  for (const std::string& complaint : complaints) {
-    text += "\n" + folded("Note: " + complaint + ".", markdown_width_max, "") + "\n";
-  }
+  std::string text = head_of(report) + joined(complaints, "", [&](const std::string& complaint) {
+                       return "\n" + folded("Note: " + complaint + ".", markdown_width_max, "") + "\n";
+                     });
   for (const NamedTable& named : report.tables) {
     const auto links = pictures.find(named.name);
     text += "\n" + text_of(named.table, TableFormat::markdown) + (links == pictures.end() ? "" : links->second);
@@ -166,10 +165,9 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
 }
 
 std::string page_of(const PaperReport& report, std::ostream& complaints) {
-  std::vector<html::SweepPart> parts;
-  for (const NamedTable& named : report.tables) {
-    parts.push_back({named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)});
-  }
+  std::vector<html::SweepPart> parts = core::mapped<html::SweepPart>(report.tables, [&](const NamedTable& named) {
+    return html::SweepPart{named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)};
+  });
   return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin(), complaints);
 }
 

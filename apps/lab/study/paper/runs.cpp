@@ -15,7 +15,6 @@
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
-#include "core/database/structure.h"
 #include "core/trace/skips.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/run.h"

@@ -1,7 +1,6 @@
 // The runs of the study `paper`: the article's scenes on modelled machines, as many at a time as there are cores.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -1,13 +1,11 @@
 #include "apps/lab/study/paper/tables.h"
 
-#include <algorithm>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/table/filled_columns.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -81,11 +79,8 @@ std::optional<double> found_efficiency(const RunsByNodeCount& runs, const PaperR
 }
 
 std::size_t printed_cell_count() {
-  std::size_t count = 0;
-  for (const PaperScene& scene : paper_scenes) {
-    count += paper_node_counts.size() - scene.base();
-  }
-  return count;
+  return core::sum_over<std::size_t>(paper_scenes,
+                                     [&](const PaperScene& scene) { return paper_node_counts.size() - scene.base(); });
 }
 
 void note_missing_rows(Table& table, std::size_t expected) {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/show/references/reference_file.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/frontend/table/geometric_sizes.h"
 #include "apps/frontend/table/table_files.h"

@@ -3,6 +3,7 @@
 #include "apps/frontend/table/averages.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -10,11 +11,9 @@ namespace {
 constexpr double bytes_per_megabyte = 1e6;
 
 double local_memory_bytes(const std::vector<Figure>& stats) {
-  double bytes = 0;
-  for (const Figure& figure : stats) {
-    bytes += is_within(figure.name, "nodes.*.memory.planned.total") ? number_of(figure.value).value_or(0) : 0;
-  }
-  return bytes;
+  return core::sum_over<double>(stats, [&](const Figure& figure) {
+    return is_within(figure.name, "nodes.*.memory.planned.total") ? number_of(figure.value).value_or(0) : 0;
+  });
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -91,10 +92,9 @@ int digits_of(const std::vector<SweepResult>& results, const std::string& figure
 
 std::vector<Column> columns_of(const SweepSettings& settings, const std::vector<std::string>& figures,
                                const std::vector<SweepResult>& results) {
-  std::vector<Column> columns;
-  for (const VariedOption& variation : settings.variations) {
-    columns.push_back({name_of(variation), kind_of(variation) == ValueKind::sizes ? "bytes" : ""});
-  }
+  std::vector<Column> columns = core::mapped<Column>(settings.variations, [&](const VariedOption& variation) {
+    return Column{name_of(variation), kind_of(variation) == ValueKind::sizes ? "bytes" : ""};
+  });
   for (const std::string& figure : figures) {
     columns.push_back({figure, unit_of(figure), digits_of(results, figure)});
   }
@@ -102,11 +102,7 @@ std::vector<Column> columns_of(const SweepSettings& settings, const std::vector<
 }
 
 std::string title_of(const SweepSettings& settings) {
-  std::string title = "Study sweep of " + settings.scene;
-  for (const std::string& word : settings.fixed) {
-    title += (&word == &settings.fixed.front() ? ": " : " ") + word;
-  }
-  return title;
+  return "Study sweep of " + settings.scene + (settings.fixed.empty() ? "" : ": ") + joined(settings.fixed, " ");
 }
 
 void add_notes(const SweepSettings& settings, const std::vector<SweepResult>& results, Table& table) {

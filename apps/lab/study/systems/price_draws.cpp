@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <string>
 
 #include "apps/frontend/line/words.h"

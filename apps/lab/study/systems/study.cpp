@@ -8,6 +8,7 @@
 #include "apps/lab/study/systems/price_draws.h"
 #include "apps/lab/study/systems/runner.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -52,13 +53,7 @@ void check_database(const OptionSet& set) {
 
 const char* name_of(SystemTable table) { return table == SystemTable::described ? "described" : "equal"; }
 
-std::vector<System> SystemsStudy::all_systems() {
-  std::vector<System> all;
-  for (const SystemDescription& description : systems()) {
-    all.push_back(description.system);
-  }
-  return all;
-}
+std::vector<System> SystemsStudy::all_systems() { return core::mapped<System>(systems(), &SystemDescription::system); }
 
 void SystemsStudy::add_options(StudyLine line) {
   constexpr std::uint32_t draws_max = 10'000;

@@ -67,7 +67,6 @@ TEST_CASE("every run of 1994 has one pixel in flight, rays without backpressure,
     CHECK(run.rays.without_backpressure == (run.strategy == Strategy::dataflow));
     CHECK((run.strategy != Strategy::dataflow || run.rays.balance.bsp.order == dataflow::CutOrder::alternating));
   }
-  CHECK_FALSE(catalogue.runs[catalogue.by_way(1, RayWay::backpressure)].rays.without_backpressure);
 }
 
 TEST_CASE("a cell that is two points off is found") {
