@@ -8,6 +8,7 @@
 #include "apps/frontend/line/unknown_option.h"
 #include "apps/frontend/line/words.h"
 #include "apps/lab/study/engine/render_process.h"
+#include "apps/scene/database_facts.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
