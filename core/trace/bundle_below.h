@@ -81,7 +81,7 @@ inline bool take_below(RayBundle& bundle, std::size_t ray, const Hit& found, Ope
     expect(nearer(found.t, found.primitive, bundle.best.of(ray)), "what is found below a child is nearer than what was known");
     bundle.best.set(ray, found);
     bundle.found |= bit;
-    operations.skipped.any_hit += bundle.any ? fastest_bundle_intersectors.count_wanted(bundle, bit) : 0;
+    operations.skipped.any_hit += bundle.any ? fastest_bundle_intersectors.count_waiting(bundle, bit) : 0;
   }
   bundle.next_rays &= ~bit;
   if (bundle.next_rays != 0) {
