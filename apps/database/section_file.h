@@ -41,7 +41,8 @@ struct FileKind {
 /// Writes all sections. `output` reports errors.
 void write_sections(const FileKind& kind, std::span<const std::span<const std::byte>> sections, std::ostream& output);
 
-/// It is mapped, and no section is read before it is asked for. Who cuts the file meanwhile ends the process (last_words.h).
+/// It is mapped, and no section is read before it is asked for. Who cuts the file meanwhile ends the process
+/// (apps/frontend/system/last_words.h).
 class SectionFile {
  public:
   /// Reads head and table. Throws core::InputError, whose message begins with the path, if the file cannot be read, others than
