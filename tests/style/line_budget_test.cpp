@@ -28,22 +28,22 @@ using Rows = std::vector<Row>;
 
 // What was there on 2026-11-29, and 3 %.
 const Rows sources = {
-    {"apps", 22'505},           {"apps/computer", 5'535},  {"apps/frontend", 15'243},
-    {"apps/foreign", 14'549},   {"apps/lab", 2'282},       {"apps/lab/bench", 8'597},
-    {"apps/lab/oracle", 5'192}, {"apps/lab/study", 9'894}, {"apps/main", 230},
-    {"apps/manual", 276},       {"apps/modules", 670},     {"apps/policy", 690},
-    {"core", 28'502},           {"core/base", 1'580},      {"dataflow", 8'880},
-    {"nodes", 9'897},           {"nodes/pictures", 490},   {"svm", 3'379},
-    {"svm/forest", 620},        {"svm/pages", 3'694},
+    {"apps", 23'620},           {"apps/computer", 5'535},   {"apps/frontend", 15'243},
+    {"apps/foreign", 14'549},   {"apps/lab", 2'282},        {"apps/lab/bench", 8'597},
+    {"apps/lab/oracle", 5'192}, {"apps/lab/study", 10'070}, {"apps/main", 230},
+    {"apps/manual", 276},       {"apps/modules", 670},      {"apps/policy", 690},
+    {"core", 28'820},           {"core/base", 1'580},       {"dataflow", 8'880},
+    {"nodes", 9'897},           {"nodes/pictures", 490},    {"svm", 3'379},
+    {"svm/forest", 690},        {"svm/pages", 3'694},
 };
 const Rows tests = {
     {"tests", 5'850},
-    {"tests/apps", 15'880},
+    {"tests/apps", 16'330},
     {"tests/apps/computer", 2'210},
     {"tests/apps/frontend", 6'150},
     {"tests/apps/foreign", 6'450},
     {"tests/apps/lab", 11'299},
-    {"tests/core", 17'489},
+    {"tests/core", 17'560},
     {"tests/dataflow", 7'600},
     {"tests/nodes", 8'440},
     {"tests/support", 5'090},
@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 139'645;
+constexpr std::size_t sources_max = 143'000;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {
