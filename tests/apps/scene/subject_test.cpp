@@ -38,10 +38,10 @@ TEST_CASE("how much is kept once is told where that was asked for, and what keep
   CHECK(kept_text(records) ==
         "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied is what shines, in 1,200 places, and what reaches too "
         "far out, in 1 place");
-  CHECK(kept_text({.instances = 1, .base_meshes = 1, .base_mesh_triangles = 70, .triangles_in_places = 70}) ==
+  CHECK(kept_text({{.instances = 1, .base_meshes = 1, .base_mesh_triangles = 70, .triangles_in_places = 70}, {}}) ==
         "kept 1 mesh in 1 place: 70 triangles for 70");
   CHECK(kept_text({}) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
-  CHECK(kept_text({.copied = {{core::Obstacle::shining, 5}}}) == "no mesh is kept once: copied is what shines, in 5 places");
+  CHECK(kept_text({{}, {{core::Obstacle::shining, 5}}}) == "no mesh is kept once: copied is what shines, in 5 places");
 }
 
 TEST_CASE("what is kept without having been asked for is told, and why copies are there where something else was open") {

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "apps/frontend/line/exit_status.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/temporary_folder.h"
 
