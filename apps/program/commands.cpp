@@ -44,17 +44,23 @@ Command help_command(const HelpText& help) {
           }};
 }
 
-bool has_command(const CommandDescription& program, std::span<const std::string> words) {
+/// Throws core::UsageError for words behind the glossary, or behind a command that has none within it.
+void check_is_one_topic(const CommandDescription& program, std::span<const std::string> topic, const std::string& glossary) {
   const CommandDescription* here = &program;
-  for (const std::string& word : words) {
+  std::string known;
+  for (const std::string& word : topic) {
     const auto inner = std::find_if(here->commands.begin(), here->commands.end(),
                                     [&word](const CommandDescription& command) { return command.name == word; });
-    if (inner == here->commands.end()) {
-      return false;
+    if (known == glossary || (!known.empty() && here->commands.empty())) {
+      throw core::UsageError("there is no help about '" + word + "' of " + known + ": expected dmpc help " + known +
+                             hint_at_help("help"));
     }
-    here = &*inner;
+    if (inner == here->commands.end() && word != glossary) {
+      return;  // whoever reads the line knows better what to say of it
+    }
+    here = inner == here->commands.end() ? here : &*inner;
+    known += (known.empty() ? "" : " ") + word;
   }
-  return true;
 }
 
 /// What `help` explains, except names of options and values.
@@ -113,11 +119,14 @@ void Commands::declare_help() {
 HelpText Commands::help_about(const std::vector<std::string>& topic) const {
   Commands all(declare_);
   const CommandDescription program = all.line().describe();
-  const std::string words = joined(topic, " ");
+  const std::string words = joined(topic, " "), first = topic.empty() ? "" : topic.front();
   if (words == "glossary") {
     return {glossary_text()};
   }
-  if (has_command(program, topic)) {
+  const bool is_command = std::any_of(program.commands.begin(), program.commands.end(),
+                                      [&first](const CommandDescription& command) { return command.name == first; });
+  if (is_command || topic.empty() || first == "glossary") {
+    check_is_one_topic(program, topic, "glossary");
     std::vector<std::string> line = topic;
     line.emplace_back("--help");
     return std::get<HelpText>(all.line().parse(line));

@@ -21,7 +21,7 @@ def render(
     Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available",
     "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None =
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
-    Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
+    Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
     "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int
     | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int |
     None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated",
@@ -38,7 +38,7 @@ def render(
     None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None,
     no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, trace: Text | None = None,
     trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None =
-    None, checkpoint_every: Text | None = None, resume: bool = False
+    None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int | None = None
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -53,7 +53,7 @@ def sweep(
     "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | Sequence[Text] | None = None, resolution: Text |
     Sequence[Text] | None = None, depth: int | Sequence[int] | None = None, convention: Literal["haines", "paper"] | Sequence[Text] | None =
     None, samples: Text | Sequence[Text] | None = None, error: Text | Sequence[Text] | None = None, samples_max: int | Sequence[int] | None
-    = None, cutoff: Text | Sequence[Text] | None = None, quality: Literal["draft", "default"] | Sequence[Text] | None = None, no_skip:
+    = None, cutoff: Text | Sequence[Text] | None = None, quality: Literal["draft", "good"] | Sequence[Text] | None = None, no_skip:
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | Sequence[Text] | None = None, bounces: int | Sequence[int] | None
     = None, sky: Text | Sequence[Text] | None = None, emitters: int | Sequence[int] | None = None, light_radius: Text | Sequence[Text] |
@@ -74,7 +74,7 @@ def sweep(
     = None, regions: int | Sequence[int] | None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] |
     None = None, ray_slots: int | Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int |
     Sequence[int] | None = None, no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid", "embree"] | Sequence[Text] | None =
-    None
+    None, time: Text | Sequence[Text] | None = None, passes: int | Sequence[int] | None = None
 ) -> pandas.DataFrame:
     """Render all combinations of chosen options, and print chosen counters."""
     return sweeping.sweep(locals())
@@ -86,7 +86,7 @@ def references(
     "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files:
     Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text |
     None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text |
-    None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip:
+    None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip:
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int | None = None, strategy:
@@ -104,7 +104,7 @@ def references(
     None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False,
     tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] |
     None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, serve: bool | Text = False, checkpoint: Text
-    | None = None, checkpoint_every: Text | None = None, resume: bool = False
+    | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -116,7 +116,7 @@ def trace(
     "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files:
     Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text |
     None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text |
-    None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip:
+    None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip:
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int | None = None, strategy:
@@ -134,7 +134,7 @@ def trace(
     None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False,
     tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] |
     None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint:
-    Text | None = None, checkpoint_every: Text | None = None, resume: bool = False
+    Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())

@@ -24,12 +24,11 @@ def balance(
     "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox:
     Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines",
     "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
-    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions",
-    "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text |
-    None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid",
-    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None =
-    None
+    None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background",
+    "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
+    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None,
+    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
+    "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -42,7 +41,7 @@ def traffic(
     | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available",
     "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None =
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
-    Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
+    Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
     "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int
     | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text
     | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None =
@@ -59,7 +58,7 @@ def cache(
     "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None,
     files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution:
     Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error:
-    Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None,
+    Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None,
     no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
@@ -83,10 +82,10 @@ def speedup(
     Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]
     | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
     None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
-    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None,
-    sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
+    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] |
+    None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames",
+    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
     record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
     Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
@@ -102,12 +101,12 @@ def systems(
     None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below",
     "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None,
     depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None,
-    samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip:
-    Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
-    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
-    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
-    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit",
+    "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None,
+    transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters:
+    int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None
+    = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text |
+    None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -121,7 +120,7 @@ def frames(
     | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] |
     None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None,
     convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None =
-    None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
+    None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
     "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport:
     Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None =
     None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,

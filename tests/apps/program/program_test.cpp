@@ -323,7 +323,7 @@ TEST_CASE("a machine whose prices are for another structure than the picture's i
 
 TEST_CASE("wrong usage ends with status 2 and a hint") {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"paint"}, {"render"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {
+       {std::vector<std::string>{"paint"}, {"render"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {
     const Said result = run_dmpc(arguments);
     CHECK(result.status == 2);
     CHECK(contains(result.errors, "--help"));
@@ -331,10 +331,27 @@ TEST_CASE("wrong usage ends with status 2 and a hint") {
 }
 
 TEST_CASE("help goes to the standard output with status 0") {
-  const Said result = run_dmpc({"render", "--help"});
+  const Said result = run_dmpc({"render", "--help=all"});
   CHECK(result.status == 0);
   CHECK(contains(result.output, "Examples:"));
   CHECK(result.errors.empty());
+}
+
+TEST_CASE("without a word dmpc says how to begin, in five lines") {
+  const Said result = run_dmpc({});
+  CHECK(result.status == 0);
+  CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 5);
+  CHECK(contains(result.output, "dmpc demo"));
+}
+
+TEST_CASE("the demonstration names its line, renders, and leaves nothing behind") {
+  const Said result = run_dmpc({"demo"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.errors, "this is dmpc render teapot-12 --nodes=8"));
+  CHECK(contains(result.errors, "to be seen at http://127.0.0.1:"));
+  CHECK(contains(result.output, "virtual  "));
+  const std::size_t place = result.output.rfind("picture  ") + 9;
+  CHECK_FALSE(std::filesystem::exists(result.output.substr(place, result.output.find(',', place) - place)));
 }
 
 TEST_CASE("degenerate primitives are left out and counted aloud") {

@@ -356,7 +356,6 @@ TEST_CASE("what does not go together, or is nothing that there is, is named, wit
   for (const Refusal& row : pairs) {
     check_refused(row);
   }
-  CHECK(contains(usage_complaint({}), "Try: dmpc --help"));
   CHECK(contains(usage_complaint({"render", "teapot-12"}), "Try: dmpc render --help"));
   CHECK(contains(usage_complaint({"render", "-o", "a.png"}), "SCENE"));
 }

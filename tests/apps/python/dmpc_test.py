@@ -400,7 +400,7 @@ class SignatureTest(unittest.TestCase):
     FRAMES = {"frames", "turntable", "camera_path", "animation", "fps"}  # which are many pictures
 
     def _help(self, words):
-        return subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True, check=True).stdout
+        return subprocess.run([PROGRAM, *words, "--help=all"], capture_output=True, text=True, check=True).stdout
 
     def test_every_option_of_help_is_a_keyword_and_no_other(self):
         for call, words in self.CALLS.items():

@@ -101,6 +101,7 @@ TEST_CASE("a picture ends between the two passes that are nearest to its time") 
 
 TEST_CASE("with a time, no more of it is left than it has") {
   Run run({.error = 1.0 / 255, .seconds = 25});
+  run.passes.update(10, 10);
   run.seconds = 10;
   run.passes.ends_before(pass_end(4, 1000, 1000));
   run.passes.update(0, 10);

@@ -380,7 +380,7 @@ TEST_CASE("a pool has as many threads as processors unless the line says how man
 }
 
 TEST_CASE("the help of render names the values and the defaults of options") {
-  const std::string text = parse_command_line(std::vector<std::string>{"render", "--help"}).options<HelpText>().text;
+  const std::string text = parse_command_line(std::vector<std::string>{"render", "--help=all"}).options<HelpText>().text;
   for (const std::string word :
        {"svm|replicated|dataflow|forest [svm]", "SIZE [1KiB, forest 4KiB]", "grid|extents|voxels [grid]", "usual|article [usual]",
         "ring|host [ring]", "spread|host|tree [spread]", "submaps|interleaved [submaps]",

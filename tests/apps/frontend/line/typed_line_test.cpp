@@ -222,4 +222,38 @@ TEST_CASE("help about a command is what the command says of itself, and about wo
   CHECK(tests::contains(text("help glossary"), "work item"));
 }
 
+TEST_CASE("a word that tables show or an option takes is explained, in each of its meanings") {
+  const auto text = [](const std::string& line) { return parse_command_line(typed(line)).options<HelpText>().text; };
+  CHECK(text("help page").starts_with("page: "));
+  CHECK(text("help Pages").starts_with("page: "));
+  CHECK(text("help page wait").starts_with("wait: "));
+  CHECK(text("help hdr").starts_with("hdr (--machine=hdr): "));
+  CHECK(text("help cache-pages").starts_with("dmpc render --cache-pages="));
+  CHECK(tests::contains(text("help svm"), "\nsvm (--strategy=svm): "));
+  CHECK(tests::contains(text("help svm"), "\nsvm (--system=svm): "));
+  CHECK(tests::contains(answer_to("help submop"), "there is no help about 'submop'"));
+  CHECK(tests::contains(answer_to("help submop"), "Did you mean submap?"));
+}
+
+TEST_CASE("help is in two sizes where a command says which options matter first, and what it names there is one") {
+  const CommandDescription program = describe_command_line();
+  const auto text = [](const std::string& line) { return parse_command_line(typed(line)).options<HelpText>().text; };
+  const std::string brief = text("render --help");
+  CHECK(std::count(brief.begin(), brief.end(), '\n') < 40);
+  CHECK(text("render --help=all").size() > 4 * brief.size());
+  CHECK(text("list --help") == text("list --help=all"));
+  for (const CommandDescription& command : program.commands) {
+    for (const BriefGroup& group : command.brief) {
+      for (const auto& [name, meaning] : group.rows) {
+        const std::string word = name.substr(0, name.find_first_of(", "));
+        CHECK_MESSAGE(
+            std::ranges::any_of(command.options,
+                                [&](const OptionDescription& option) { return std::ranges::count(option.names, word) == 1; }),
+            name);
+        CHECK_FALSE(meaning.empty());
+      }
+    }
+  }
+}
+
 }  // namespace dmpc::apps::typed_line_test
