@@ -8,6 +8,7 @@
 #include "core/record/emitter.h"
 #include "core/record/instance.h"
 #include "core/record/records.h"
+#include "core/record/sky.h"
 
 namespace dmpc::apps {
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "apps/foreign/mesh/scene_totals.h"
 #include "apps/foreign/obj/geometry.h"
 
 namespace dmpc::apps::obj {
