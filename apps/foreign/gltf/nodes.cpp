@@ -181,8 +181,8 @@ FileView view_of(const Part& source, const Standing& at, const std::optional<Res
   if (source.get("type").as_text() != "perspective" || !perspective) {
     return result;
   }
-  const double angle = perspective->get("yfov").as_number(), reported = perspective->number("aspectRatio", 0);
-  const double aspect = reported > 0 ? std::clamp(reported, 1 / aspect_max, aspect_max) : 1;
+  const double angle = perspective->get("yfov").as_number(), given = perspective->number("aspectRatio", 0);
+  const double aspect = given > 0 ? std::clamp(given, 1 / aspect_max, aspect_max) : 1;
   if (!(angle > 0)) {
     return result;
   }
