@@ -118,7 +118,8 @@ const std::vector<Foreign> foreign = {
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"hwy/",
-     {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/curved_reach.cpp", "core/trace/kernel.cpp"}},
+     {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/curved_reach.cpp",
+      "core/trace/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one that waits for signals, those that answer browsers, those on which rays are
     // timed, some to see whether a library can have as many, and runs side by side that share their progress.

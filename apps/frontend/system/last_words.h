@@ -25,8 +25,8 @@ struct LoadsLibrary {
   LoadsLibrary& operator=(const LoadsLibrary&) = delete;
 };
 
-/// During its lifetime, a fault in these bytes, which are mapped from a file, is attributed to whoever has cut that meanwhile: the
-/// status is 1. Of several at a time the last one counts. Not thread-safe.
+/// During its lifetime, a fault in these bytes, which are mapped from a file, is attributed to whoever has cut that meanwhile:
+/// the status is 1. Of several at a time the last one counts. Not thread-safe.
 class MappedBytes {
  public:
   MappedBytes(std::span<const std::byte> bytes, std::string_view path);
