@@ -24,8 +24,8 @@ ChoiceList scenes() {
     all.entries.push_back(
         {scene.text(), grouped(core::primitive_count(scene)) + " primitives; other sizes and, with -tN, as triangles"});
   }
-  all.entries.push_back({"landscape-10", "a million triangles and a texture; as files: dmpc scene landscape-10 -o land.gltf"});
-  all.entries.push_back({"grove-5", "500 trees of 2,048 triangles on a landscape; as files: dmpc scene grove-5 -o grove.gltf"});
+  all.entries.push_back({"landscape-10", "a million triangles and a texture"});
+  all.entries.push_back({"grove-5", "500 trees of 2,048 triangles on a landscape"});
   return all;
 }
 

@@ -9,7 +9,6 @@
 #include "apps/lab/study/command.h"
 #include "apps/lab/study/paper/command.h"
 #include "apps/lab/study/references/command.h"
-#include "apps/lab/study/scale/command.h"
 #include "apps/lab/study/sweep/command.h"
 
 namespace dmpc::apps {
@@ -32,7 +31,6 @@ void declare_all(Commands& commands) {
   commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
-  commands.add("scale", "Measure cost and its growth over scene size and number of nodes", ScaleOptions(), study_scale_command);
   commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", StudySweepOptions(),
                study_sweep_command);
   commands.begin("bench", "Test accuracy and speed of the renderer and print a table");

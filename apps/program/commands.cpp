@@ -5,7 +5,7 @@
 #include <string_view>
 #include <variant>
 
-#include "apps/formats/landscape/files.h"
+#include "apps/formats/landscape/names.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/frontend/help/glossary.h"
 #include "apps/frontend/line/help_text.h"

@@ -19,7 +19,7 @@ void declare_renderer(Commands& commands) {
   commands.add("info", "Describe a scene, and forecast what a render of it takes", InfoOptions(), info_command);
   commands.add("build", "Write a scene's database to a file, which stands for the scene from then on", BuildRequest(),
                build_command);
-  commands.add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
+  commands.add("scene", "Write a built-in scene as an NFF file", SceneOptions(), scene_command);
   commands.add("machine", "Print a machine's parameters as JSON, to read or to edit", MachineOptions(), machine_command);
   commands.add("list", "List scenes, machines, policies and other choices", ListOptions(), list_command);
   commands.add("demo", "Render a teapot on eight modelled nodes, and show its page", DemoOptions(), demo_command);

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "apps/database/database_file.h"
-#include "apps/formats/landscape/files.h"
+#include "apps/formats/landscape/names.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"

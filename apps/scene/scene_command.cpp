@@ -1,12 +1,11 @@
 #include "apps/scene/scene_command.h"
 
-#include <iostream>
 #include <ostream>
+#include <string>
 
-#include "apps/formats/landscape/files.h"
+#include "apps/formats/landscape/names.h"
 #include "apps/formats/nff_writer.h"
 #include "apps/frontend/system/output_file.h"
-#include "apps/frontend/system/progress.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 
@@ -18,10 +17,8 @@ namespace {
 void check_ending(const core::SceneName& name, const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
-    throw core::UsageError(
-        "-o " + path.string() + ": " + name.text() +
-        " is written as NFF: expected a name that ends in .nff, or has no ending (only landscapes and groves are " +
-        "written as .gltf: dmpc scene landscape-10 -o land.gltf)");
+    throw core::UsageError("-o " + path.string() + ": " + name.text() +
+                           " is written as NFF: expected a name that ends in .nff, or has no ending");
   }
 }
 
@@ -49,17 +46,12 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
   finish_output(output, "the scene");
 }
 
-using WriteFiles = void (*)(int size, const std::filesystem::path& gltf, const RowsDone& rows_done);
-
-void write_files(WriteFiles write, int size, const SceneOptions& options, Interrupt& interrupt) {
-  const auto& path = options.output;
-  if (!path) {
-    throw core::UsageError(options.name + " is several files: give -o FILE.gltf");
+/// NFF has neither textures nor instances.
+void check_has_nff(const std::string& scene) {
+  if (landscape_size(scene) || grove_size(scene)) {
+    throw core::UsageError(scene + " is no NFF scene, as it has textures: dmpc render " + scene +
+                           " renders it by its name, and dmpc build " + scene + " -o FILE.pages keeps it as a file");
   }
-  check_output_path(*path, "-o");
-  const Interrupt::EndAtOnce end_at_once(interrupt);
-  Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Making " + options.name + ":", "rows");
-  write(size, *path, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
 }  // namespace
@@ -70,22 +62,14 @@ void add_options(OptionSet options, SceneOptions& scene) {
       "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
   options.add_path("-o,--output", "FILE [stdout]", scene.output, "Output file");
   options.add_quiet(scene.quiet);
-  options.set_examples("Families:\n" + core::describe_scene_families() + describe_landscape() +
+  options.set_examples("Families:\n" + core::describe_scene_families() +
                        "\nExamples:\n"
                        "  dmpc scene teapot-12 -o teapot.nff\n"
-                       "  dmpc scene rings-4-t1 | head\n"
-                       "  dmpc scene landscape-10 -o land.gltf");
+                       "  dmpc scene rings-4-t1 | head");
 }
 
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
-  if (const auto size = landscape_size(options.name)) {
-    write_files(write_landscape, *size, options, interrupt);
-    return 0;
-  }
-  if (const auto size = grove_size(options.name)) {
-    write_files(write_grove, *size, options, interrupt);
-    return 0;
-  }
+  check_has_nff(options.name);
   const core::SceneName name = core::parse_scene_name(options.name, landscape_families);
   if (options.output) {
     write_file(name, *options.output, interrupt);

@@ -107,7 +107,7 @@ const std::vector<Foreign> foreign = {
      {"apps/frontend/show/stats/", "apps/show/stats/", "apps/show/page/", "apps/frontend/machine/machine_file.",
       "apps/frontend/table/table.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/",
       "apps/lab/oracle/places/gltf_places.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
-      "apps/formats/landscape/gltf.cpp", "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/",
+      "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/",
       "tests/mpi/launched/"}},
     {"oneapi/",
      {"apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp", "apps/lab/oracle/reference/picture.cpp",

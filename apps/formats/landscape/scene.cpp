@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/formats/bounding_sphere.h"
-#include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/grove.h"
+#include "apps/formats/landscape/names.h"
 #include "apps/formats/landscape/paint.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"

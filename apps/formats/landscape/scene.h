@@ -13,7 +13,7 @@ namespace dmpc::apps {
 /// that, but continues differently.
 bool is_landscape_name(std::string_view name);
 
-/// The scene that write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same camera, except
+/// The scene that write_landscape() or write_grove() write (apps/formats/landscape/names.h), seen from the same camera, except
 /// for rounding in the files; the sun stands high on the right. Each kind of tree is one mesh; `copies` says whether its copies
 /// are made. Requires a name that is_landscape_name(). Throws core::CapacityError if the trees' copies are more than a database
 /// or memory can hold.

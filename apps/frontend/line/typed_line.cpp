@@ -142,6 +142,9 @@ class Reader {
 
   /// Never returns.
   void fail_on_command(const std::string& word) const {
+    if (const std::string instead = said_instead_of(line_.command + " " + word); !instead.empty()) {
+      fail("dmpc " + line_.command + " " + word + " is no command any more: " + instead);
+    }
     const std::vector<std::string> names = command_names(*here_);
     std::string advice = core::did_you_mean(word, names);
     for (const CommandDescription& inner : program_.commands) {

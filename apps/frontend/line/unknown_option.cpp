@@ -43,7 +43,7 @@ constexpr Gone gone[] = {
     {"--occlusion", "--sky=1 --bounces=0 lights each place by the share of its surroundings that is free"},
     {"--parts=build", "--parts=plain has the build of each scene, on all cores"},
     {"--parts=load", "dmpc render --stats=FILE says what loading and each phase behind it take"},
-    {"--parts=memory", "dmpc study scale has the anonymous memory of processes that render"},
+    {"--parts=memory", "/usr/bin/time -v dmpc render SCENE has the memory of its process"},
     {"--parts=pages", "dmpc study paper has Table 2 of the article beside ours"},
     {"--parts=picture", "--parts=plain has pictures by Embree"},
     {"--patience", "--rank-timeout=SECONDS is its name now"},
@@ -63,6 +63,7 @@ constexpr Gone gone[] = {
     {"bench error --references", "each run makes its own references"},
     {"bench speed --plots", "-o FILE.csv --format=csv has all comparisons, to be drawn"},
     {"bench stability --resume", "a long run may be made of several with another --seed each, whose counts add up"},
+    {"study scale", "examples/scale.py of the Python module has costs and their growth over scenes, dmpc study sweep those of one"},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

@@ -116,7 +116,7 @@ void check_python_package(const TemporaryFolder& folder) {
   CHECK(fs::file_size(folder / "python/usr/lib/python3/dist-packages/dmpc/__init__.py") > 0);
   CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc/tour.ipynb") > 0);
   CHECK(fs::exists(folder / "python/usr/lib/python3/dist-packages/dmpc/py.typed"));
-  for (const char* const example : {"clock.py", "s4_fifo.py", "speedup.py"}) {
+  for (const char* const example : {"clock.py", "s4_fifo.py", "speedup.py", "scale.py"}) {
     CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc" / example) > 0);
   }
   CHECK_FALSE(fs::exists(folder / "python/usr/bin"));

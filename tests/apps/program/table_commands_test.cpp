@@ -12,7 +12,6 @@
 #include "apps/lab/bench/stability/command.h"
 #include "apps/lab/study/command.h"
 #include "apps/lab/study/paper/command.h"
-#include "apps/lab/study/scale/command.h"
 #include "apps/lab/study/sweep/command.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
@@ -35,9 +34,6 @@ Options with_program(const apps::Command& command) {
 }
 
 int run_by(const Words& words, const apps::Command& command, apps::Interrupt& interrupt, std::ostream& output) {
-  if (words[1] == "scale") {
-    return apps::study_scale_command(with_program<apps::ScaleOptions>(command), interrupt, output);
-  }
   if (words[1] == "sweep") {
     return apps::study_sweep_command(with_program<apps::StudySweepOptions>(command), interrupt, output);
   }
@@ -70,10 +66,6 @@ struct TableCase {
 
 std::vector<TableCase> table_cases() {
   return {{{"study", "traffic", "balls-1", "--resolution=8x8", "--nodes=1"}, "traffic.csv", true},
-          {{"study", "scale", "tetra", "--sizes=1", "--resolution=8x8", "--parts=sizes", "--methods=cache"},
-           "scale.csv",
-           true,
-           false},
           {{"study", "sweep", "balls-1", "--resolution=8x8", "--vary=nodes:1,2"}, "sweep.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},

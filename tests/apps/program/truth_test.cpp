@@ -19,6 +19,11 @@ TEST_CASE("a scene is written under names alone by which it is read again") {
     CHECK(refused.status == 2);
     CHECK(contains(refused.errors, "tetra-1 is written as NFF: expected a name that ends in .nff, or has no ending"));
   }
+  for (const std::string scene : {"landscape-2", "grove"}) {
+    const Said refused = run_dmpc({"scene", scene, "-o", folder / "a.nff"});
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.errors, scene + " is no NFF scene, as it has textures: dmpc render " + scene));
+  }
   CHECK(folder.entry_count() == 0);
   for (const std::string name : {"a.nff", "a.NFF", "a"}) {
     CHECK(run_dmpc({"scene", "tetra-1", "-o", folder / name}).status == 0);

@@ -239,6 +239,16 @@ class StudyTest(unittest.TestCase):
             column = {"virtual_seconds.total": "virtual_time", "links.wait": "link_wait"}.get(name, name.removeprefix("time_percent."))
             self.assertTrue(numpy.allclose(own[0][name], theirs[column], rtol=1e-12, atol=0), name)
 
+    def test_cost_grows_as_the_slope_of_logarithms_has_it(self):
+        space = {"__name__": "scale"}
+        exec(pathlib.Path(MODULES, "examples/scale.py").read_text(), space)
+        self.assertAlmostEqual(space["growth"]([1, 2, 4], [3, 12, 48]), 2)
+        self.assertAlmostEqual(space["growth"]([1, 2, 4, 8], [5, 0, 5, 5]), 0)
+        self.assertIsNone(space["growth"]([2, 2], [3, 4]))
+        table = space["scale"](["tetra-2", "tetra-4", "tetra-6"], resolution="16x16")
+        self.assertEqual(list(table["database.primitives"]), [16, 256, 4096])
+        self.assertLess(abs(table.attrs["growth"]["database.bytes"] - 1), 0.2)
+
     def test_pages_and_rays_at_equal_memory_are_what_their_chosen_options_render(self):
         space = {"__name__": "equal_memory"}
         exec(pathlib.Path(MODULES, "examples/equal_memory.py").read_text(), space)

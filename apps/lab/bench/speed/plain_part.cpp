@@ -12,7 +12,7 @@
 #include "apps/frontend/system/progress.h"
 #include "apps/frontend/system/scratch_folder.h"
 #include "apps/frontend/system/stopwatch.h"
-#include "apps/frontend/system/watched_process.h"
+#include "apps/frontend/system/completed_process.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
@@ -209,7 +209,7 @@ class PlainBench {
   Times times_of_command(const PlainContender& contender, const Resolution& size) const {
     const double before = children_seconds();
     Stopwatch stopwatch;
-    const WatchedProcess ended = watch_process(
+    const CompletedProcess ended = run_process(
         settings_.program,
         {"render", scene_, "--quiet", "--samples=1", std::string("--strategy=") + apps::name_of(*contender.strategy),
          std::string("--runner=") + apps::name_of(contender.runner), "--nodes=" + std::to_string(contender.count),

@@ -7,7 +7,7 @@
 
 #include "apps/frontend/line/exit_status.h"
 #include "apps/frontend/system/text_input.h"
-#include "apps/frontend/system/watched_process.h"
+#include "apps/frontend/system/completed_process.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -24,7 +24,7 @@ std::string sentence_of(std::string complaint) {
 namespace {
 
 /// Returns nothing after success, and the reason if there was not enough memory.
-std::optional<std::string> misfit_of(const WatchedProcess& process) {
+std::optional<std::string> misfit_of(const CompletedProcess& process) {
   if (process.status == 0) {
     return std::nullopt;
   }
@@ -61,14 +61,14 @@ std::vector<std::string> RenderProcesses::with_outputs(std::vector<std::string> 
 
 RenderEnd RenderProcesses::run(std::vector<std::string> words, const std::string& name, const Keep& keep) const {
   const std::filesystem::path counters = folder_ / (name + ".json"), picture = folder_ / (name + ".exr");
-  const WatchedProcess process =
-      watch_process(program_, with_outputs(std::move(words), counters.string(), picture.string()), interrupt_);
+  const CompletedProcess process =
+      run_process(program_, with_outputs(std::move(words), counters.string(), picture.string()), interrupt_);
   std::error_code ignored;
   std::filesystem::remove(picture, ignored);
   if (std::optional<std::string> misfit = misfit_of(process)) {
-    return {{}, std::move(*misfit), process.peak_anonymous_bytes};
+    return {{}, std::move(*misfit)};
   }
-  RenderEnd end{figures_in(counters), {}, process.peak_anonymous_bytes};
+  RenderEnd end{figures_in(counters), {}};
   if (keep) {
     keep(counters);
   }

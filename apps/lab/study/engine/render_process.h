@@ -1,7 +1,6 @@
 // Runs `dmpc render` as a separate process, and reads its results.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,9 +17,8 @@ namespace dmpc::apps {
 std::string sentence_of(std::string complaint);
 
 struct RenderEnd {
-  std::optional<std::vector<Figure>> figures;       ///< of its --stats; nothing if there was not enough memory
-  std::string misfit;                               ///< the reason if there are no figures, without a full stop
-  std::optional<std::size_t> peak_anonymous_bytes;  ///< if any was observed
+  std::optional<std::vector<Figure>> figures;  ///< of its --stats; nothing if there was not enough memory
+  std::string misfit;                          ///< the reason if there are no figures, without a full stop
 };
 
 /// Thread-safe if no two renders at a time have the same name.
