@@ -1,4 +1,4 @@
-#include "apps/frontend/manual/completion.h"
+// Lines of commands, options and values as bash completes them.
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "apps/frontend/manual/leaves.h"
+#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
+#include "tests/apps/manual/written.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -71,7 +72,7 @@ TEST_CASE("bash completes commands, options, their values and arguments") {
   struct Completion {
     const char *words, *offered;
   };
-  const Desk desk(bash_completion(program()));
+  const Desk desk(tests::written(program(), "dmpc.bash"));
   for (const Completion& row : std::initializer_list<Completion>{
            {"dmpc ", "paint mix"},
            {"dmpc pa", "paint"},
@@ -101,7 +102,7 @@ TEST_CASE("bash completes commands, options, their values and arguments") {
 }
 
 TEST_CASE("bash completes a word, and behind its colon a file") {
-  const Desk desk(bash_completion(program()));
+  const Desk desk(tests::written(program(), "dmpc.bash"));
   CHECK(desk.by_bash("dmpc paint --frame = o") == "oak:");
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak : ho")) == "hoard.nff hoard.png");
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak :")) == "hoard.nff hoard.png script stable");
@@ -110,7 +111,7 @@ TEST_CASE("bash completes a word, and behind its colon a file") {
 
 TEST_CASE("bash knows all of dmpc's commands and options") {
   const CommandDescription dmpc = describe_command_line();
-  const Desk desk(bash_completion(dmpc));
+  const Desk desk(tests::written(dmpc, "dmpc.bash"));
   for (const char* const path : {"render", "study balance", "bench speed"}) {
     const std::string offered = " " + desk.by_bash("dmpc " + std::string(path) + " -") + " ";
     for (const Leaf& leaf : leaves_of(dmpc)) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/frontend/manual/leaves.h"
+#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/complaint.h"

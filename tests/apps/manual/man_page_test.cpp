@@ -1,11 +1,14 @@
-#include "apps/frontend/manual/man_page.h"
+// The manual page, and what groff says of it.
 
 #include <doctest/doctest.h>
 
-#include "apps/frontend/manual/leaves.h"
-#include "apps/frontend/manual/roff.h"
+#include <regex>
+#include <string>
+
+#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
+#include "tests/apps/manual/written.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -17,7 +20,9 @@ namespace {
 using tests::contains;
 using tests::count;
 
-std::string painter_page() { return man_page(tests::Painter().line.describe(), "painter 1"); }
+std::string page_of(const CommandDescription& program) { return tests::written(program, "dmpc.1"); }
+
+std::string painter_page() { return page_of(tests::Painter().line.describe()); }
 
 /// What the page says of a command.
 std::string part_of(const std::string& page, const std::string& command) {
@@ -59,15 +64,31 @@ TEST_CASE("the synopsis says what must be given") {
   CHECK(contains(painter_page(), "\\fBdmpc paint\\fP\\fI PICTURE [OPTION]...\\fP"));
 }
 
+TEST_CASE("nothing of a text is taken for a request, an escape or a quotation mark, and what is copied can be typed") {
+  const auto said_of = [](const std::string& text) {
+    const std::string page =
+        page_of({.name = "p", .text = "p: x", .options = {{.names = {"-x"}, .value = {}, .text = text, .group = {}}}});
+    const std::string before = ".TP\n\\fB\\-x\\fP\n";
+    const std::string rest = page.substr(page.find(before) + before.size());
+    return rest.substr(0, rest.find(".PP\n"));
+  };
+  CHECK(said_of("Two words: 1,5 (and so on)") == "Two words: 1,5 (and so on)\n");
+  CHECK(said_of("a\n.br.") == "a\n.br\n\\&.br.\n");
+  CHECK(said_of("a\\fB") == "a\\(rsfB\n");
+  CHECK(said_of("'br \"a\"") == "\\(aqbr \\(dqa\\(dq\n");
+  CHECK(said_of("--a=`b`~^") == "\\-\\-a=\\(gab\\(ga\\(ti\\(ha\n");
+  CHECK(said_of(std::string(77, 'a') + " .b") == std::string(77, 'a') + "\n\\&.b\n");
+}
+
 TEST_CASE("groff has nothing to say about the pages") {
   CHECK(complaints(painter_page()).empty());
-  CHECK(complaints(man_page(describe_command_line(), "dmpc 1")).empty());
+  CHECK(complaints(page_of(describe_command_line())).empty());
   CHECK_FALSE(complaints(".nonsense\n").empty());
 }
 
 TEST_CASE("dmpc's page has all its sections, commands and options") {
   const CommandDescription program = describe_command_line();
-  const std::string page = man_page(program, "dmpc 1");
+  const std::string page = page_of(program);
   for (const char* const title :
        {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "EXAMPLES", "EXIT STATUS", "ENVIRONMENT", "SEE ALSO"}) {
     CHECK_MESSAGE(count(page, ".SH \"" + std::string(title) + "\"\n") == 1, title);
@@ -76,7 +97,8 @@ TEST_CASE("dmpc's page has all its sections, commands and options") {
     const std::string part = part_of(page, leaf.path);
     for (const OptionDescription& option : leaf.command->options) {
       const std::string name = option.names.back();
-      CHECK_MESSAGE((name == "--help" || contains(part, roff(name))), leaf.path << ' ' << name);
+      CHECK_MESSAGE((name == "--help" || contains(part, std::regex_replace(name, std::regex("-"), "\\-"))),
+                    leaf.path << ' ' << name);
     }
   }
 }
