@@ -130,12 +130,12 @@ class Tree {
     Values moves, turns, scales;
     std::size_t count = 0;
     const auto read = [&](const char* name, std::size_t width, Values& values) {
-      const auto found = attributes.find(name);
-      values = found ? accessors_.values(*found, width) : Values{};
-      if (found && count > 0 && values.count() != count) {
-        found->fail("has another count than the other attributes of the instances");
+      const auto attribute = attributes.find(name);
+      values = attribute ? accessors_.values(*attribute, width) : Values{};
+      if (attribute && count > 0 && values.count() != count) {
+        attribute->fail("has another count than the other attributes of the instances");
       }
-      count = found ? values.count() : count;
+      count = attribute ? values.count() : count;
     };
     read("TRANSLATION", 3, moves);
     read("ROTATION", 4, turns);

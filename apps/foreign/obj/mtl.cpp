@@ -74,7 +74,7 @@ class MtlParser {
   }
 
   /// Returns whether the statement sets a colour or a number.
-  bool value_statement(const std::string& keyword, LineWords& words) {
+  bool value_statement(const std::string& keyword, LineWords& rest) {
     using Statement = void (*)(MtlMaterial & material, MtlParser & parser, LineWords & words);
     static const std::map<std::string_view, Statement> statements = {
         {"kd", [](auto& material, auto& parser, auto& words) { material.diffuse = parser.color(words); }},
@@ -92,7 +92,7 @@ class MtlParser {
         {"pc", [](auto& material, auto&, auto& words) { material.has_clear_coat = number(words) > 0; }}};
     const auto found = statements.find(keyword);
     if (found != statements.end()) {
-      found->second(*material_, *this, words);
+      found->second(*material_, *this, rest);
     }
     return found != statements.end();
   }
