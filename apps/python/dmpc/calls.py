@@ -1,6 +1,6 @@
 """What dmpc does, as functions; every option of the program's command is a keyword, with underscores for dashes.
 
-Written by dmpc_manual_writer (apps/manual) from what the program says of its options: not to be edited. Where a test says that they
+Written by apps/manual/write.py from what the program says of its options: not to be edited. Where a test says that they
 differ: cp build/release/apps/manual/*.py apps/python/dmpc/
 """
 

@@ -1,6 +1,6 @@
 """The studies: each returns its table as a frame, with units and notes in its attrs.
 
-Written by dmpc_manual_writer (apps/manual) from what the program says of its options: not to be edited. Where a test says that they
+Written by apps/manual/write.py from what the program says of its options: not to be edited. Where a test says that they
 differ: cp build/release/apps/manual/*.py apps/python/dmpc/
 """
 
@@ -13,7 +13,7 @@ from . import studying
 from .calls import sweep
 from .program import Text
 
-__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "references", "scale"]
+__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "references"]
 
 
 def balance(
@@ -144,13 +144,3 @@ def references(
 ) -> pandas.DataFrame:
     """Simulate page caches on recorded references, and count misses."""
     return studying.study("references", ["file"], locals())
-
-
-def scale(
-    family: Text | Sequence[Text] = (), *, sizes: Text | Sequence[Text] | None = None, parts: Text | Sequence[Text] | None = None, methods:
-    Text | Sequence[Text] | None = None, cache: Text | None = None, size_nodes: int | None = None, nodes: Text | Sequence[Text] | None =
-    None, scene: Text | None = None, resolution: Text | None = None, repeat: int | None = None, report: Text | None = None, plots: Text |
-    None = None
-) -> pandas.DataFrame:
-    """Measure cost and its growth over scene size and number of nodes."""
-    return studying.study("scale", ["family"], locals())

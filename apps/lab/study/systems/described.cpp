@@ -13,7 +13,7 @@ struct AuthorsClaim {
   const char* text;
 };
 
-constexpr std::array<AuthorsClaim, 3> claims = {
+constexpr std::array<AuthorsClaim, 3> authors_claims = {
     {{System::subsampled, System::equal_size, "regions by a small picture are faster than regions of equal size"},
      {System::svm, System::subsampled, "pages that travel are faster than rays that travel"},
      {System::replicated, System::replicated_extents, "a subdivision of space takes less time than a tree of extents"}}};
@@ -51,7 +51,7 @@ void describe(SystemRunner& runner) {
       const auto i = static_cast<std::size_t>(found - setups.begin());
       return i < setups.size() && timed[i].run ? std::optional(runner.compared(*found, *timed[i].run, "")) : std::nullopt;
     };
-    for (const AuthorsClaim& claim : claims) {
+    for (const AuthorsClaim& claim : authors_claims) {
       std::optional<ComparedRow> first = row_of_system(claim.first), second = row_of_system(claim.second);
       if (first && second) {
         if (first->options["strategy"] != second->options["strategy"]) {
