@@ -1,6 +1,7 @@
 #include "apps/program/commands.h"
 
 #include <algorithm>
+#include <iostream>
 #include <ostream>
 #include <string_view>
 #include <variant>
@@ -79,6 +80,9 @@ Command read_by(Commands&& commands, std::span<const std::string> arguments) {
   const std::variant<HelpText, std::string> parsed = commands.line().parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return help_command(*help);
+  }
+  for (const std::string& note : commands.line().notes()) {
+    std::cerr << "dmpc: " << note << '\n';
   }
   return commands.named(std::get<std::string>(parsed));
 }

@@ -1,7 +1,6 @@
 #include "apps/frontend/line/command_line.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include "apps/frontend/line/help_text.h"
 #include "apps/frontend/line/parsed_number.h"
@@ -52,6 +51,7 @@ struct DeclaredCommand {
   std::vector<std::unique_ptr<DeclaredCommand>> commands = {};
   std::vector<std::function<void()>> checks = {};
   std::vector<BriefGroup> brief = {};
+  std::vector<std::string> notes = {};  ///< of the values given
 };
 
 namespace {
@@ -239,18 +239,22 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
 }
 
 void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
-                             const TakeText& take, const std::string& description) {
-  const auto take_word = [option = long_name(name), words, take](const std::string& word) {
+                             const TakeText& take, const std::string& description, const Others& others) {
+  const std::string more = others.take ? " or " + others.shown : "";
+  const auto take_word = [option = long_name(name), words, take, others, more, command = command_](const std::string& word) {
+    if (others.take && others.take(word)) {
+      return;
+    }
     const std::string renamed = renamed_value(option + "=" + word);
     if (!renamed.empty()) {
-      static const std::ostream& once = std::cerr << "dmpc: " << option << '=' << word << " is called " << renamed << " now\n";
-      static_cast<void>(once);
+      command->notes.push_back(option + "=" + word + " is called " + renamed + " now");
     } else if (!is_among(words, word)) {
-      refuse_word(option, word, words);
+      refuse_word(option, word, words, more);
     }
     take(renamed.empty() ? word : renamed);
   };
-  add_text(name, joined(words, "|") + " [" + shown_default + "]", take_word, description);
+  add_text(name, joined(words, "|") + (others.take ? "|" + others.shown : "") + " [" + shown_default + "]", take_word,
+           description);
 }
 
 void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
@@ -313,6 +317,7 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
       note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
     }
     take_given(*command);
+    notes_ = command->notes;
     return line.command;
   } catch (const UsageError& error) {
     throw UsageError(error.what() + hint_at_help(line.command, program_->name));
