@@ -143,8 +143,9 @@ std::vector<std::string> given_in(const DeclaredCommand& command, const std::str
   return {};
 }
 
-/// Notes options that an argument stands for, as if they were given.
-void note_behind(DeclaredCommand& command, const std::vector<std::string>& words) {
+/// Notes options that an argument stands for, as if they were given; returns those that were not.
+std::vector<std::string> note_behind(DeclaredCommand& command, const std::vector<std::string>& words) {
+  std::vector<std::string> noted;
   std::vector<DeclaredCommand::Option*> open;
   for (DeclaredCommand::Option& option : command.options) {
     if (!option.is_argument() && option.given.empty()) {
@@ -158,8 +159,20 @@ void note_behind(DeclaredCommand& command, const std::vector<std::string>& words
     });
     if (of_name != open.end()) {
       (*of_name)->given.push_back(equals == std::string::npos ? "" : word.substr(equals + 1));
+      noted.push_back(word);
     }
   }
+  return noted;
+}
+
+/// What explains a complaint of an option that nobody has typed, since `value` stands for it.
+std::string said_of_value(const std::string& complaint, const std::string& value, const std::vector<std::string>& stands_for) {
+  for (const std::string& word : stands_for) {
+    if (complaint.starts_with(word + " ")) {
+      return "; nobody typed " + word + ", but " + value + " was built with it";
+    }
+  }
+  return "";
 }
 
 /// In the order in which options are declared, whatever that of the line.
@@ -311,16 +324,21 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   for (; !words.front().starts_with('-'); words = words.subspan(1)) {
     command = find_command(command->commands, words.front(), [](const auto& each) { return each.get(); });
   }
+  std::string standing_value;
+  std::vector<std::string> stands_for;
   try {
     note_given(*command, words);
     for (const std::string& value : standing_ ? given_in(*command, standing_->argument) : std::vector<std::string>()) {
-      note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
+      standing_value = value;
+      stands_for =
+          note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
     }
     take_given(*command);
     notes_ = command->notes;
     return line.command;
   } catch (const UsageError& error) {
-    throw UsageError(error.what() + hint_at_help(line.command, program_->name));
+    throw UsageError(error.what() + said_of_value(error.what(), standing_value, stands_for) +
+                     hint_at_help(line.command, program_->name));
   }
 }
 

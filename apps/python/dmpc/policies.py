@@ -11,6 +11,7 @@
 
     dmpc.simulate(Oldest, references, 64)
     dmpc study references trace.csv --policy=python:/home/me/oldest.py:Oldest
+    dmpc render teapot-12 --runner=virtual --replacement=python:/home/me/oldest.py:Oldest -o teapot.png
 
 Frames are numbered from 0 and filled in their order; no page leaves before all have one. hit() is told of a page in a frame that is
 referenced again, where references of one page in a row are one; insert() of a page that has come into a frame, which was empty or
@@ -71,10 +72,11 @@ _PAGE_MAX = 2**32 - 2
 def _page(page, number):
     """A reference as a whole number: also numpy's, and 3.0, but nothing else."""
     try:
-        whole = int(page) if isinstance(page, float) else page.__index__()
+        is_truth = type(page).__name__ in ("bool", "bool_")
+        whole = -1 if is_truth else int(page) if isinstance(page, float) else page.__index__()
     except (AttributeError, TypeError, ValueError, OverflowError):
         whole = -1
-    if whole != page or isinstance(page, bool) or not 0 <= whole <= _PAGE_MAX:
+    if whole != page or not 0 <= whole <= _PAGE_MAX:
         raise ValueError(f"reference {number} is {page!r:.80}, expected a page: a whole number from 0 to {_PAGE_MAX:,}")
     return whole
 
