@@ -81,13 +81,19 @@ Command read_by(Commands&& commands, std::span<const std::string> arguments) {
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return help_command(*help);
   }
-  for (const std::string& note : commands.line().notes()) {
-    std::cerr << "dmpc: " << note << '\n';
-  }
-  return commands.named(std::get<std::string>(parsed));
+  Command command = commands.named(std::get<std::string>(parsed));
+  command.set_notes(commands.line().notes());
+  return command;
 }
 
 }  // namespace
+
+int Command::run(Interrupt& interrupt, std::ostream& output) const {
+  for (const std::string& note : notes_) {
+    std::cerr << "dmpc: " << note << '\n';
+  }
+  return run_(interrupt, output);
+}
 
 Commands::Commands(Declare declare, std::optional<Words> line)
     : declare_(declare),
