@@ -122,6 +122,7 @@ Report PictureComputer::render(std::stop_token stop) {
   Report report{{std::move(outcome), std::move(gathered)}, plan_};
   report.plan.request.detail = nullptr;  // like the database, it belongs to the run
   report.plan.request.database = {};
+  report.plan.own_policy = nullptr;
   for (std::size_t i = 0; i < report.nodes.size(); ++i) {
     const ProgramReport counted = report.nodes[i].program;
     report.nodes[i].program = core::counts_since(counted, before_[i]);
@@ -155,6 +156,10 @@ Frames::Frames(const Strategy& strategy, const core::Database& database, const c
     hand_out(plan_, first, database, options.watching.elsewhere.order, are_several, *ranks);
   }
   std::vector<ReferenceLog>* const logs = recorded_.empty() ? options.pages.reference_logs : &recorded_;
+  if (const OwnPolicy* const own = options.pages.own_policy) {
+    own_policy_ = own->start();
+    plan_.own_policy = own_policy_.get();
+  }
   maker_ = strategy.maker(plan_, settings_, bytes_, options_.watching, logs);
 }
 
@@ -167,6 +172,9 @@ Report Frames::render(const core::RenderSettings& settings, std::stop_token stop
     computer_->begin_frame(settings_, &detail_);
   }
   Report report = computer_->render(std::move(stop));
+  if (own_policy_ && report.end == nodes::RunEnd::finished) {
+    own_policy_->finish();
+  }
   for (std::size_t i = 0; i < recorded_.size(); ++i) {
     report.nodes[i].references = std::exchange(recorded_[i], {});
   }

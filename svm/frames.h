@@ -1,6 +1,7 @@
 // Frames: pictures of one scene from several viewpoints, on nodes that keep their data.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -58,6 +59,7 @@ class Frames {
   core::RenderSettings settings_;  ///< the current frame's; nodes may refer to it
   core::FineDetail detail_;
   Plan plan_;
+  std::unique_ptr<OwnPolicyRun> own_policy_;  ///< of the user's, if there is one
   nodes::ByteSource bytes_;
   std::vector<ReferenceLog> recorded_;  ///< one per node, if references are recorded for the report
   MakeProgram maker_;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/trace/bundle.h"
@@ -39,6 +40,8 @@ struct PageOptions {
   /// (svm/resident.h); svm only. At least one frame is left for others.
   std::uint32_t resident_percent = 0;
   Replacement replacement = Replacement::lru;  ///< which page is evicted; svm only
+  /// Decides in place of `replacement`; svm on modelled machines only. Outlives runs and reports.
+  const OwnPolicy* own_policy = nullptr;
   /// Pixels in flight on a node, rounded down to whole bundles where rays are traced in bundles of 16. By default 64 for svm: a
   /// node whose bundle waits for a page goes on with others, while their stacks take about 3 % of a 4 MiB node; and 16 for
   /// replicated, which never waits. For single rays 16 and 1, and on modelled machines modelled_in_flight for what waits.
@@ -62,6 +65,11 @@ struct PageOptions {
   /// Outlive the run.
   std::vector<ReferenceLog>* reference_logs = nullptr;
 };
+
+/// Of the policy that decides which page is evicted; valid as long as that policy.
+inline std::string_view policy_name(const PageOptions& pages) {
+  return pages.own_policy != nullptr ? pages.own_policy->name() : name_of(pages.replacement);
+}
 
 /// The effective work_item_side. `bundles`: rays of neighbouring pixels are traced together, where enough are in flight.
 constexpr std::uint32_t work_item_side_of(const PageOptions& pages, bool bundles) {

@@ -156,7 +156,8 @@ constexpr FieldOfSvm of_svm() {
 
 constexpr FieldOfSvm fields_of_svm[] = {
     of_svm<&PageOptions::cache_pages>(), of_svm<&PageOptions::replacement>(),      of_svm<&PageOptions::homes>(),
-    of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>(), of_svm<&PageOptions::bundles_on_machines>()};
+    of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>(), of_svm<&PageOptions::bundles_on_machines>(),
+    of_svm<&PageOptions::own_policy>()};
 
 void check_fields_of_svm(const PlanRequest& request) {
   for (const FieldOfSvm& of_svm : fields_of_svm) {
@@ -199,6 +200,8 @@ void check(const PlanRequest& request) {
   nodes::check_ranks(request.computer);
   check_work(request);
   check_fields_of_svm(request);
+  check_use(request.pages.own_policy == nullptr || request.computer.machine, field_of<&PageOptions::own_policy>(),
+            " is for a modelled machine, whose time it does not take");
   check_use(request.pages.resident_percent <= 100, field_of<&PageOptions::resident_percent>(), "=",
             request.pages.resident_percent, ": from 0 to 100");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
@@ -321,7 +324,7 @@ PageCapacity Plan::pages() const {
           .where = request.pages.homes,
           .resident_count = resident_count,
           .resident = resident,
-          .cache = {frames, request.page_size_bytes, request.pages.replacement},
+          .cache = {frames, request.page_size_bytes, request.pages.replacement, own_policy},
           .in_flight = task_count(),
           .rays_a_task = pixels_a_task,
           .faults_max = faults_max(),

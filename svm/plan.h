@@ -62,16 +62,17 @@ struct Plan {
   PlanRequest request;
   std::uint32_t frames = 0;          ///< per node's cache
   std::uint32_t resident_count = 0;  ///< pages that every node keeps permanently in addition to those at home, in separate frames
-  std::vector<PageId> resident = {};  ///< which: as many, once the run has found them
-  std::uint32_t in_flight = 1;        ///< pixels in flight, after reduction; no more than a node ever has
-  std::uint32_t pixels_a_task = 1;    ///< at most: more than one if their rays are traced in bundles
-  std::uint32_t worker_count = 1;     ///< nodes that render
-  std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
-  std::uint32_t request_credits = 0;  ///< packets that ask for something that one node may have in flight to one other
-  std::uint32_t film_credits = 0;     ///< film packets that one node may have in flight to the host
-  std::uint32_t film_entries = 0;     ///< per full film packet
-  std::uint32_t film_planes = 2;      ///< on which an entry has light
-  std::size_t held_bytes = 0;         ///< memory at each node and the host for packets delayed by chaos
+  std::vector<PageId> resident = {};   ///< which: as many, once the run has found them
+  OwnPolicyRun* own_policy = nullptr;  ///< the caches of request.pages.own_policy, once the run has started it
+  std::uint32_t in_flight = 1;         ///< pixels in flight, after reduction; no more than a node ever has
+  std::uint32_t pixels_a_task = 1;     ///< at most: more than one if their rays are traced in bundles
+  std::uint32_t worker_count = 1;      ///< nodes that render
+  std::uint32_t work_item_side = 0;    ///< pixels; 0: no node gives work to another
+  std::uint32_t request_credits = 0;   ///< packets that ask for something that one node may have in flight to one other
+  std::uint32_t film_credits = 0;      ///< film packets that one node may have in flight to the host
+  std::uint32_t film_entries = 0;      ///< per full film packet
+  std::uint32_t film_planes = 2;       ///< on which an entry has light
+  std::size_t held_bytes = 0;          ///< memory at each node and the host for packets delayed by chaos
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< messages to print, such as what was reduced
 

@@ -21,6 +21,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   flat.put_bytes(request.strategy->name());
   PageOptions pages = request.pages;
   pages.reference_logs = nullptr;  // of this process
+  pages.own_policy = nullptr;      // none on ranks
   flat.put(request.page_count, request.forest_page_count, request.open_page_count, request.page_size_bytes, pages);
   pictures::put_picture(flat, request);
 }

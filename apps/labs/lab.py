@@ -34,6 +34,10 @@ class Question:
     def with_blanks(self):
         return BLANK.sub(r"\1 ...", self.code)
 
+    def blanks(self):
+        """The names of what stands in blanks."""
+        return [name for name in re.findall(r"^ *(\w+).*# blank$", self.code, re.MULTILINE) if name != "return"]
+
 
 @dataclass
 class Lab:

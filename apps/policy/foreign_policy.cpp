@@ -10,27 +10,25 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "apps/frontend/line/parsed_number.h"
 #include "apps/frontend/system/child_process.h"
-#include "apps/frontend/system/companion_path.h"
 #include "apps/frontend/system/memory_file.h"
+#include "apps/frontend/system/resource_exhaustion.h"
 #include "apps/frontend/system/trusted_path.h"
+#include "apps/policy/foreign_run.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
 #include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
 
-/// The text of apps/python/dmpc/policies.py, embedded when dmpc is built, with which python3 is started.
-extern const char* const policy_driver;
-
 namespace {
 
 constexpr std::string_view python = "python:";
-constexpr std::size_t source_bytes_max = std::size_t{1} << 20U, said_bytes_max = std::size_t{1} << 20U,
-                      complaint_bytes_max = 4000, name_bytes_max = 32;
-constexpr const char* places = "expected /FULL/PATH/FILE.so or python:/FULL/PATH/FILE.py:CLASS";
+constexpr std::size_t source_bytes_max = std::size_t{1} << 20U, name_bytes_max = 32;
+constexpr const char* expected_place = "expected /FULL/PATH/FILE.so or python:/FULL/PATH/FILE.py:CLASS";
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -77,19 +75,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Returns the last message of the process, or how it ended.
-std::string complaint_of(const ChildProcess& process, int status) {
-  std::string said = process.errors();
-  said.resize(std::min(said.find_last_not_of(" \n") + 1, said.size()));
-  if (said.size() > complaint_bytes_max) {
-    said = "... " + said.substr(said.size() - complaint_bytes_max);
-  }
-  const std::string end = status < 0    ? "signal " + std::to_string(-status) + " ended it"
-                          : status == 0 ? "it ended, as if all were well, before it had answered for every cache"
-                                        : "it ended with status " + std::to_string(status);
-  return said.empty() || status < 0 ? end + (said.empty() ? "" : ", having said: " + said) : said;
-}
-
 /// "12 340"
 PricedFaults faults_in(const std::string& line) {
   const std::size_t blank = line.find(' ');
@@ -101,37 +86,41 @@ PricedFaults faults_in(const std::string& line) {
   return {*count, *cost};
 }
 
-/// Reports every error of a policy with its name.
-template <class Do>
-auto reported_of(const std::string& place, const Do& made) {
-  try {
-    return made();
-  } catch (const core::InputError& error) {
-    throw core::InputError("--policy=" + place + ": " + error.what());
+/// For a memory file.
+void write_all(int file, const void* from, std::size_t count) {
+  for (std::size_t done = 0; done < count;) {
+    const ssize_t written = ::write(file, static_cast<const char*>(from) + done, count - done);
+    if (written < 0 && errno != EINTR) {
+      throw ComputerCapacityError(std::string("the references cannot be kept in memory for a policy: ") + std::strerror(errno));
+    }
+    done += written < 0 ? 0 : static_cast<std::size_t>(written);
   }
 }
 
 }  // namespace
 
-ForeignPolicy::ForeignPolicy(const std::string& place, const std::function<void()>& check) : place_(place) {
-  reported_of(place, [&] {
-    path_ = place;
+ForeignPolicy::ForeignPolicy(const std::string& option, const std::string& place, std::function<void()> check,
+                             PolicyPatience patience)
+    : place_{.option = option, .text = place, .path = place, .patience = patience}, check_(std::move(check)) {
+  reported_of(place_, [&] {
     if (place.starts_with(python)) {
       const std::size_t colon = place.rfind(':');
-      path_ = colon < python.size() ? "" : place.substr(python.size(), colon - python.size());
-      class_name_ = place.substr(colon + 1);
+      place_.path = colon < python.size() ? "" : place.substr(python.size(), colon - python.size());
+      place_.class_name = place.substr(colon + 1);
     }
-    if (!path_.starts_with('/') || (place.starts_with(python) && !is_identifier(class_name_))) {
-      throw core::InputError(places);
+    if (!place_.path.starts_with('/') || (place.starts_with(python) && !is_identifier(place_.class_name))) {
+      throw core::InputError(expected_place);
     }
-    const Descriptor file = open_trusted(path_);
-    if (!class_name_.empty()) {
-      source_ = read_source(file.number());
+    const Descriptor file = open_trusted(place_.path);
+    if (!place_.class_name.empty()) {
+      place_.source = read_source(file.number());
     }
-    name_ = answers({}, {}, {}, 0, check, [] {}).front();
+    name_ = answers({}, {}, {}, 0, check_, [] {}).front();
     check_name(name_);
   });
 }
+
+std::unique_ptr<svm::OwnPolicyRun> ForeignPolicy::start() const { return std::make_unique<ForeignRun>(place_, check_); }
 
 std::vector<PricedFaults> ForeignPolicy::misses(std::span<const svm::PageId> references,
                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
@@ -150,18 +139,10 @@ std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> ref
                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
                                                 const std::function<void()>& check, const std::function<void()>& fed) const {
   const MemoryFile request, answer;
-  put_request(request, node, cache_pages, references, prices, source_);
-  ChildSettings settings{
-      .folder = "/", .gets_ctrl_c = false, .input = request.descriptor(), .output = answer.descriptor(), .leaves_nothing = true};
-  if (class_name_.empty()) {
-    settings.program =
-        companion_path("dmpc_policy_host", "../libexec/dmpc", "the program dmpc_policy_host, which loads policies,");
-    settings.arguments = {path_};
-  } else {
-    settings.program = "python3";
-    settings.arguments = {"-I", "-X", "utf8", "-c", policy_driver, path_, class_name_};
-  }
-  ChildProcess process(settings);
+  put_request([&](const void* bytes, std::size_t count) { write_all(request.descriptor(), bytes, count); },
+              {.node = node, .call_seconds = place_.patience.call_seconds}, cache_pages, references, prices, place_.source);
+  core::expect(::lseek(request.descriptor(), 0, SEEK_SET) == 0, "a file in memory has a beginning");
+  ChildProcess process(process_settings(place_, request.descriptor(), answer.descriptor()));
   std::size_t reported = 0;
   const auto take = [&] {
     std::vector<std::string> lines = lines_of(answer.bytes());
@@ -174,9 +155,7 @@ std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> ref
   for (int backoff_ms = 1; !(status = process.status()); backoff_ms = std::min(2 * backoff_ms, 100)) {
     check();
     take();
-    if (process.errors().size() > said_bytes_max || answer.bytes().size() > said_bytes_max) {
-      throw core::InputError("it prints more than a megabyte, expected no more than a complaint");
-    }
+    check_says_little(process);
     ::poll(nullptr, 0, backoff_ms);
   }
   std::vector<std::string> lines = take();

@@ -1,6 +1,7 @@
 // The program dmpc_policy_host, which dmpc starts: simulates caches with a shared library's policy, which may crash.
 
 #include <dmpc/policy.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <optional>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,7 +25,9 @@
 #include "apps/frontend/system/trusted_path.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
+#include "svm/pages/observers/optimum.h"
 #include "svm/pages/page.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
 namespace {
@@ -36,6 +40,7 @@ struct UnderWay {
   std::uint64_t fault = 0;
 };
 UnderWay under_way;
+volatile std::uint64_t calls = 0;  ///< that were begun
 
 const PolicyTable* table = nullptr;
 constexpr std::uint32_t priced_version = 2;  ///< from which on the table has price()
@@ -83,6 +88,7 @@ const char* policy_call_under_way() {
 template <class Call>
 void call(const char* name, const Call& made) {
   under_way.call = name;
+  calls = calls + 1;
   const char* complaint = nullptr;
   std::string thrown;
   try {
@@ -99,60 +105,72 @@ void call(const char* name, const Call& made) {
   under_way.call = "";
 }
 
-class LibraryPolicy {
+/// Consists of the library's calls, each with what is said of it if it does not come back well.
+class LibraryPolicy final : public svm::ReplacementPolicy {
  public:
-  LibraryPolicy(std::uint32_t frame_count, std::uint32_t node) {
-    under_way = {.frame_count = frame_count, .node = node, .fault = 1};
+  LibraryPolicy(std::uint32_t frame_count, std::uint32_t node) : frame_count_(frame_count), node_(node) {
+    begin(false, 0);
     call("make()", [&] { return table->make(frame_count, node, &policy_); });
   }
-  ~LibraryPolicy() {
+  ~LibraryPolicy() override {
+    begin(false, 0);
     under_way.call = "drop()";
-    under_way.has_page = false;
     table->drop(policy_);
     under_way.call = "";
   }
   LibraryPolicy(const LibraryPolicy&) = delete;
   LibraryPolicy& operator=(const LibraryPolicy&) = delete;
 
-  void hit(std::uint32_t page, std::uint32_t frame) {
-    about(page);
-    call("hit", [&] { return table->hit(policy_, page, frame); });
+  /// Sets the price of the page that comes next.
+  void set_price(std::uint32_t price) { price_ = price; }
+  void hit(svm::PageId page, std::uint32_t frame) override {
+    begin(true, index_of(page));
+    call("hit", [&] { return table->hit(policy_, index_of(page), frame); });
   }
-  void price(std::uint32_t page, std::uint32_t price) {
-    if (table->version >= priced_version && table->price != nullptr) {
-      about(page);
-      call("price", [&] { return table->price(policy_, page, price); });
-    }
+  void insert(svm::PageId page, std::uint32_t frame) override {
+    tell_price(index_of(page));
+    call("insert", [&] { return table->insert(policy_, index_of(page), frame); });
+    has_come();
   }
-  void insert(std::uint32_t page, std::uint32_t frame) {
-    about(page);
-    call("insert", [&] { return table->insert(policy_, page, frame); });
-    ++under_way.fault;
-  }
-  /// Nothing if the page bypasses the cache.
-  std::optional<std::uint32_t> victim(std::uint32_t incoming) {
-    about(incoming);
-    std::uint32_t frame = under_way.frame_count;
-    call("victim", [&] { return table->victim(policy_, incoming, &frame); });
+  std::uint32_t victim(svm::PageId incoming) override {
+    tell_price(index_of(incoming));
+    std::uint32_t frame = frame_count_;
+    call("victim", [&] { return table->victim(policy_, index_of(incoming), &frame); });
     if (frame == bypass) {
-      ++under_way.fault;
-      return std::nullopt;
+      has_come();
+      return svm::bypass;
     }
-    if (frame >= under_way.frame_count) {
+    if (frame >= frame_count_) {
       under_way.call = "victim";
       throw core::InputError(std::string(policy_call_under_way()) + ": it says frame " + std::to_string(frame) +
-                             ", expected one from 0 to " + std::to_string(under_way.frame_count - 1) + ", or bypass");
+                             ", expected one from 0 to " + std::to_string(frame_count_ - 1) + ", or bypass");
     }
     return frame;
   }
 
  private:
-  static void about(std::uint32_t page) {
-    under_way.has_page = true;
-    under_way.page = page;
+  void begin(bool has_page, std::uint32_t page) const {
+    under_way = {.has_page = has_page, .page = page, .frame_count = frame_count_, .node = node_, .fault = fault_};
   }
+  /// Once for each page that comes, before anything else of it.
+  void tell_price(std::uint32_t page) {
+    begin(true, page);
+    if (!std::exchange(knows_price_, true) && table->version >= priced_version && table->price != nullptr) {
+      call("price", [&] { return table->price(policy_, page, price_); });
+    }
+  }
+  void has_come() {
+    ++fault_;
+    knows_price_ = false;
+  }
+
+  std::uint32_t frame_count_, node_;
+  std::uint64_t fault_ = 1;
+  std::uint32_t price_ = 1;
+  bool knows_price_ = false;
   void* policy_ = nullptr;
 };
+static_assert(bypass == svm::bypass);
 
 /// Throws core::InputError unless the library exports a policy of this version.
 const PolicyTable* table_in(const std::string& path) {
@@ -181,70 +199,70 @@ const PolicyTable* table_in(const std::string& path) {
   return found;
 }
 
-/// A cache of pages without bytes.
-class LibraryCache {
+/// One cache after the other.
+class LibraryRun final : public svm::OwnPolicyRun {
  public:
-  LibraryCache(const PolicyRequest& request, std::uint32_t frame_count)
-      : request_(request), frame_count_(frame_count), frame_of_(svm::page_bound_of(request.references), nowhere) {}
-
-  /// The answer's line.
-  std::string faults() {
-    std::optional<LibraryPolicy> policy;
-    if (frame_count_ > 0) {
-      policy.emplace(frame_count_, request_.node);
-    }
-    for (std::size_t i = 0; i < request_.references.size(); ++i) {
-      const std::uint32_t page = index_of(request_.references[i]);
-      const bool is_repeat = i > 0 && request_.references[i] == request_.references[i - 1];
-      if (!policy || (!is_repeat && frame_of_[page] == nowhere)) {
-        fault(i, policy);
-      } else if (!is_repeat) {
-        policy->hit(page, frame_of_[page]);
-      }
-    }
-    return std::to_string(count_) + " " + std::to_string(cost_);
+  std::unique_ptr<svm::ReplacementPolicy> make(const svm::PolicySite& site) override {
+    auto policy = std::make_unique<LibraryPolicy>(site.frame_count(), site.seed);
+    latest_ = policy.get();
+    return policy;
   }
+  void finish() override {}
+  /// The policy that was made last.
+  LibraryPolicy& latest() { return *latest_; }
 
  private:
-  static constexpr std::uint32_t nowhere = 0xffffffffU;
-
-  void fault(std::size_t reference, std::optional<LibraryPolicy>& policy) {
-    const std::uint32_t price = request_.prices.empty() ? 1 : request_.prices[reference];
-    ++count_;
-    cost_ += price;
-    if (!policy) {
-      return;
-    }
-    const std::uint32_t page = index_of(request_.references[reference]);
-    policy->price(page, price);
-    std::optional<std::uint32_t> frame = static_cast<std::uint32_t>(pages_.size());
-    if (pages_.size() < frame_count_) {
-      pages_.push_back(page);
-    } else if ((frame = policy->victim(page))) {
-      frame_of_[std::exchange(pages_[*frame], page)] = nowhere;
-    }
-    if (frame) {
-      frame_of_[page] = *frame;
-      policy->insert(page, *frame);
-    }
-  }
-
-  const PolicyRequest& request_;
-  std::uint32_t frame_count_;
-  std::vector<std::uint32_t> frame_of_;  ///< by page
-  std::vector<std::uint32_t> pages_;     ///< by frame
-  std::uint64_t count_ = 0, cost_ = 0;
+  LibraryPolicy* latest_ = nullptr;
 };
 
-/// Opens the library at `path` and passes to `answer` the policy's name, then the faults of each cache. Call it once in a
-/// process. Throws core::InputError if the file may not be opened (apps/frontend/system/trusted_path.h), is not a library, has no
-/// policy or one of another version, or if the policy reports an error, throws, or returns an invalid frame.
-void answer_by_library(const std::string& path, const PolicyRequest& request,
-                       const std::function<void(const std::string& line)>& answer) {
-  table = table_in(path);
-  answer(table->name);
+using Answer = std::function<void(const void* bytes, std::size_t count)>;
+
+/// Returns "FAULTS COST", of a cache of this size.
+std::string faults_of(const PolicyRequest& request, std::uint32_t cache_pages) {
+  LibraryRun run;
+  std::uint64_t cost = 0;
+  const auto pay = [&](std::size_t reference) {
+    const std::uint32_t price = request.prices.empty() ? 1 : request.prices[reference];
+    cost += price;
+    if (cache_pages > 0) {
+      run.latest().set_price(price);
+    }
+  };
+  const std::uint64_t count = svm::policy_misses(run, request.references, cache_pages, request.task.node, pay);
+  return std::to_string(count) + " " + std::to_string(cost);
+}
+
+void simulate(const PolicyRequest& request, const Answer& answer) {
+  const auto say_line = [&answer](const std::string& line) { answer((line + '\n').data(), line.size() + 1); };
+  say_line(table->name);
   for (const std::uint32_t cache_pages : request.cache_pages) {
-    answer(LibraryCache(request, cache_pages).faults());
+    say_line(faults_of(request, cache_pages));
+  }
+}
+
+/// Decides for the caches of a run, by node.
+void follow_run(const Answer& answer) {
+  std::map<std::uint32_t, LibraryPolicy> caches;
+  for (std::vector<PolicyEvent> events; take_events(STDIN_FILENO, events);) {
+    for (const PolicyEvent& event : events) {
+      std::uint32_t said = 0;
+      switch (event.kind()) {
+        case PolicyEvent::Kind::make:
+          caches.try_emplace(event.node(), event.page, event.node());
+          break;
+        case PolicyEvent::Kind::hit:
+          caches.at(event.node()).hit(svm::PageId{event.page}, event.frame);
+          break;
+        case PolicyEvent::Kind::insert:
+          caches.at(event.node()).insert(svm::PageId{event.page}, event.frame);
+          break;
+        case PolicyEvent::Kind::victim:
+          said = caches.at(event.node()).victim(svm::PageId{event.page});
+          [[fallthrough]];
+        case PolicyEvent::Kind::sync:
+          answer(&said, sizeof(said));
+      }
+    }
   }
 }
 
@@ -278,7 +296,17 @@ void report_of_exit() {
   }
 }
 
-void watch_over_crashes() {
+/// Whether the policy is still in the call in which it was at the last look, all of whose time it took.
+void look_for_hang(int /*signal*/) {
+  static std::uint64_t calls_before = 0;
+  if (*under_way.call != '\0' && calls == calls_before) {
+    report_of_end("it does not come back");
+    ::_exit(1);
+  }
+  calls_before = calls;
+}
+
+void watch_over_policy(std::uint32_t call_seconds) {
   static std::array<char, 65536> stack;
   const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
   ::sigaltstack(&other, nullptr);
@@ -289,15 +317,25 @@ void watch_over_crashes() {
     ::sigaction(signal, &action, nullptr);
   }
   static_cast<void>(std::atexit(report_of_exit));
+  action.sa_handler = look_for_hang;
+  action.sa_flags = SA_ONSTACK | SA_RESTART;
+  ::sigaction(SIGPROF, &action, nullptr);
+  const timeval each{.tv_sec = static_cast<time_t>(call_seconds), .tv_usec = 0};
+  const itimerval timer{.it_interval = each, .it_value = each};
+  ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-/// Answers go to the original stdout; the library's own stdout goes to stderr.
+/// Answers go to `output`, the original stdout; the library's own stdout goes to stderr. Throws core::InputError if the file may
+/// not be opened (apps/frontend/system/trusted_path.h), is not a library, has no policy or one of another version, or if the
+/// policy reports an error, throws, or returns an invalid frame.
 void answer_to(int output, const std::string& path) {
   const PolicyRequest request = take_request(STDIN_FILENO);
-  answer_by_library(path, request, [output](const std::string& line) {
-    const std::string text = line + '\n';
-    core::expect(::write(output, text.data(), text.size()) == static_cast<ssize_t>(text.size()), "answers are written");
-  });
+  const Answer answer = [output](const void* bytes, std::size_t count) {
+    core::expect(::write(output, bytes, count) == static_cast<ssize_t>(count), "answers are written");
+  };
+  watch_over_policy(request.task.call_seconds);
+  table = table_in(path);
+  request.task.is_of_run != 0 ? follow_run(answer) : simulate(request, answer);
 }
 
 }  // namespace
@@ -312,7 +350,6 @@ int main(int count, char** values) {
     }
     const int output = ::dup(STDOUT_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
-    dmpc::apps::watch_over_crashes();
     dmpc::apps::answer_to(output, values[1]);
   } catch (const std::exception& error) {
     std::cerr << error.what() << std::flush;

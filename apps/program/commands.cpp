@@ -1,6 +1,7 @@
 #include "apps/program/commands.h"
 
 #include <algorithm>
+#include <iostream>
 #include <ostream>
 #include <string_view>
 #include <variant>
@@ -80,10 +81,19 @@ Command read_by(Commands&& commands, std::span<const std::string> arguments) {
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return help_command(*help);
   }
-  return commands.named(std::get<std::string>(parsed));
+  Command command = commands.named(std::get<std::string>(parsed));
+  command.set_notes(commands.line().notes());
+  return command;
 }
 
 }  // namespace
+
+int Command::run(Interrupt& interrupt, std::ostream& output) const {
+  for (const std::string& note : notes_) {
+    std::cerr << "dmpc: " << note << '\n';
+  }
+  return run_(interrupt, output);
+}
 
 Commands::Commands(Declare declare, std::optional<Words> line)
     : declare_(declare),

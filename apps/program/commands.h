@@ -31,8 +31,10 @@ class Command {
 
   Command(std::any options, bool is_quiet, Run run) : options_(std::move(options)), is_quiet_(is_quiet), run_(std::move(run)) {}
 
+  /// Sentences about the line, which are printed when it is run.
+  void set_notes(const std::vector<std::string>& notes) { notes_ = notes; }
   /// Throws as the command itself does.
-  int run(Interrupt& interrupt, std::ostream& output) const { return run_(interrupt, output); }
+  int run(Interrupt& interrupt, std::ostream& output) const;
   /// Whether progress is not wanted.
   bool is_quiet() const { return is_quiet_; }
   bool asks_for_help() const { return options_.type() == typeid(HelpText); }
@@ -44,6 +46,7 @@ class Command {
 
  private:
   std::any options_;
+  std::vector<std::string> notes_;
   bool is_quiet_;
   Run run_;
 };

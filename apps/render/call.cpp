@@ -12,15 +12,16 @@ namespace dmpc::apps {
 
 namespace {
 
-RenderOptions with_machine(RenderOptions options) {
+RenderOptions with_machine(RenderOptions options, const Interrupt& interrupt) {
   choose_machine(options);
+  load_policy(options, [&interrupt] { interrupt.check(); });
   return options;
 }
 
 }  // namespace
 
 RenderCall::RenderCall(const RenderOptions& options, Interrupt& interrupts, std::ostream& out, Files& written_to)
-    : asked(with_machine(options)), interrupt(interrupts), output(out), files(written_to) {}
+    : asked(with_machine(options, interrupts)), interrupt(interrupts), output(out), files(written_to) {}
 
 void RenderCall::say(const std::vector<std::string>& notes) const {
   if (!asked.quiet) {

@@ -24,7 +24,7 @@ namespace dmpc::apps {
 
 /// With ranks, rank 0's.
 struct RenderCall {
-  /// Chooses the machine. Throws as choose_machine() and FrameScenes do.
+  /// Chooses the machine and loads the policy. Throws as choose_machine(), load_policy() and FrameScenes do.
   RenderCall(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files);
   RenderCall(const RenderCall&) = delete;
   RenderCall& operator=(const RenderCall&) = delete;

@@ -245,7 +245,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...");
   add_computer_options(options, render);
   add_runner_options(options, render);
-  add_page_options(options, render.pages);
+  add_page_options(options, render);
   add_option(options, core::field_of<&svm::PageOptions::count_pages>(), render.pages);
   add_ray_options(options, render.rays);
   add_study_options(options, render);

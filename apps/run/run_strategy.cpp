@@ -8,6 +8,7 @@
 #include "apps/frontend/run/computer_capacity.h"
 #include "apps/frontend/run/option_words.h"
 #include "apps/oracle/oracle.h"
+#include "apps/policy/foreign_policy.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
@@ -129,10 +130,18 @@ void choose_machine(StrategyOptions& options) {
   choose_machine(options, load_machine(options.runner.machine_name).machine);
 }
 
+void load_policy(StrategyOptions& options, const std::function<void()>& check) {
+  if (!options.policy_place.empty()) {
+    options.policy = std::make_shared<ForeignPolicy>("--replacement", options.policy_place, check);
+    options.pages.own_policy = options.policy.get();
+  }
+}
+
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                     const std::stop_token& stop, const nodes::Watching& watching, const core::Continuation& continuation) {
   core::expect(options.computer.machine.has_value() == (options.runner.kind == RunnerKind::virtual_time),
                "a modelled machine has been read");
+  core::expect((options.pages.own_policy == nullptr) == options.policy_place.empty(), "a policy of the user's has been loaded");
   const svm::Strategy* const with_pages = page_strategy(options.strategy);
   return with_pages != nullptr ? ready_with_pages(*with_pages, options, database, settings, watching, continuation)
                                : ready_with_rays(options, database, settings, stop, watching, continuation);

@@ -31,11 +31,15 @@ void choose_machine(StrategyOptions& options);
 /// Uses this machine, unchanged.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 
-/// Requires that choose_machine() was called on the options. For dataflow this renders the subsampled picture, which is cut short
-/// once a stop is requested; the result is then usable only for a run that the same stop ends at once. `database` and `settings`
-/// outlive the result. The distribution of the database may be reported to `watching` before the start; its progress is that of
-/// the start. Throws core::UsageError for options that the strategy does not accept, and core::InputError, with sufficient sizes,
-/// if the nodes' memory is too small. No node's memory is allocated before the start.
+/// Loads the user's replacement policy, if there is one, which the options share. `check` is called while it is waited for, now
+/// and in runs, and may throw. Throws core::InputError as ForeignPolicy does.
+void load_policy(StrategyOptions& options, const std::function<void()>& check);
+
+/// Requires that choose_machine() and load_policy() were called on the options. For dataflow this renders the subsampled picture,
+/// which is cut short once a stop is requested; the result is then usable only for a run that the same stop ends at once.
+/// `database` and `settings` outlive the result. The distribution of the database may be reported to `watching` before the start;
+/// its progress is that of the start. Throws core::UsageError for options that the strategy does not accept, and
+/// core::InputError, with sufficient sizes, if the nodes' memory is too small. No node's memory is allocated before the start.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                     const std::stop_token& stop = {}, const nodes::Watching& watching = {},
                     const core::Continuation& continuation = {});

@@ -8,6 +8,7 @@
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/run/option_words.h"
+#include "apps/policy/foreign_policy.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "svm/forest/strategy.h"
@@ -113,10 +114,20 @@ void add_machine_option(OptionSet options, std::string& machine_name, const std:
       "Machine to model" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
 }
 
-void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
+void add_page_options(OptionSet options, StrategyOptions& strategy, const std::string& in_flight_default) {
   options.begin_group("Strategies svm, replicated and forest");
+  svm::PageOptions& pages = strategy.pages;
   for (const PageRow& row : page_rows()) {
-    if (row.takes.field == core::field_of<&svm::PageOptions::in_flight>()) {
+    if (row.takes.field == core::field_of<&svm::PageOptions::replacement>()) {
+      options.add_choice<svm::Replacement>(row.name, pages.replacement, policy_choices(),
+                                           {.shown = ForeignPolicy::places,
+                                            .take =
+                                                [&strategy](const std::string& text) {
+                                                  strategy.policy_place = ForeignPolicy::is_place(text) ? text : "";
+                                                  return !strategy.policy_place.empty();
+                                                }},
+                                           row.help);
+    } else if (row.takes.field == core::field_of<&svm::PageOptions::in_flight>()) {
       row.add_to(options, pages, in_flight_default);
     } else if (row.takes.field != core::field_of<&svm::PageOptions::count_pages>()) {
       row.add_to(options, pages);
@@ -149,6 +160,10 @@ void check_together(const OptionSet& options, const StrategyOptions& run) {
     }
   });
   check_regions(options, run.rays.balance);
+  if (!run.policy_place.empty() && run.runner.kind != RunnerKind::virtual_time) {
+    throw UsageError("--replacement=" + run.policy_place +
+                     " goes with --runner=virtual: threads would wait for a policy of your own, and a modelled machine does not");
+  }
 }
 
 DatabaseOptions usual_database(Strategy strategy) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,8 @@
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
+
+class ForeignPolicy;
 
 /// The name on the command line.
 const char* name_of(dataflow::Balance balance);
@@ -47,6 +50,8 @@ struct StrategyOptions {
   nodes::ComputerRequest computer;  ///< with the machine, once it is read (apps/run/run_strategy.h)
   RunnerOptions runner;
   svm::PageOptions pages;
+  std::string policy_place;                     ///< of --replacement, if it names a policy of the user's
+  std::shared_ptr<const ForeignPolicy> policy;  ///< that policy, once it is loaded (apps/run/run_strategy.h)
   dataflow::RayOptions rays = {.topology = nodes::TopologyKind::hypercube};
   TracerChoice tracer = TracerChoice::grid;
   bool has_several_frames = false;  ///< several pictures of the scene are rendered on the same nodes
@@ -60,7 +65,7 @@ void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memor
 void add_machine_option(OptionSet options, std::string& machine_name, const std::string& when);
 /// Declares the options of svm, replicated and forest except --count-pages, as a group. `in_flight_default` replaces the
 /// description of the default of --in-flight, which covers every runner.
-void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default = "");
+void add_page_options(OptionSet options, StrategyOptions& strategy, const std::string& in_flight_default = "");
 /// Declares the options of dataflow as a group.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 /// Declares the options for cutting space into regions.

@@ -22,15 +22,6 @@ constexpr const char* works_on_region = "a node of dataflow works on the rays th
 constexpr const char* share_out_pixels = "the other strategies divide pixels, not space";
 constexpr const char* rays_stay = "rays of the other strategies do not travel";
 
-/// The policies that exist when the option is declared.
-OptionSet::Choices<svm::Replacement> policy_choices() {
-  OptionSet::Choices<svm::Replacement> all;
-  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
-    all.emplace_back(kind.name, static_cast<svm::Replacement>(all.size()));
-  }
-  return all;
-}
-
 template <class T>
 OptionSet::Choices<T> by_name(std::initializer_list<T> kinds) {
   OptionSet::Choices<T> all;
@@ -78,14 +69,12 @@ std::vector<PageRow> rows_of_pages() {
        .key = "resident_pages",
        .reported = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
       {.name = "--replacement",
-       .takes = {core::field_of<&PageOptions::replacement>(),
-                 [](OptionSet set, const char* name, const char* help, PageOptions& pages, const std::string&) {
-                   set.add_choice(name, pages.replacement, policy_choices(), help);
-                 }},
-       .help = "Replacement policy of the page cache (svm)",
+       .takes = word<&PageOptions::replacement>(policy_choices()),
+       .help = "Replacement policy of the page cache (svm): one of dmpc's, or with --runner=virtual one of your own, as a shared "
+               "library or a class for Python, by its full path, which nobody but you and root can write",
        .why = "nodes of the other strategies cache no pages",
        .key = "replacement",
-       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
+       .reported = [](const svm::Plan& plan) -> OptionValue { return svm::policy_name(pages_of(plan)); }},
   };
 }
 
@@ -273,6 +262,14 @@ std::vector<OptionWord> make_strategy_words() {
 }
 
 }  // namespace
+
+OptionSet::Choices<svm::Replacement> policy_choices() {
+  OptionSet::Choices<svm::Replacement> all;
+  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
+    all.emplace_back(kind.name, static_cast<svm::Replacement>(all.size()));
+  }
+  return all;
+}
 
 const std::vector<PageRow>& page_rows() {
   static const std::vector<PageRow> rows = joined(rows_of_pages(), rows_of_pixels());

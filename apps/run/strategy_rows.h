@@ -17,6 +17,9 @@ using PageRow = OptionRow<svm::PageOptions, svm::Plan>;
 using BalanceRow = OptionRow<dataflow::BalanceOptions, dataflow::Plan>;
 using RayRow = OptionRow<dataflow::RayOptions, dataflow::Plan>;
 
+/// dmpc's own replacement policies.
+OptionSet::Choices<svm::Replacement> policy_choices();
+
 /// In the order of the help.
 const std::vector<PageRow>& page_rows();
 const std::vector<BalanceRow>& balance_rows();

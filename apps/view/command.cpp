@@ -1,7 +1,11 @@
 #include "apps/view/command.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <stop_token>
@@ -109,6 +113,7 @@ class Viewing {
   int run() {
     interrupt_.set_consequence("the page receives no further updates");
     choose_machine(options_);
+    load_policy(options_, [this] { interrupt_.check(); });
     server_.emplace(options_.port,
                     PageServer::Service{.option = "--port",
                                         .page = html::live_page("dmpc view " + options_.picture.scene, html::LiveKind::view),
@@ -118,8 +123,7 @@ class Viewing {
     std::cerr << "dmpc: to be seen at " + server_->address() + "\n";  // at once
     try {
       build();
-      show();
-      throw Interrupted{};
+      return render(show());
     } catch (const Interrupted&) {
       server_->end(json_of_end("dmpc was asked to stop."));
       throw;
@@ -160,8 +164,9 @@ class Viewing {
     }
   }
 
-  /// What is asked for, until a signal comes: at first the scene's own view, roughly, and then as it is.
-  void show() {
+  /// Shows what is asked for: at first the scene's own view, roughly, and then as it is. Returns the camera that dmpc render is
+  /// to take. Throws Interrupted at a signal.
+  CameraChoice show() {
     const core::Camera& camera = resting_->camera();
     server_->feed().put(head_place, "head",
                         json_of(LiveHead{.width = static_cast<std::uint32_t>(camera.width()),
@@ -170,9 +175,33 @@ class Viewing {
                                          .pivot = text_of(pivot_)}));
     show({.camera = camera_of(home_), .is_moving = true});
     show({.camera = camera_of(home_), .is_moving = false});
-    while (const std::optional<Wish> wish = wishes_.next(interrupt_.token())) {
+    std::optional<Wish> wish;
+    while ((wish = wishes_.next(interrupt_.token())) && !wish->is_final) {
       show(*wish);
     }
+    if (!wish) {
+      throw Interrupted{};
+    }
+    return wish->camera;
+  }
+
+  std::vector<std::string> words_with(const CameraChoice& camera) const {
+    return render_words(own_words(), text_of(camera), *options_.picture.resolution);
+  }
+
+  /// Says the command, and becomes it.
+  int render(const CameraChoice& camera) {
+    std::vector<std::string> words = words_with(camera);
+    const std::string command = command_text(words);
+    server_->end(json_of_end("dmpc renders this picture now, in its own window.", command), {}, interrupt_.token());
+    std::cerr << "dmpc: " << command << std::endl;
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+      pointers.push_back(word.data());
+    }
+    pointers.push_back(nullptr);
+    ::execv("/proc/self/exe", pointers.data());
+    throw core::InputError("dmpc render cannot be started: " + std::string(std::strerror(errno)));
   }
 
   /// One picture; a whole one goes when another is wished for.
@@ -215,7 +244,7 @@ class Viewing {
                   .ms = seconds * 1000};
     if (!wish.is_moving) {
       shot.film = hash_text(film.hash());
-      shot.command = command_text(render_words(own_words(), shot.camera, *options_.picture.resolution));
+      shot.command = command_text(words_with(wish.camera));
     }
     server_->feed().put(picture_place, "picture", json_of(shot));
     const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
@@ -246,7 +275,7 @@ void add_options(OptionSet options, ViewOptions& view) {
   add_transport_options(options, view.picture);
   add_computer_options(options, view);
   add_runner_options(options, view);
-  add_page_options(options, view.pages);
+  add_page_options(options, view);
   add_ray_options(options, view.rays);
   options.begin_group("The page");
   options.add_number("--port", view.port, 0, 65535, "0",
@@ -271,8 +300,8 @@ void add_options(OptionSet options, ViewOptions& view) {
       "  dmpc view my.glb --transport=whitted --samples=4 --port=8080\n"
       "The address is printed on stderr; everyone who knows it can move the camera. While the camera moves, a picture has half\n"
       "the pixels across and down, and 4 samples per pixel by paths, otherwise one. When it rests, the picture has all that was\n"
-      "asked for, and the page shows the dmpc render command that makes the same picture, to the last bit. Ctrl-C ends it with\n"
-      "status 130.");
+      "asked for, and the page shows the dmpc render command that makes the same picture, to the last bit. The key R, or the\n"
+      "button Render, ends the view and runs that command, which writes view.png. Ctrl-C ends it with status 130.");
 }
 
 int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& /*output*/) {

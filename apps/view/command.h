@@ -26,9 +26,9 @@ struct ViewOptions : StrategyOptions {
 /// change with the camera is refused.
 void add_options(OptionSet options, ViewOptions& view);
 
-/// Reads and builds once, says on stderr where the page is, and renders what those who look on ask for, until a signal comes:
-/// then it throws Interrupted. Throws as render_command() does for the scene, the options and memory, and core::InputError if the
-/// port cannot be had.
+/// Reads and builds once, says on stderr where the page is, and renders what those who look on ask for, until they want a picture
+/// rendered: then this process becomes dmpc render. At a signal it throws Interrupted. Throws as render_command() does for the
+/// scene, the options and memory, and core::InputError if the port cannot be had.
 int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -15,15 +15,16 @@ constexpr const char* form = R"(expected JSON such as {"camera": "1,2,3/0,0,0/0,
 
 Wish wish_in(const std::string& json) {
   const auto read = nlohmann::json::parse(json, nullptr, false);
-  const bool is_object = read.is_object() && read.size() == 2 && read.contains("camera") && read.contains("moving");
-  if (!is_object || !read["camera"].is_string() || !read["moving"].is_boolean()) {
+  const bool is_object = read.is_object() && read.contains("camera") && read.contains("moving");
+  const bool is_final = is_object && read.contains("render") && read["render"] == true;
+  if (!is_object || read.size() != (is_final ? 3 : 2) || !read["camera"].is_string() || !read["moving"].is_boolean()) {
     throw core::UsageError(form);
   }
   const CameraChoice camera = parse_camera(read["camera"].get<std::string>(), "camera");
   if (!camera.up || !camera.degrees) {
     throw core::UsageError(std::string("the camera lacks its up or its angle: ") + form);
   }
-  return {.camera = camera, .is_moving = read["moving"].get<bool>()};
+  return {.camera = camera, .is_moving = read["moving"].get<bool>(), .is_final = is_final};
 }
 
 WebAnswer Wishes::take(const std::string& json) {
@@ -31,7 +32,7 @@ WebAnswer Wishes::take(const std::string& json) {
   try {
     const Wish wish = wish_in(json);
     const std::lock_guard lock(mutex_);
-    wish_ = wish;
+    wish_ = wish_ && wish_->is_final ? wish_ : wish;
     under_way_.request_stop();
     changed_.notify_all();
     return {.body = "It comes.\n"};

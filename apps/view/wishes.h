@@ -16,10 +16,11 @@ namespace dmpc::apps {
 struct Wish {
   CameraChoice camera;     ///< whole
   bool is_moving = false;  ///< it will not stay: a quarter of the pixels will do
+  bool is_final = false;   ///< dmpc render is to take it from here
 };
 
-/// Reads {"camera": "FROM/AT/UP/DEGREES", "moving": false}, the camera as --camera takes it. Throws core::UsageError, a sentence,
-/// for anything else.
+/// Reads {"camera": "FROM/AT/UP/DEGREES", "moving": false}, the camera as --camera takes it; with "render": true it is final.
+/// Throws core::UsageError, a sentence, for anything else.
 Wish wish_in(const std::string& json);
 
 /// Thread safety: any thread; one at a time waits for wishes.

@@ -25,11 +25,15 @@ nodes::MemoryPlan Cache::layout(const CacheShape& shape) {
 }
 
 Cache::Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
-    : hears_hits_(kind_of(shape.replacement).hears_hits),
+    : hears_hits_(shape.own != nullptr || kind_of(shape.replacement).hears_hits),
       frames_(memory, core::MemoryUse::cache_frames, frame_bytes(shape), shape.page_size_bytes),
       table_(memory, shape.frame_count) {
   std::tie(stamps_, pages_) = own_layout(shape).in(memory);
-  policy_ = kind_of(shape.replacement).make({memory, stamps_, pages_, seed});
+  const PolicySite site{memory, stamps_, pages_, seed};
+  policy_ = kind_of(shape.replacement).make(site);
+  if (shape.own != nullptr && shape.frame_count > 0) {
+    policy_ = shape.own->make(site);
+  }
 }
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
@@ -50,6 +54,9 @@ PageId Cache::install_by(PageId page, Places& places, const Put& put) {
   core::expect(places.find(page) == no_frame, "a page is in at most one frame");
   const bool is_full = filled_count_ == frame_count();
   const std::uint32_t frame = is_full ? policy_->victim(page) : filled_count_++;
+  if (frame == bypass) {
+    return page;
+  }
   core::expect(frame < frame_count(), "a page leaves a frame that there is");
   const PageId evicted = is_full ? pages_[frame] : no_page;
   if (is_full) {

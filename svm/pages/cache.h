@@ -25,6 +25,7 @@ struct CacheShape {
   std::uint32_t frame_count = 0;  ///< 0 makes a cache that never finds anything and takes no page
   std::size_t page_size_bytes = 0;
   Replacement replacement = Replacement::lru;
+  OwnPolicyRun* own = nullptr;  ///< decides in place of `replacement`, whose memory stands for that of its state
 };
 
 /// A reference costs one store, and a call under policies with hears_hits. The victim is chosen when the page that needs its
@@ -52,8 +53,8 @@ class Cache {
   const std::byte* bytes_of(std::uint32_t frame) const { return frames_.at(frame); }
 
   /// Puts an absent page into an empty frame, or into that of the evicted page, and makes it the most recently used. Returns the
-  /// evicted page, or no_page. Requires at least one frame and `bytes` of the page's size. A touch() that follows is not a
-  /// further reference, but the one that requested the page.
+  /// evicted page, or no_page; or `page` itself if it bypasses the cache, which is then unchanged. Requires at least one frame
+  /// and `bytes` of the page's size. A touch() that follows is not a further reference, but the one that requested the page.
   PageId install(PageId page, std::span<const std::byte> bytes);
   /// install() where `places` stores the frame of each page: to be used always, so that this cache's own table stays empty.
   PageId install(PageId page, std::span<const std::byte> bytes, PagesInPlace& places);

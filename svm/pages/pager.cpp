@@ -54,7 +54,7 @@ const std::byte* Pager::find_other(PageId page, std::size_t offset) {
 /// Counts a reference to a local page, and returns its address.
 const std::byte* Pager::refer(PageId page, std::uint32_t frame, const std::byte* bytes) {
   const bool is_kept = frame == Cache::no_frame;
-  if (!is_kept) {
+  if (frame < cache_.frame_count()) {
     cache_.touch(frame);
   }
   last_hits_ = is_kept ? &counters_.home_hits : &counters_.cache_hits;
@@ -79,6 +79,10 @@ bool Pager::translate(PageId page, Translation& translation) const {
   }
   if (const std::uint32_t kept = resident_.frame_of(page); kept != Cache::no_frame) {
     translation = {page, Cache::no_frame, resident_.bytes_of(kept)};
+    return true;
+  }
+  if (page == passing_page_) {
+    translation = {page, passing, passing_bytes_};
     return true;
   }
   const std::uint32_t frame = cache_.frame_of(page);
@@ -133,6 +137,7 @@ void Pager::request(Faults::Fault& fault) {
 
 std::uint32_t Pager::install(const nodes::Packet& reply) {
   core::expect(reply.payload_bytes() == page_reply_bytes(geometry_.size_bytes()), "a page reply carries one page");
+  let_go();
   const auto header = reply.front<PageReplyHeader>();
   const std::uint32_t source = nodes::index_of(reply.source), asked = asked_for(header.page);
   core::expect(tree_ ? tree_->is_above(source, nodes::index_of(node_->id())) : source == asked,
@@ -143,8 +148,36 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
     request(*refused);
   }
   const std::span<const std::byte> bytes = reply.behind(sizeof(header));
-  forget_page(in_place_ ? cache_.install(header.page, bytes, *in_place_) : cache_.install(header.page, bytes));
+  const PageId out = in_place_ ? cache_.install(header.page, bytes, *in_place_) : cache_.install(header.page, bytes);
+  if (out == header.page) {
+    hold(out, bytes.data());
+  } else {
+    forget_page(out);
+  }
   return first;
+}
+
+/// A page that bypasses the cache is used from its packet.
+void Pager::hold(PageId page, const std::byte* bytes) {
+  last_page_ = no_page;
+  passing_page_ = page;
+  passing_bytes_ = bytes;
+  if (in_place_) {
+    in_place_->put(page, PagesInPlace::passing);
+  }
+}
+
+void Pager::let_go() {
+  if (passing_page_ == no_page) {
+    return;
+  }
+  last_page_ = no_page;
+  if (in_place_) {
+    in_place_->erase(passing_page_);
+  } else if (translation_of(passing_page_).page == passing_page_) {
+    translation_of(passing_page_) = {};
+  }
+  passing_page_ = no_page;
 }
 
 void Pager::forget_page(PageId evicted) {

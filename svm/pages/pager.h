@@ -65,6 +65,7 @@ class Pager : public PlainRecords {
           waiting.go_on(slot);
           slot = next;
         }
+        let_go();
         return true;
       default:
         return false;
@@ -78,7 +79,8 @@ class Pager : public PlainRecords {
   /// Lets `slot` wait for the page of `address`, which find() has just reported absent. Requests the page if no slot has done so.
   void park(std::uint32_t slot, core::Address address);
   /// Takes a page reply: installs the page and returns the first slot that waited for it. The caller calls retried() before
-  /// running each of those slots, and runs them all before the next install().
+  /// running each of those slots, and runs them all before the next install(). A page that bypasses the cache is there until
+  /// then, in receive() until they have run.
   std::uint32_t install(const nodes::Packet& reply);
   /// The slot that waits for the same page after `slot`, or no_slot. Read it before the slot runs.
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
@@ -104,16 +106,19 @@ class Pager : public PlainRecords {
   /// processor's own cache.
   struct Translation {
     PageId page = no_page;
-    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is stored here permanently
+    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is stored here permanently; or passing
     const std::byte* bytes = nullptr;
   };
   static constexpr std::size_t translation_count = 256;
+  static constexpr std::uint32_t passing = Cache::no_frame - 1;
   static nodes::Room<Translation> own_layout() { return {core::MemoryUse::page_table, translation_count}; }
 
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
   const std::byte* refer(PageId page, std::uint32_t frame, const std::byte* bytes);
+  void hold(PageId page, const std::byte* bytes);
+  void let_go();
   std::uint32_t asked_for(PageId page) const;
   const std::byte* served_bytes(PageId page);
   void request(Faults::Fault& fault);
@@ -130,6 +135,8 @@ class Pager : public PlainRecords {
   Cache resident_;  ///< for pages that never leave it
   PageCounters counters_;
   std::uint64_t retries_ = 0;
+  PageId passing_page_ = no_page;  ///< has bypassed the cache, and serves the slots that waited for it
+  const std::byte* passing_bytes_ = nullptr;
   Cache cache_;
   Faults faults_;
   PageServer server_;

@@ -32,9 +32,9 @@ class PagesInPlace {
                : std::nullopt;
   }
 
-  static constexpr std::uint32_t absent = 0xffff, for_good = 0xfffe;
+  static constexpr std::uint32_t absent = 0xffff, for_good = 0xfffe, passing = 0xfffd;
 
-  /// The frame of a page, or for_good or absent.
+  /// The frame of a page, or for_good, absent, or passing, of one that has bypassed the frames.
   std::uint32_t frame_of(PageId page) const { return index_of(page) < count_ ? frames_[index_of(page)] : absent; }
   void put(PageId page, std::uint32_t frame) { frames_[index_of(page)] = static_cast<std::uint16_t>(frame); }
 

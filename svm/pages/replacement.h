@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "nodes/local_memory.h"
@@ -24,6 +25,10 @@ struct PolicySite {
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps.size()); }
 };
 
+/// What victim() returns in place of a frame if the incoming page is not cached: insert() is then not called. Only policies of
+/// the user's do so.
+inline constexpr std::uint32_t bypass = 0xffffffffU;
+
 /// Decides which page is evicted from a full cache when another one arrives. Frames are filled in order, and no page is evicted
 /// before all are full. Decisions depend only on the calls and the seed. Not thread-safe; belongs to one node.
 class ReplacementPolicy {
@@ -34,7 +39,8 @@ class ReplacementPolicy {
   virtual void hit(PageId /*page*/, std::uint32_t /*frame*/) {}
   /// A page has arrived in a frame that was empty or is victim()'s.
   virtual void insert(PageId /*page*/, std::uint32_t /*frame*/) {}
-  /// The frame whose page is evicted for `incoming`, the next insert(). Every frame has a page, and there is at least one.
+  /// The frame whose page is evicted for `incoming`, the next insert(), or bypass. Every frame has a page, and there is at least
+  /// one.
   virtual std::uint32_t victim(PageId incoming) = 0;
 };
 
@@ -55,5 +61,23 @@ struct PolicyKind {
 std::span<const PolicyKind> policy_kinds();
 const PolicyKind& kind_of(Replacement replacement);
 inline std::string_view name_of(Replacement replacement) { return kind_of(replacement).name; }
+
+/// The caches of one run under a policy of the user's. Hears all hits. Not thread-safe.
+class OwnPolicyRun {
+ public:
+  virtual ~OwnPolicyRun() = default;
+  /// The policy of one node's cache, with at least one frame; this outlives it.
+  virtual std::unique_ptr<ReplacementPolicy> make(const PolicySite& site) = 0;
+  /// To be called when the picture is done: throws what has gone wrong unseen.
+  virtual void finish() = 0;
+};
+
+/// A policy that is none of policy_kinds(), on modelled machines only. An immutable value.
+class OwnPolicy {
+ public:
+  virtual ~OwnPolicy() = default;
+  virtual const std::string& name() const = 0;
+  virtual std::unique_ptr<OwnPolicyRun> start() const = 0;
+};
 
 }  // namespace dmpc::svm

@@ -26,24 +26,24 @@ struct Row {
 };
 using Rows = std::vector<Row>;
 
-// What was there on 2026-11-29, and 3 %.
+// What was there on 2026-11-30, and 3 %.
 const Rows sources = {
-    {"apps", 23'620},           {"apps/computer", 5'535},   {"apps/frontend", 15'243},
-    {"apps/foreign", 14'549},   {"apps/lab", 2'282},        {"apps/lab/bench", 8'597},
-    {"apps/lab/oracle", 5'192}, {"apps/lab/study", 10'070}, {"apps/main", 230},
-    {"apps/manual", 60},       {"apps/modules", 670},      {"apps/policy", 690},
-    {"core", 28'820},           {"core/base", 1'580},       {"dataflow", 8'880},
-    {"nodes", 9'897},           {"nodes/pictures", 490},    {"svm", 3'379},
+    {"apps", 24'200},           {"apps/computer", 5'535},  {"apps/frontend", 15'040},
+    {"apps/foreign", 14'549},   {"apps/lab", 2'282},       {"apps/lab/bench", 8'597},
+    {"apps/lab/oracle", 5'192}, {"apps/lab/study", 9'345}, {"apps/main", 230},
+    {"apps/manual", 60},        {"apps/modules", 670},     {"apps/policy", 1'080},
+    {"core", 29'200},           {"core/base", 1'580},      {"dataflow", 8'880},
+    {"nodes", 9'897},           {"nodes/pictures", 490},   {"svm", 3'379},
     {"svm/forest", 690},        {"svm/pages", 3'694},
 };
 const Rows tests = {
     {"tests", 5'850},
-    {"tests/apps", 16'330},
+    {"tests/apps", 17'000},
     {"tests/apps/computer", 2'210},
-    {"tests/apps/frontend", 6'150},
+    {"tests/apps/frontend", 6'170},
     {"tests/apps/foreign", 6'450},
-    {"tests/apps/lab", 11'299},
-    {"tests/core", 17'560},
+    {"tests/apps/lab", 11'160},
+    {"tests/core", 17'900},
     {"tests/dataflow", 7'600},
     {"tests/nodes", 8'440},
     {"tests/support", 5'090},
@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 143'000;
+constexpr std::size_t sources_max = 142'700;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {
@@ -108,7 +108,7 @@ TEST_CASE("no library has more lines than its budget") { CHECK(faults_of(count_b
 
 TEST_CASE("no library's tests have more lines than their budget") { CHECK(faults_of(count_below({"tests"}), tests) == Faults{}); }
 
-TEST_CASE("all sources together have at most 139,645 lines") {
+TEST_CASE("all sources together have no more lines than their limit") {
   const auto counts = count_below(layers);
   const auto add = [](std::size_t sum, const auto& file) { return sum + file.second; };
   CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}, add) <= sources_max);

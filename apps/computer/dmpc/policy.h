@@ -1,6 +1,7 @@
-// A user-defined replacement policy for `dmpc study references` and `dmpc study cache`: a shared library that they load by its
-// full path (--policy=/home/me/lib.so). A class derived from dmpc::Policy and one line, DMPC_POLICY(Class, "name");, define it;
-// other languages export the table that this line defines, as the C symbol dmpc_policy. It needs no library of dmpc.
+// A user-defined replacement policy for `dmpc study references` and `dmpc study cache`, or for renders on modelled machines: a
+// shared library that they load by its full path (--policy=/home/me/lib.so, --replacement=/home/me/lib.so). A class derived from
+// dmpc::Policy and one line, DMPC_POLICY(Class, "name");, define it; other languages export the table that this line defines, as
+// the C symbol dmpc_policy. It needs no library of dmpc.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,9 @@ inline constexpr std::uint32_t policy_version = 2;
 inline constexpr std::uint32_t bypass = 0xffffffffU;
 
 /// Decides which page leaves a full cache when another one arrives. One object is made for each cache, by Class(frame_count,
-/// node): a node's cache has frame_count > 0 frames, numbered from 0, which are filled in order; no page leaves before all are
-/// full. Page numbers are only identifiers. An exception ends the study with its message.
+/// node), those of a render in one process: a node's cache has frame_count > 0 frames, numbered from 0, which are filled in
+/// order; no page leaves before all are full. Page numbers are only identifiers. An exception ends the study or render with its
+/// message.
 class Policy {
  public:
   virtual ~Policy() = default;

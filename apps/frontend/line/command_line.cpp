@@ -1,7 +1,6 @@
 #include "apps/frontend/line/command_line.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include "apps/frontend/line/help_text.h"
 #include "apps/frontend/line/parsed_number.h"
@@ -52,6 +51,7 @@ struct DeclaredCommand {
   std::vector<std::unique_ptr<DeclaredCommand>> commands = {};
   std::vector<std::function<void()>> checks = {};
   std::vector<BriefGroup> brief = {};
+  std::vector<std::string> notes = {};  ///< of the values given
 };
 
 namespace {
@@ -143,8 +143,9 @@ std::vector<std::string> given_in(const DeclaredCommand& command, const std::str
   return {};
 }
 
-/// Notes options that an argument stands for, as if they were given.
-void note_behind(DeclaredCommand& command, const std::vector<std::string>& words) {
+/// Notes options that an argument stands for, as if they were given; returns those that were not.
+std::vector<std::string> note_behind(DeclaredCommand& command, const std::vector<std::string>& words) {
+  std::vector<std::string> noted;
   std::vector<DeclaredCommand::Option*> open;
   for (DeclaredCommand::Option& option : command.options) {
     if (!option.is_argument() && option.given.empty()) {
@@ -158,8 +159,20 @@ void note_behind(DeclaredCommand& command, const std::vector<std::string>& words
     });
     if (of_name != open.end()) {
       (*of_name)->given.push_back(equals == std::string::npos ? "" : word.substr(equals + 1));
+      noted.push_back(word);
     }
   }
+  return noted;
+}
+
+/// What explains a complaint of an option that nobody has typed, since `value` stands for it.
+std::string said_of_value(const std::string& complaint, const std::string& value, const std::vector<std::string>& stands_for) {
+  for (const std::string& word : stands_for) {
+    if (complaint.starts_with(word + " ")) {
+      return "; nobody typed " + word + ", but " + value + " was built with it";
+    }
+  }
+  return "";
 }
 
 /// In the order in which options are declared, whatever that of the line.
@@ -239,18 +252,22 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
 }
 
 void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
-                             const TakeText& take, const std::string& description) {
-  const auto take_word = [option = long_name(name), words, take](const std::string& word) {
+                             const TakeText& take, const std::string& description, const Others& others) {
+  const std::string more = others.take ? " or " + others.shown : "";
+  const auto take_word = [option = long_name(name), words, take, others, more, command = command_](const std::string& word) {
+    if (others.take && others.take(word)) {
+      return;
+    }
     const std::string renamed = renamed_value(option + "=" + word);
     if (!renamed.empty()) {
-      static const std::ostream& once = std::cerr << "dmpc: " << option << '=' << word << " is called " << renamed << " now\n";
-      static_cast<void>(once);
+      command->notes.push_back(option + "=" + word + " is called " + renamed + " now");
     } else if (!is_among(words, word)) {
-      refuse_word(option, word, words);
+      refuse_word(option, word, words, more);
     }
     take(renamed.empty() ? word : renamed);
   };
-  add_text(name, joined(words, "|") + " [" + shown_default + "]", take_word, description);
+  add_text(name, joined(words, "|") + (others.take ? "|" + others.shown : "") + " [" + shown_default + "]", take_word,
+           description);
 }
 
 void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
@@ -307,15 +324,21 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   for (; !words.front().starts_with('-'); words = words.subspan(1)) {
     command = find_command(command->commands, words.front(), [](const auto& each) { return each.get(); });
   }
+  std::string standing_value;
+  std::vector<std::string> stands_for;
   try {
     note_given(*command, words);
     for (const std::string& value : standing_ ? given_in(*command, standing_->argument) : std::vector<std::string>()) {
-      note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
+      standing_value = value;
+      stands_for =
+          note_behind(*command, standing_->words_of(value, [&](const std::string& name) { return given_in(*command, name); }));
     }
     take_given(*command);
+    notes_ = command->notes;
     return line.command;
   } catch (const UsageError& error) {
-    throw UsageError(error.what() + hint_at_help(line.command, program_->name));
+    throw UsageError(error.what() + said_of_value(error.what(), standing_value, stands_for) +
+                     hint_at_help(line.command, program_->name));
   }
 }
 

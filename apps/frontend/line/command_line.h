@@ -68,6 +68,15 @@ class OptionSet {
   /// Adds a choice whose default is the current `value`.
   template <class T>
   void add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description);
+  /// Values that are no words: help shows them as `shown`, and `take` returns whether a text is one, which it takes.
+  struct Others {
+    std::string shown;
+    std::function<bool(const std::string&)> take;
+  };
+  /// Adds such a choice that may be another value.
+  template <class T>
+  void add_choice(const std::string& name, T& value, const Choices<T>& choices, const Others& others,
+                  const std::string& description);
 
   /// An option whose values are integers from `least` to `most`; help shows `shown_default` as its default.
   template <class Field>
@@ -90,8 +99,11 @@ class OptionSet {
 
   explicit OptionSet(DeclaredCommand& command) : command_(&command) {}
 
+  template <class T, class Field>
+  void add_choice_as(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
+                     const std::string& description, const Others& others);
   void add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
-                    const TakeText& take, const std::string& description);
+                    const TakeText& take, const std::string& description, const Others& others = {});
   void add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
                      const TakeNumber& take, const std::string& description);
 
@@ -117,6 +129,9 @@ class CommandLine {
   /// --help, as read_line() (typed_line.h) and the `take` functions do.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
+  /// Sentences about values of the line that was parsed, such as one that is called otherwise now.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   /// What --help prints about a command, {"study", "balance"}, or about the program.
   std::string help(const std::vector<std::string>& command, bool asks_for_all) const;
 
@@ -138,12 +153,34 @@ class CommandLine {
   std::unique_ptr<DeclaredCommand> program_;
   std::string version_;
   Suggestions suggestions_;
+  std::vector<std::string> notes_;
   std::optional<Standing> standing_;
 };
 
 template <class T, class Field>
 void OptionSet::add_choice(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
                            const std::string& description) {
+  add_choice_as<T>(name, value, choices, shown_default, description, {});
+}
+
+template <class T>
+void OptionSet::add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description) {
+  add_choice<T>(name, value, choices, Others{}, description);
+}
+
+template <class T>
+void OptionSet::add_choice(const std::string& name, T& value, const Choices<T>& choices, const Others& others,
+                           const std::string& description) {
+  std::string standard;
+  for (const auto& [word, meaning] : choices) {
+    standard = meaning == value ? word : standard;
+  }
+  add_choice_as<T>(name, value, choices, standard, description, others);
+}
+
+template <class T, class Field>
+void OptionSet::add_choice_as(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
+                              const std::string& description, const Others& others) {
   std::vector<std::string> words;
   for (const auto& [word, meaning] : choices) {
     words.push_back(word);
@@ -155,16 +192,7 @@ void OptionSet::add_choice(const std::string& name, Field& value, const Choices<
       }
     }
   };
-  add_words_as(name, words, shown_default, take, description);
-}
-
-template <class T>
-void OptionSet::add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description) {
-  std::string standard;
-  for (const auto& [word, meaning] : choices) {
-    standard = meaning == value ? word : standard;
-  }
-  add_choice<T, T>(name, value, choices, standard, description);
+  add_words_as(name, words, shown_default, take, description, others);
 }
 
 template <class Field>

@@ -184,7 +184,7 @@ void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages) {
 
 void add_policies(OptionSet set, std::vector<std::string>& places) {
   set.add_texts(
-      "--policy", "FILE.so|python:FILE.py:CLASS", [&places](const std::string& place) { places.push_back(place); },
+      "--policy", ForeignPolicy::places, [&places](const std::string& place) { places.push_back(place); },
       "A replacement policy of your own, beside dmpc's: a shared library by <dmpc/policy.h>, or a class in a file for Python, by "
       "its "
       "full path, which nobody but you and root can write; may be given several times");
@@ -192,7 +192,7 @@ void add_policies(OptionSet set, std::vector<std::string>& places) {
 
 std::vector<ForeignPolicy> load_policies(const std::vector<std::string>& places, const std::function<void()>& check) {
   std::vector<ForeignPolicy> policies =
-      core::mapped<ForeignPolicy>(places, [&](const std::string& place) { return ForeignPolicy(place, check); });
+      core::mapped<ForeignPolicy>(places, [&](const std::string& place) { return ForeignPolicy("--policy", place, check); });
   check_names_differ(policies);
   return policies;
 }

@@ -169,8 +169,9 @@ void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions
 /// Returns the exit status.
 template <class OneStudy>
 int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
-  if constexpr (std::is_same_v<OneStudy, CacheStudy>) {
-    study.load([&interrupt] { interrupt.check(); });
+  const auto check = [&interrupt] { interrupt.check(); };
+  if constexpr (requires { study.load(check); }) {
+    study.load(check);
   }
   const auto [subject, digest, scene, view, bounds] = load(options, files, interrupt);
   if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {

@@ -55,7 +55,7 @@ std::string computer_text(const StrategyOptions& run) {
 }
 
 std::string cache_text(const StrategyOptions& run) {
-  const std::string policy = " (" + std::string(svm::name_of(run.pages.replacement)) + ")";
+  const std::string policy = " (" + std::string(svm::policy_name(run.pages)) + ")";
   if (run.pages.cache_pages) {
     return "cache of " + counted(*run.pages.cache_pages, "page") + policy;
   }
@@ -83,7 +83,7 @@ void SpeedupStudy::add_options(StudyLine line) {
   add_strategy_option(line.set, run.strategy);
   add_memory_option(line.set, run.computer.node_memory_bytes);
   add_machine_option(line.set, run.runner.machine_name, "");
-  add_page_options(line.set, run.pages, "1");
+  add_page_options(line.set, run, "1");
   add_ray_options(line.set, run.rays);
   line.set.check_in_the_end([this, set = line.set, &file = line.machine_name, &database = line.database] {
     file = run.runner.machine_name;
@@ -99,6 +99,8 @@ void SpeedupStudy::add_options(StudyLine line) {
       "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
       "If none can, the exit status is 4.");
 }
+
+void SpeedupStudy::load(const std::function<void()>& check) { load_policy(run, check); }
 
 std::vector<Column> SpeedupStudy::columns() const { return heads_of(speedup_columns()); }
 

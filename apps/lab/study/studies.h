@@ -92,6 +92,9 @@ struct SpeedupStudy {
   /// The options of all runs, with their machine; its node count is not used.
   StrategyOptions run = on_usual_machine();
 
+  /// Loads the user's replacement policy, if there is one.
+  void load(const std::function<void()>& check);
+
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;

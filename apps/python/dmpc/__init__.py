@@ -12,6 +12,14 @@
 Every option of the program's command is a keyword, with underscores for dashes. What goes wrong is an exception with dmpc's own words.
 """
 
+import importlib.util
+
+_PACKAGES = {"numpy": "python3-numpy", "pandas": "python3-pandas", "OpenImageIO": "python3-openimageio"}
+_missing = [module for module in _PACKAGES if importlib.util.find_spec(module) is None]
+if _missing:
+    raise ModuleNotFoundError(f"dmpc needs {' and '.join(_missing)}, which this Python does not have: on Debian, apt install "
+                              f"{' '.join(_PACKAGES[module] for module in _missing)}, for /usr/bin/python3", name=_missing[0])
+
 from . import study
 from .calls import compare, references, render, sweep, trace
 from .pages import Page, page

@@ -11,6 +11,7 @@
 
     dmpc.simulate(Oldest, references, 64)
     dmpc study references trace.csv --policy=python:/home/me/oldest.py:Oldest
+    dmpc render teapot-12 --runner=virtual --replacement=python:/home/me/oldest.py:Oldest -o teapot.png
 
 Frames are numbered from 0 and filled in their order; no page leaves before all have one. hit() is told of a page in a frame that is
 referenced again, where references of one page in a row are one; insert() of a page that has come into a frame, which was empty or
@@ -25,7 +26,10 @@ import array
 import itertools
 import linecache
 import os
+import signal
 import sys
+
+_BYPASS = 2**32 - 1
 
 
 class PolicyError(Exception):
@@ -34,10 +38,47 @@ class PolicyError(Exception):
 
 def simulate(policy, references, frame_count, node=0, prices=None):
     """How often a cache of `frame_count` pages misses; with `prices`, one for each reference, a pair: the misses, and the sum of their
-    prices. `policy` is a class, made as policy(frame_count, node); `references` are pages, as whole numbers, in order. Raises what the
-    policy raises, and a PolicyError if victim() names no frame that there is."""
-    count, cost = _priced(policy, references, frame_count, node, prices)
+    prices. `policy` is a class, made as policy(frame_count, node); `references` are pages, as whole numbers, in order. Of the frame of
+    dmpc.references(), or another with a column page, each node (column node, if there is one) has a cache of its own: then misses, and
+    costs, are a series, or a pair of them, by node. Raises what the policy raises, a PolicyError if victim() names no frame that there
+    is, and a ValueError for a reference that is no page."""
+    if hasattr(references, "columns"):
+        return _simulate_nodes(policy, references, frame_count, node, prices)
+    pages = [_page(page, number) for number, page in enumerate(references)]
+    if prices is not None and len(prices) != len(pages):
+        raise ValueError(f"{len(prices)} prices for {len(pages)} references: expected one for each")
+    count, cost = _priced(policy, pages, frame_count, node, prices)
     return count if prices is None else (count, cost)
+
+
+def _simulate_nodes(policy, frame, frame_count, node, prices):
+    if "page" not in frame.columns:
+        raise ValueError(f"the frame's columns are {', '.join(map(str, frame.columns))}: expected page, and perhaps node")
+    nodes = frame["node"] if "node" in frame.columns else frame["page"] * 0 + node
+    if prices is not None:
+        prices = type(nodes)(list(prices), index=frame.index)  # or a ValueError, if they are more or fewer
+    found = {each: simulate(policy, of_node["page"].tolist(), frame_count, each, None if prices is None else prices[of_node.index].tolist())
+             for each, of_node in frame.groupby(nodes)}
+    def by_node(values):
+        series = type(nodes)(list(values), index=list(found), dtype="int64")
+        series.index.name = "node"
+        return series
+    return by_node(found.values()) if prices is None else tuple(by_node(pair[i] for pair in found.values()) for i in (0, 1))
+
+
+_PAGE_MAX = 2**32 - 2
+
+
+def _page(page, number):
+    """A reference as a whole number: also numpy's, and 3.0, but nothing else."""
+    try:
+        is_truth = type(page).__name__ in ("bool", "bool_")
+        whole = -1 if is_truth else int(page) if isinstance(page, float) else page.__index__()
+    except (AttributeError, TypeError, ValueError, OverflowError):
+        whole = -1
+    if whole != page or not 0 <= whole <= _PAGE_MAX:
+        raise ValueError(f"reference {number} is {page!r:.80}, expected a page: a whole number from 0 to {_PAGE_MAX:,}")
+    return whole
 
 
 def _priced(policy, references, frame_count, node, prices):
@@ -58,39 +99,55 @@ class _Cache:
             raise PolicyError("it has no method victim(self, incoming), which says the frame whose page leaves")
 
     def feed(self, references, prices=None):
-        frames, pages, last, cost = {}, [], None, 0
+        frames, pages, last, cost, hit = {}, [], None, 0, self.hit
         for page, price in zip(references, itertools.repeat(1) if prices is None else prices):
             if page == last:
                 continue
             last = page
             frame = frames.get(page)
             if frame is not None:
-                if self.hit is not None:
+                if hit is not None:
                     self.call = ("hit", page)
-                    self.hit(page, frame)
+                    hit(page, frame)
                 continue
-            self.misses += 1
             cost += price
-            if self.price is not None:
-                self.call = ("price", page)
-                self.price(page, price)
+            self.miss(page, price)
             if len(pages) < self.frame_count:
                 frame = len(pages)
                 pages.append(page)
             else:
-                self.call = ("victim", page)
-                frame = self.victim(page)
-                if isinstance(frame, str) and frame == "bypass":
+                frame = self.frame_for(page)
+                if frame is None:
                     continue
-                if type(frame) is not int or not 0 <= frame < self.frame_count:
-                    frame = self._checked(frame)
                 del frames[pages[frame]]
                 pages[frame] = page
             frames[page] = frame
-            if self.insert is not None:
-                self.call = ("insert", page)
-                self.insert(page, frame)
+            self.put(page, frame)
         return self.misses, cost
+
+    def touch(self, page, frame):
+        if self.hit is not None:
+            self.call = ("hit", page)
+            self.hit(page, frame)
+
+    def miss(self, page, price):
+        self.misses += 1
+        if self.price is not None:
+            self.call = ("price", page)
+            self.price(page, price)
+
+    def frame_for(self, page):
+        """The frame whose page leaves; None if the new one bypasses the cache."""
+        self.call = ("victim", page)
+        frame = self.victim(page)
+        if isinstance(frame, str) and frame == "bypass":
+            return None
+        return frame if type(frame) is int and 0 <= frame < self.frame_count else self._checked(frame)
+
+    def put(self, page, frame):
+        if self.insert is not None:
+            self.call = ("insert", page)
+            self.insert(page, frame)
 
     def _checked(self, frame):
         """What is no int, but a whole number all the same, such as numpy's."""
@@ -143,31 +200,86 @@ def _numbers(file, count):
     return numbers
 
 
-def _serve(path, name):
-    """What dmpc has it do: apps/policy/request.h says what it is asked, and how it answers."""
-    answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # what the policy prints is no answer
-    node, cache_count, source_bytes, reference_count, price_count = _numbers(sys.stdin.buffer, 5)
-    caches, references, prices = (_numbers(sys.stdin.buffer, count) for count in (cache_count, reference_count, price_count))
-    at = ""
-    try:
-        policy = _class_in(sys.stdin.buffer.read(source_bytes), path, name)
-        print(name, file=answers, flush=True)
+class _Server:
+    """What dmpc has a process do: apps/policy/request.h says what it is asked, and how it answers."""
+
+    def __init__(self, path, name):
+        self.path, self.asked, self.answers = path, sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+        os.dup2(2, 1)  # what the policy prints is no answer
+        self.cache, self.at, self.seen = None, "", None
+        try:
+            self._serve(name)
+        except BaseException as error:  # a policy's exit, too
+            self._end((f"{self.cache}: " if self.at is None else self.at) + _said(error, path))
+        os._exit(0)
+
+    def _serve(self, name):
+        node, is_of_run, seconds, cache_count, source_bytes, reference_count, price_count = _numbers(self.asked, 7)
+        caches, references, prices = (_numbers(self.asked, count) for count in (cache_count, reference_count, price_count))
+        signal.signal(signal.SIGPROF, self._look_for_hang)
+        signal.setitimer(signal.ITIMER_PROF, seconds, seconds)
+        policy = _class_in(self.asked.read(source_bytes), self.path, name)
+        if is_of_run:
+            self._follow_run(policy)
+            return
+        self._say(f"{name}\n".encode())
         for frame_count in caches:
-            cache = None
             if frame_count == 0:
-                print(reference_count, sum(prices) if prices else reference_count, file=answers, flush=True)
-                continue
-            at = f"making it for {frame_count} frames of node {node}: "
-            cache = _Cache(policy, frame_count, node)
-            at = None
-            print(*cache.feed(references, prices or None), file=answers, flush=True)
-    except BaseException as error:  # a policy's exit, too
-        sys.stderr.write((f"{cache}: " if at is None else at) + _said(error, path))
+                count, cost = _priced(policy, references, 0, node, prices or None)
+            else:
+                count, cost = self._make(policy, frame_count, node).feed(references, prices or None)
+            self._say(f"{count} {cost}\n".encode())
+
+    def _follow_run(self, policy):
+        """The caches of a run, by node: kinds of events are those of PolicyEvent."""
+        caches, coming = {}, None
+        while count := self.asked.read(4):
+            events = _numbers(self.asked, 3 * int.from_bytes(count, sys.byteorder))
+            for which, page, frame in zip(events[::3], events[1::3], events[2::3]):
+                node, kind = which >> 3, which & 7
+                if kind == 1:
+                    self.cache = caches[node]
+                    self.cache.touch(page, frame)
+                elif kind == 2:
+                    self.cache = caches[node]
+                    if coming != which:  # it fills an empty frame
+                        self.cache.miss(page, 1)
+                    self.cache.put(page, frame)
+                    coming = None
+                elif kind == 3:
+                    self.cache = caches[node]
+                    self.cache.miss(page, 1)
+                    frame = self.cache.frame_for(page)
+                    coming = None if frame is None else which - 1
+                    self._say((_BYPASS if frame is None else frame).to_bytes(4, sys.byteorder))
+                elif kind == 0:
+                    caches[node] = self._make(policy, page, node)
+                else:
+                    self._say(bytes(4))
+
+    def _make(self, policy, frame_count, node):
+        self.at = f"making it for {frame_count} frames of node {node}: "
+        self.cache = _Cache(policy, frame_count, node)
+        self.at = None
+        return self.cache
+
+    def _say(self, answer):
+        self.answers.write(answer)
+        self.answers.flush()
+
+    def _look_for_hang(self, signal_number, frame):
+        """Ends a policy that is still in the call in which it was at the last look."""
+        while frame is not None and frame.f_code.co_filename != self.path:
+            frame = frame.f_back
+        before, self.seen = self.seen, (frame and self.at, self.cache and self.cache.call)
+        if frame is not None and before is not None and before[0] is self.seen[0] and before[1] is self.seen[1]:
+            self._end((f"{self.cache}: " if self.at is None else self.at) + f"it does not come back ({self.path}, line {frame.f_lineno})")
+
+    def _end(self, complaint):
+        sys.stderr.write(complaint)
         sys.stderr.flush()
         os._exit(1)
-    os._exit(0)
 
 
 if __name__ == "__main__":
-    _serve(*sys.argv[1:3])
+    _Server(*sys.argv[1:3])

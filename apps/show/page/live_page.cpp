@@ -18,9 +18,10 @@ constexpr const char* body =
 <div class="for-view"><div id="moves" role="group" aria-label="Where the camera goes"><button type="button" id="left">Left</button>
 <button type="button" id="right">Right</button> <button type="button" id="up">Up</button>
 <button type="button" id="down">Down</button> <button type="button" id="nearer">Nearer</button>
-<button type="button" id="farther">Farther</button> <button type="button" id="home">Back to the start</button></div>
+<button type="button" id="farther">Farther</button> <button type="button" id="home">Back to the start</button>
+<button type="button" id="render">Render</button></div>
 <p>Drag to go round, with Shift or the right button to shift, turn the wheel to go nearer. Or by keys, once the picture is chosen:
-arrows, Shift with arrows, + and -, Home.</p></div></section>
+arrows, Shift with arrows, + and -, Home. Render, or the key R, ends the view: dmpc then renders this picture as view.png.</p></div></section>
 <section><div id="nodes" class="for-run"><h2>What each node does, a row a node</h2>
 <canvas id="raster" role="img" aria-label="What each node did over time, a row a node. Below is what all of them do now." width="1"
 height="1"></canvas>

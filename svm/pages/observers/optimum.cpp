@@ -49,6 +49,35 @@ std::uint64_t all_miss(std::size_t references, const Missed& missed) {
   return references;
 }
 
+/// `shape` is that of a cache whose pages have one byte.
+std::uint64_t misses_of(const CacheShape& shape, std::span<const PageId> references, std::uint32_t seed, const Missed& missed) {
+  if (shape.frame_count == 0) {
+    return all_miss(references.size(), missed);
+  }
+  constexpr std::array<std::byte, 1> page_bytes{};
+  nodes::LocalMemory memory(Cache::layout(shape));
+  Cache cache(memory, shape, seed);
+  std::uint64_t misses = 0;
+  PageId passing = no_page;
+  for (std::size_t reference = 0; reference < references.size(); ++reference) {
+    const PageId page = references[reference];
+    if (page == passing) {
+      continue;
+    }
+    passing = no_page;
+    if (const std::uint32_t frame = cache.frame_of(page); frame != Cache::no_frame) {
+      cache.touch(frame);
+      continue;
+    }
+    ++misses;
+    if (missed) {
+      missed(reference);
+    }
+    passing = cache.install(page, page_bytes) == page ? page : no_page;
+  }
+  return misses;
+}
+
 }  // namespace
 
 Optimum::Optimum(std::span<const PageId> references)
@@ -96,27 +125,12 @@ std::uint64_t Optimum::misses(std::uint32_t cache_pages, const Missed& missed) c
 
 std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
                             std::uint32_t seed, const Missed& missed) {
-  if (cache_pages == 0) {
-    return all_miss(references.size(), missed);
-  }
-  constexpr std::array<std::byte, 1> page_bytes{};
-  const CacheShape shape{cache_pages, page_bytes.size(), replacement};
-  nodes::LocalMemory memory(Cache::layout(shape));
-  Cache cache(memory, shape, seed);
-  std::uint64_t misses = 0;
-  for (std::size_t reference = 0; reference < references.size(); ++reference) {
-    const PageId page = references[reference];
-    if (const std::uint32_t frame = cache.frame_of(page); frame != Cache::no_frame) {
-      cache.touch(frame);
-      continue;
-    }
-    ++misses;
-    if (missed) {
-      missed(reference);
-    }
-    cache.install(page, page_bytes);
-  }
-  return misses;
+  return misses_of({cache_pages, 1, replacement}, references, seed, missed);
+}
+
+std::uint64_t policy_misses(OwnPolicyRun& policy, std::span<const PageId> references, std::uint32_t cache_pages,
+                            std::uint32_t seed, const Missed& missed) {
+  return misses_of({.frame_count = cache_pages, .page_size_bytes = 1, .own = &policy}, references, seed, missed);
 }
 
 }  // namespace dmpc::svm

@@ -40,5 +40,8 @@ class Optimum {
 /// a cache's time. Throws core::CapacityError if there is not enough memory.
 std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
                             std::uint32_t seed, const Missed& missed = {});
+/// The same with a policy of the user's. A page that bypasses the cache serves its references in a row.
+std::uint64_t policy_misses(OwnPolicyRun& policy, std::span<const PageId> references, std::uint32_t cache_pages,
+                            std::uint32_t seed, const Missed& missed = {});
 
 }  // namespace dmpc::svm

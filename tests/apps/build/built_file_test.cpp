@@ -95,7 +95,9 @@ TEST_CASE("options that decide a database agree with it or are refused, with wha
     CHECK(contains(refusal({file, given}), words));
     CHECK(contains(refusal({file, given}), "dmpc build SCENE"));
   }
-  CHECK(contains(usage_complaint({file, "--strategy=forest"}), "--structure"));
+  CHECK(contains(usage_complaint({file, "--strategy=forest"}),
+                 "--structure=grid does not go with --strategy=forest: its nodes share one tree of boxes; nobody typed "
+                 "--structure=grid, but " + file + " was built with it"));
   CHECK(contains(complaint_of<core::UsageError>([&] { build_database_file(folder, {file}, "b.pages"); }), "is built already"));
   CHECK(contains(complaint_of<core::UsageError>([&] { build_database_file(folder, {"rings-1"}, "b.db"); }), "ends in .pages"));
 }

@@ -73,6 +73,22 @@ class NotebookTest(unittest.TestCase):
         question = lab.Question("", code="a = 1\nb[0], c = f(2)  # blank\ndef g():\n    return 3  # blank\nassert a == 1\n")
         self.assertEqual(question.with_blanks(), "a = 1\nb[0], c = ...\ndef g():\n    return ...\nassert a == 1\n")
 
+    def test_links_of_notebooks_lead_somewhere(self):
+        places = [place for name in lab.NAMES for place in re.findall(r"\[[^]]+\]\(([^)]+?)(?:#[^)]*)?\)", "".join(
+            "".join(cell["source"]) for cell in make_notebooks.notebook(lab.read(name))["cells"] if cell["cell_type"] == "markdown"))]
+        self.assertIn("speedup.ipynb", places)
+        for place in places:
+            self.assertTrue((LABS / "notebooks" / place).exists(), place)
+
+    def test_a_wrong_blank_is_told_with_what_was_expected_and_what_it_is(self):
+        question = lab.Question("", code='a = 1  # blank\nc = 2\nassert a == c and {"x": a} != {}\nassert c == 3\n')
+        self.assertEqual(question.blanks(), ["a"])
+        cell = make_notebooks.explained(question.with_blanks().replace("...", "7"), question.blanks())
+        with self.assertRaises(AssertionError) as raised:
+            exec(cell)
+        self.assertEqual(str(raised.exception), 'expected a == c and {"x": a} != {}, but a = 7')
+        self.assertTrue(cell.endswith("assert c == 3, f'expected c == 3'\n"))
+
     def test_a_command_of_a_page_becomes_a_call_or_a_line_of_the_shell(self):
         typed = lab.Typed("dmpc study sweep balls-1 --nodes=3 --in-flight=1 --vary=page-size:512B,1KiB --columns=a.b,c")
         self.assertEqual(make_notebooks.words_of(typed, "frame_1"),

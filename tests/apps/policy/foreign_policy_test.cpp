@@ -58,7 +58,7 @@ std::string complaint_of(const ForeignPolicy& policy, std::uint32_t cache_pages,
 }
 
 std::string refusal_of(const std::string& place) {
-  return tests::complaint_of([&] { const ForeignPolicy policy(place, no_check); });
+  return tests::complaint_of([&] { const ForeignPolicy policy("--policy", place, no_check); });
 }
 
 struct Python {
@@ -67,7 +67,7 @@ struct Python {
 
   explicit Python(const std::string& source) { write_text(file, source); }
   std::string place(const std::string& name = "Mine") const { return "python:" + file + ":" + name; }
-  ForeignPolicy loaded() const { return ForeignPolicy(place(), no_check); }
+  ForeignPolicy loaded() const { return ForeignPolicy("--policy", place(), no_check); }
 };
 
 std::string clock_in_python() {
@@ -82,7 +82,8 @@ TEST_CASE("a clock of one's own, in Python and in a library, misses what dmpc's 
   for (const std::string& place : {clock_in_python(), std::string(DMPC_CLOCK_POLICY)}) {
     CAPTURE(place);
     std::size_t fed = 0;
-    const std::vector<PricedFaults> misses = ForeignPolicy(place, no_check).misses(pages, caches, 0, no_check, [&fed] { ++fed; });
+    const std::vector<PricedFaults> misses =
+        ForeignPolicy("--policy", place, no_check).misses(pages, caches, 0, no_check, [&fed] { ++fed; });
     REQUIRE(misses.size() == caches.size());
     CHECK(fed == caches.size());
     for (std::size_t i = 0; i < caches.size(); ++i) {
@@ -90,15 +91,16 @@ TEST_CASE("a clock of one's own, in Python and in a library, misses what dmpc's 
       CHECK(misses[i].count == svm::policy_misses(svm::Replacement::clock, pages, caches[i], 0));
     }
   }
-  CHECK(ForeignPolicy(DMPC_CLOCK_POLICY, no_check).name() == "my-clock");
-  CHECK(ForeignPolicy(clock_in_python(), no_check).name() == "Clock");
+  CHECK(ForeignPolicy("--policy", DMPC_CLOCK_POLICY, no_check).name() == "my-clock");
+  CHECK(ForeignPolicy("--policy", clock_in_python(), no_check).name() == "Clock");
 }
 
 TEST_CASE("S4-FIFO with its knobs at rest misses what dmpc's s3-fifo does") {
   const std::string file = fs::canonical(DMPC_SOURCE_DIR "/apps/python/examples/s4_fifo.py").string();
   const std::vector<PageId> pages = references();
   const std::vector<std::uint32_t> caches = {1, 2, 3, 9, 16, 31, 40, 59};
-  const auto faults = ForeignPolicy("python:" + file + ":S4Fifo", no_check).misses(pages, caches, 0, no_check, no_check);
+  const auto faults =
+      ForeignPolicy("--policy", "python:" + file + ":S4Fifo", no_check).misses(pages, caches, 0, no_check, no_check);
   for (std::size_t i = 0; i < caches.size(); ++i) {
     CHECK(faults[i].count == svm::policy_misses(svm::Replacement::small_and_main, pages, caches[i], 0));
   }
@@ -121,7 +123,7 @@ TEST_CASE("a page that a policy does not take in is fetched and evicts nothing, 
   for (const PageId page : many) {
     price_of_many.push_back(1 + svm::index_of(page) * 7 % 23);
   }
-  const ForeignPolicy dear(DMPC_DEAR_POLICY, no_check), mine = python.loaded();
+  const ForeignPolicy dear("--policy", DMPC_DEAR_POLICY, no_check), mine = python.loaded();
   for (const ForeignPolicy* const policy : {&dear, &mine}) {
     CAPTURE(policy->name());
     const PricedFaults faults = policy->misses(few, one, 0, no_check, no_check, prices).front();
@@ -140,7 +142,7 @@ TEST_CASE("a page that a policy does not take in is fetched and evicts nothing, 
 
 TEST_CASE("a library of the interface's first version runs as it did, and its price() is not looked for") {
   const std::vector<std::uint32_t> caches = {2};
-  const ForeignPolicy old(DMPC_OLD_POLICY, no_check);
+  const ForeignPolicy old("--policy", DMPC_OLD_POLICY, no_check);
   CHECK(old.name() == "old");
   CHECK(old.misses(all_different(5), caches, 0, no_check, no_check).front().count == 5);
 }
@@ -189,7 +191,7 @@ TEST_CASE("what a policy in Python does wrong is told with its call, fault, cach
 }
 
 TEST_CASE("what a library's policy does wrong is told with its call, fault and cache, and harms nobody, though it crashes") {
-  const ForeignPolicy policy(DMPC_HOSTILE_POLICY, no_check);
+  const ForeignPolicy policy("--policy", DMPC_HOSTILE_POLICY, no_check);
   const auto said = [&](std::uint32_t cache_pages) { return complaint_of(policy, cache_pages, all_different(50)); };
   const std::string begin = "--policy=" + std::string(DMPC_HOSTILE_POLICY) + ": ";
   CHECK(said(1) == "");
@@ -207,7 +209,7 @@ TEST_CASE("what a library's policy does wrong is told with its call, fault and c
 }
 
 TEST_CASE("a policy that does not come to an end is ended with whoever waits for it") {
-  const ForeignPolicy policy(DMPC_HOSTILE_POLICY, no_check);
+  const ForeignPolicy policy("--policy", DMPC_HOSTILE_POLICY, no_check);
   const std::vector<std::uint32_t> caches = {8};
   int checks = 0;
   CHECK_THROWS_AS(policy.misses(
@@ -219,6 +221,23 @@ TEST_CASE("a policy that does not come to an end is ended with whoever waits for
                       },
                       no_check),
                   apps::Interrupted);
+}
+
+TEST_CASE("a policy that does not come back from a call is an error after some processor time") {
+  const Python python(
+      "class Mine:\n  def __init__(self, frame_count, node): pass\n  def victim(self, incoming):\n    while True: pass\n");
+  const apps::PolicyPatience second{.call_seconds = 1};
+  const ForeignPolicy in_python("--policy", python.place(), no_check, second),
+      by_library("--policy", DMPC_HOSTILE_POLICY, no_check, second);
+  CHECK(complaint_of(in_python, 2, all_different(50)) == "--policy=" + python.place() +
+                                                             ": victim(page 2) of fault 3, with 2 frames of node 3: it does not "
+                                                             "come back (" +
+                                                             python.file + ", line 4)");
+  CHECK(contains(complaint_of(by_library, 8, all_different(50)),
+                 "victim(page 8) of fault 9, with 8 frames of node 3: it does not come back"));
+  const Python begins("while True: pass\n");
+  const std::string said = tests::complaint_of([&] { const ForeignPolicy policy("--policy", begins.place(), no_check, second); });
+  CHECK(said == "--policy=" + begins.place() + ": it does not come back (" + begins.file + ", line 1)");
 }
 
 TEST_CASE("Ctrl-C ends a study whose policy hangs, and its process") {

@@ -266,6 +266,15 @@ class StudyTest(unittest.TestCase):
             dmpc.study.cache("balls-1", nodes=0)
 
 
+class ImportTest(unittest.TestCase):
+    def test_packages_that_are_missing_are_named(self):
+        ended = subprocess.run([sys.executable, "-c", "import importlib.util as u; find = u.find_spec; import sys; hidden = sys.argv[2:]\n"
+                                "u.find_spec = lambda name, *more: None if name in hidden else find(name, *more)\n"
+                                "sys.path.insert(0, sys.argv[1])\nimport dmpc", MODULES, "pandas", "OpenImageIO"], capture_output=True, text=True)
+        self.assertIn("ModuleNotFoundError: dmpc needs pandas and OpenImageIO, which this Python does not have: on Debian, apt install "
+                      "python3-pandas python3-openimageio, for /usr/bin/python3", ended.stderr)
+
+
 class PolicyTest(unittest.TestCase):
     CLOCK = pathlib.Path(MODULES, "examples/clock.py")
 
@@ -281,6 +290,46 @@ class PolicyTest(unittest.TestCase):
         for size, faults in zip(frame["cache_pages"], frame["faults_clock"]):
             self.assertEqual(faults, sum(dmpc.simulate(space["Clock"], of_node["page"].to_list(), size, node)
                                          for node, of_node in references.groupby("node")))
+
+    def test_of_a_frame_each_node_has_a_cache_of_its_own(self):
+        space = {}
+        exec(self.CLOCK.read_text(), space)
+        frame = dmpc.references("rings-2-t1", nodes=3, resolution="32x32", runner="virtual", work_item=0)
+        misses = dmpc.simulate(space["Clock"], frame, 4)
+        self.assertEqual(list(misses.index), [0, 1, 2])
+        self.assertEqual(misses.index.name, "node")
+        for node, of_node in frame.groupby("node"):
+            self.assertEqual(misses[node], dmpc.simulate(space["Clock"], of_node["page"], 4, node))
+        again, costs = dmpc.simulate(space["Clock"], frame, 4, prices=frame["bytes"])
+        self.assertTrue(again.equals(misses))
+        self.assertEqual(costs.sum(), 1024 * misses.sum())
+        alone = dmpc.simulate(space["Clock"], frame[["page"]], 4, node=7)
+        self.assertEqual(list(alone.index), [7])
+        self.assertEqual(alone[7], dmpc.simulate(space["Clock"], frame["page"], 4))
+        self.assertEqual(list(dmpc.simulate(space["Clock"], frame[:0], 4)), [])
+        with self.assertRaisesRegex(ValueError, "the frame's columns are node, bytes: expected page, and perhaps node"):
+            dmpc.simulate(space["Clock"], frame[["node", "bytes"]], 4)
+
+    def test_what_is_no_page_number_is_refused_with_its_place(self):
+        space = {}
+        exec(self.CLOCK.read_text(), space)
+        for wrong in ("7", None, -1, 2**32 - 1, 1.5, float("nan"), float("inf"), True, [1], b"1", numpy.float32(0.5), numpy.bool_(True)):
+            with self.assertRaisesRegex(ValueError, "reference 2 is .*, expected a page: a whole number from 0 to 4,294,967,294"):
+                dmpc.simulate(space["Clock"], [1, 2, wrong, 3], 2)
+        self.assertEqual(dmpc.simulate(space["Clock"], [1, 2.0, numpy.uint64(2**32 - 2), numpy.float64(1), 1], 4), 3)
+        with self.assertRaisesRegex(ValueError, "1 prices for 2 references"):
+            dmpc.simulate(space["Clock"], [1, 2], 2, prices=[1])
+
+    def test_a_policy_of_ones_own_decides_in_a_render_and_in_a_sweep(self):
+        clock = f"python:{self.CLOCK.resolve()}:Clock"
+        with tempfile.TemporaryDirectory() as folder:
+            table = dmpc.sweep("rings-2-t1", replacement=["clock", clock], runner="virtual", nodes=4, cache_pages=6, resolution="32x32",
+                               columns=["pages.faults", "virtual_seconds.total"], runs=folder)
+        self.assertEqual(table["pages.faults"][0], table["pages.faults"][1])
+        self.assertEqual(table["virtual_seconds.total"][0], table["virtual_seconds.total"][1])
+        render = dmpc.render("rings-2-t1", replacement=clock, runner="virtual", nodes=4, cache_pages=6, resolution="32x32")
+        self.assertEqual(render.stats["pages"]["faults"], table["pages.faults"][1])
+        self.assertEqual(render.stats["options"]["replacement"], "Clock")
 
     def test_s4_fifo_promotes_what_comes_back_and_if_it_is_wary_what_comes_back_twice(self):
         space = {}

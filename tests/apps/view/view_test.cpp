@@ -15,16 +15,18 @@ namespace dmpc::tests::view_test {
 
 namespace {
 
-std::vector<std::string> line_of(const std::string& scene, const std::vector<std::string>& options) {
-  std::vector<std::string> line = {DMPC_PROGRAM, "view", scene, "--nodes=3", "--quiet"};
+std::vector<std::string> line_of(const std::string& scene, const std::vector<std::string>& options,
+                                 std::vector<std::string> line) {
+  line.insert(line.end(), {DMPC_PROGRAM, "view", scene, "--nodes=3", "--quiet"});
   line.insert(line.end(), options.begin(), options.end());
   return line;
 }
 
 /// A view of a scene, and somebody who looks at it.
 struct Viewed {
-  explicit Viewed(const std::string& scene, const std::vector<std::string>& options = {"--resolution=32x24"})
-      : page(line_of(scene, options)), viewer(page.port) {
+  explicit Viewed(const std::string& scene, const std::vector<std::string>& options = {"--resolution=32x24"},
+                  const std::vector<std::string>& begin = {})
+      : page(line_of(scene, options, begin)), viewer(page.port) {
     viewer.get(page.path("events"), page.host);
   }
 
@@ -129,6 +131,22 @@ TEST_CASE("a mesh with a camera of its own, and no light, is lit as the command 
   viewed.wish("2,1,3/0.5,0,0/0,1,0/45", false);
   const std::string turned = viewed.resting_picture();
   CHECK(film_by(Viewed::value(turned, "command")) == Viewed::value(turned, "film"));
+}
+
+TEST_CASE("a final wish ends the view, and its process renders the picture that was seen, as view.png") {
+  const TemporaryFolder folder;
+  Viewed viewed("balls-2", {"--resolution=32x24"}, {"/usr/bin/env", "-C", folder.path().string()});
+  viewed.resting_picture();
+  viewed.wish("3,2,2/0,0,0/0,0,1/40", false);
+  const std::string command = Viewed::value(viewed.resting_picture(), "command");
+  CHECK(contains(viewed.page.sent("camera", R"({"camera": "3,2,2/0,0,0/0,0,1/40", "moving": false, "render": true})"), "200 OK"));
+  CHECK(contains(viewed.viewer.heard_all(), "event: end\ndata: {\"figures\":\"" + command + "\""));
+  CHECK(viewed.page.process.status() == 0);
+  CHECK(contains(viewed.page.process.errors(), "dmpc: " + command + "\n"));
+  const TemporaryFolder other;
+  const Said said = run({"sh", "-c", "cd " + other.path().string() + " && " + DMPC_PROGRAM + command.substr(4)});
+  REQUIRE(said.status == 0);
+  CHECK(file_text(folder / "view.png") == file_text(other / "view.png"));
 }
 
 TEST_CASE("of a picture that takes long nothing is waited for when the camera moves on") {

@@ -30,6 +30,20 @@ TEST_CASE("a wish is a camera as --camera takes it, to the last bit, and whether
   CHECK(text_of(wish.camera) == "0.1,2,3e-05/0,0,0/0,1,0/45.5");
 }
 
+TEST_CASE("a wish may be final, and then stays the newest") {
+  const std::string final_wish = R"({"camera": "0,0,1/0,0,0/0,1,0/45", "moving": false, "render": true})";
+  CHECK(wish_in(final_wish).is_final);
+  CHECK_FALSE(wish_in(wish_for("0,0,1/0,0,0/0,1,0/45")).is_final);
+  CHECK(tests::contains(refusal(R"({"camera": "0,0,1/0,0,0/0,1,0/45", "moving": false, "render": false})"), "expected JSON"));
+  Wishes wishes;
+  wishes.take(final_wish);
+  CHECK(wishes.take(wish_for("0,0,2/0,0,0/0,1,0/45")).status == 200);
+  const std::optional<Wish> next = wishes.next({});
+  REQUIRE(next);
+  CHECK(next->is_final);
+  CHECK(next->camera.from == core::Vec3d{0, 0, 1});
+}
+
 TEST_CASE("a camera that shows nothing is refused by a sentence") {
   CHECK(tests::contains(refusal(wish_for("1,2,3/1,2,3/0,1,0/45")), "FROM and AT at different points"));
   CHECK(tests::contains(refusal(wish_for("0,0,1/0,0,0/0,0,1/45")), "not parallel to the line from FROM to AT"));

@@ -223,6 +223,74 @@ TEST_CASE("on a modelled machine pages at home and in the cache are where they a
   }
 }
 
+TEST_CASE("a page that bypasses the cache serves all who waited for it, from its packet, and nobody else") {
+  struct TakesNone final : svm::OwnPolicyRun, svm::ReplacementPolicy {
+    std::unique_ptr<svm::ReplacementPolicy> make(const svm::PolicySite& /*site*/) override {
+      return std::make_unique<TakesNone>();
+    }
+    void finish() override {}
+    std::uint32_t victim(PageId /*incoming*/) override { return svm::bypass; }
+  };
+  struct Waiting {
+    svm::Pager& pager;
+    const FakePages& pages;
+    std::vector<std::uint32_t> went_on = {};
+
+    bool finds(std::uint32_t page) const {
+      const std::byte* const record = pager.find(core::advance(start_of(page), 16));
+      return record != nullptr && std::memcmp(record, pages.page(page).data() + 16, page_size - 16) == 0;
+    }
+    void go_on(std::uint32_t slot) {
+      went_on.push_back(slot);
+      CHECK(finds(7));
+      CHECK(finds(5));
+      CHECK(finds(0));
+      CHECK(finds(7));
+    }
+  };
+  for (const nodes::Immutable immutable : {nodes::Immutable::is_copied, nodes::Immutable::is_referred_to}) {
+    svm::Plan plan = plan_with(4, 2, 2);
+    TakesNone policy;
+    plan.own_policy = &policy;
+    LoneNode lone(plan, 0, immutable);
+    const FakePages pages(page_count, page_size);
+    svm::Pager pager(lone.node, plan.pages(), pages.bytes());
+    Waiting waiting{pager, pages};
+    const auto receive = [&](std::uint32_t page) {
+      const svm::PageReplyHeader header{PageId{page}};
+      pager.receive(
+          {nodes::NodeId{page % 4}, svm::number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)), pages.page(page)},
+          waiting);
+    };
+    for (const std::uint32_t page : {5U, 6U}) {
+      CHECK(pager.find(start_of(page)) == nullptr);
+      pager.park(0, start_of(page));
+      const svm::PageReplyHeader header{PageId{page}};
+      pager.install(
+          {nodes::NodeId{page % 4}, svm::number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)), pages.page(page)});
+      CHECK(waiting.finds(page));
+      pager.retried();
+    }
+    for (int time = 0; time < 2; ++time) {
+      for (const std::uint32_t slot : {0U, 1U}) {
+        CHECK(pager.find(start_of(7)) == nullptr);
+        pager.park(slot, start_of(7));
+      }
+      receive(7);
+      CHECK(pager.find(start_of(7)) == nullptr);
+      CHECK(waiting.finds(5));
+      CHECK(waiting.finds(6));
+    }
+    CHECK(waiting.went_on.size() == 4);
+    const svm::PageCounters counters = pager.counters();
+    CHECK(counters.evictions == 0);
+    CHECK(counters.faults == 4);
+    CHECK(counters.misses == 8);
+    CHECK(counters.home_hits == 4);
+    CHECK(counters.cache_hits == 2 + 4 * 3 - 4 + 4 - 2);
+  }
+}
+
 TEST_CASE("a request at the wrong home, for a page that does not exist, or a reply of the wrong size is an error") {
   SmallPager small(4, 1, 1);
   CHECK_THROWS_AS(small.pager.serve(parcel_of(1, Kind::page_request, svm::PageRequest{PageId{5}}).packet()), core::InternalError);

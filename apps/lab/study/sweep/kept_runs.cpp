@@ -67,13 +67,16 @@ bool has(const std::vector<Figure>& figures, const std::string& column) {
   });
 }
 
-/// Adds a word such as "--machine=mine.json", and the file that it names.
+/// Adds a word such as "--machine=mine.json" or "--replacement=python:/mine.py:Mine", and the file that it names.
 void add_word(const std::string& word, Digest& digest) {
   digest.add(std::string_view(word));
-  const std::size_t sign = word.find('=');
+  constexpr std::string_view python = "--replacement=python:";
+  const bool is_python = word.starts_with(python);
+  const std::size_t begin = is_python ? python.size() : word.find('=') + 1, end = is_python ? word.rfind(':') : word.size();
+  const std::string value = word.substr(begin, std::max(begin, end) - begin);
   std::error_code none;
-  if (sign != std::string::npos && fs::is_regular_file(word.substr(sign + 1), none)) {
-    add_file(word.substr(sign + 1), digest);
+  if (begin > 0 && fs::is_regular_file(value, none)) {
+    add_file(value, digest);
   }
 }
 

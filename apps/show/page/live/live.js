@@ -184,9 +184,14 @@ const send = async () => {
   isSending = false;
   send();
 };
-const wish = (moving) => {
-  next = {camera: textOf(camera), moving};
+const wish = (moving, more = {}) => {
+  next = {camera: textOf(camera), moving, ...more};
   send();
+};
+const render = () => {
+  if (!camera) return;
+  clearTimeout(rests);
+  wish(false, {render: true});
 };
 const go = (to) => {
   if (!camera) return;
@@ -215,13 +220,14 @@ const lookRound = (canvas) => {
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "application");
   canvas.setAttribute("aria-label",
-    "The picture. Arrow keys go round it, with Shift they shift it, plus and minus go nearer and farther, Home goes back.");
+    "The picture. Arrow keys go round it, with Shift they shift it, plus and minus go nearer and farther, Home goes back, R renders it.");
+  byId("render").addEventListener("click", render);
   for (const [id, way] of Object.entries(ways)) byId(id).addEventListener("click", () => go(way));
   canvas.addEventListener("keydown", (event) => {
-    const way = (event.shiftKey && shiftedKeys[event.key]) || keys[event.key];
-    if (!way || event.ctrlKey || event.altKey || event.metaKey) return;
+    const way = (event.shiftKey && shiftedKeys[event.key]) || keys[event.key], isRender = event.key.toLowerCase() === "r";
+    if (!way && !isRender || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    go(way);
+    if (isRender) render(); else go(way);
   });
   canvas.addEventListener("pointerdown", (event) => {
     drag = {x: event.clientX, y: event.clientY, shifts: event.shiftKey || event.button !== 0};

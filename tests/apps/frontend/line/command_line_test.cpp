@@ -19,6 +19,8 @@ enum class Colour { red, green };
 struct Said {
   Colour colour = Colour::green;
   std::optional<Colour> frame;
+  Colour varnish = Colour::red;
+  std::string tin;
   int coats = 2;
   std::optional<std::uint32_t> layers;
   std::vector<std::string> spared;
@@ -34,6 +36,15 @@ struct Line {
     paint.add_number("--layers", said.layers, 0, 0xffffffff, "few", "How many");
     paint.add_words(
         "--spare", {"door", "sill"}, [this](const std::string& word) { said.spared.push_back(word); }, "What to leave");
+    paint.add_choice<Colour>("--varnish", said.varnish, {{"red", Colour::red}, {"green", Colour::green}},
+                             {.shown = "TIN",
+                              .take =
+                                  [this](const std::string& text) {
+                                    said.tin = text.starts_with("/") ? text : "";
+                                    return !said.tin.empty();
+                                  }},
+                             "Which");
+    paint.add_choice<Colour>("--quality", said.colour, {{"good", Colour::red}}, "red", "How");
     paint.add_flag("--wet", said.is_wet, "On wet ground");
     paint.check_in_the_end([this, paint] { said.colour_given = paint.is_given("--colour"); });
     line.add_command("wash", "Washes");
@@ -80,6 +91,56 @@ TEST_CASE("a list of words may be given piece by piece") {
   Line line;
   line.parse({"paint", "--spare", "sill", "--spare=door"});
   CHECK(line.said.spared == std::vector<std::string>{"sill", "door"});
+}
+
+TEST_CASE("a choice may have other values than its words, which then are not refused") {
+  Line line;
+  line.parse({"paint", "--varnish=/a/tin"});
+  CHECK(line.said.tin == "/a/tin");
+  CHECK(line.said.varnish == Colour::red);
+  Line word;
+  word.parse({"paint", "--varnish=green"});
+  CHECK(word.said.tin.empty());
+  CHECK(word.said.varnish == Colour::green);
+  CHECK(Line().complaint({"paint", "--varnish=grean"}) ==
+        "--varnish=grean: expected red or green or TIN. Did you mean green?\nTry: dmpc paint --help");
+  CHECK(std::get<HelpText>(Line().parse({"paint", "--help"})).text.find("red|green|TIN [red]") != std::string::npos);
+}
+
+TEST_CASE("a value that is called otherwise now is taken, and each line that has it says so") {
+  for (int again = 0; again < 2; ++again) {
+    Line line;
+    line.parse({"paint", "--quality=default"});
+    CHECK(line.said.colour == Colour::red);
+    CHECK(line.line.notes() == std::vector<std::string>{"--quality=default is called good now"});
+  }
+  Line line;
+  line.parse({"paint", "--quality=good"});
+  CHECK(line.line.notes().empty());
+}
+
+TEST_CASE("of an option that nobody has typed it is said what stands for it") {
+  const auto complaint = [](std::initializer_list<std::string> words) {
+    CommandLine line("a painter", "painter 1", "good luck");
+    OptionSet paint = line.add_command("paint", "Paints");
+    bool is_wet = false;
+    std::string colour;
+    paint.add_argument("WALL", [](const std::string&) {}, "What");
+    paint.add_text("--colour", "COLOUR", [&](const std::string& text) { colour = text; }, "Which");
+    paint.add_flag("--wet", is_wet, "On wet ground");
+    paint.check_in_the_end([&] {
+      if (is_wet && !colour.empty()) {
+        throw core::UsageError("--colour=" + colour + " does not go with --wet");
+      }
+    });
+    line.stand_for_options({"WALL", [](const std::string&, const CommandLine::Standing::Given&) {
+                              return std::vector<std::string>{"--colour=red"};
+                            }});
+    return tests::complaint_of<core::UsageError>([&] { line.parse(std::vector<std::string>(words)); });
+  };
+  CHECK(complaint({"paint", "north", "--wet"}) ==
+        "--colour=red does not go with --wet; nobody typed --colour=red, but north was built with it\nTry: dmpc paint --help");
+  CHECK(complaint({"paint", "north", "--wet", "--colour=red"}) == "--colour=red does not go with --wet\nTry: dmpc paint --help");
 }
 
 TEST_CASE("the command given is named, and a wrong one answered with all there are") {
