@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "apps/frontend/machine/drawn_machine.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/frontend/system/output_file.h"
 
@@ -11,6 +12,9 @@ void add_options(OptionSet options, MachineOptions& machine) {
   options.add_argument(
       "MACHINE", [&machine](const std::string& text) { machine.machine = text; },
       "One of " + machine_preset_names() + ", or a machine file to check");
+  options.add_number("--draw", machine.draw, 0, draw_max, "none",
+                     "The machine of a draw of its prices, each within the certainty of its source, as study systems and study "
+                     "decades draw them");
   options.set_examples(
       "Examples:\n"
       "  dmpc machine ipsc2 > mine.json\n"
@@ -29,7 +33,11 @@ void add_options(OptionSet options, MachineOptions& machine) {
 }
 
 int machine_command(const MachineOptions& options, std::ostream& output) {
-  output << machine_text(load_machine(options.machine));
+  MachineDescription machine = load_machine(options.machine);
+  if (options.draw) {
+    machine.machine = drawn(machine, *options.draw);
+  }
+  output << machine_text(machine);
   finish_output(output, "the machine");
   return 0;
 }

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/frontend/line/exit_status.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -281,7 +281,7 @@ const Refusal pairs[] = {
     {"study traffic teapot-12 --per-node", "dmpc study traffic --help"},
     {"study balance", "SCENE"},
     {"study", "Try: dmpc study --help"},
-    {"study weather teapot-12", "expected balance, traffic, cache, speedup, systems, frames, paper, references, scale or sweep"},
+    {"study weather teapot-12", "expected balance, traffic, cache, speedup, systems, frames, paper, decades, references, scale or sweep"},
     {"bench stability --quick --long", "--long"},
     {"bench stability --quick --rays=7", "--rays"},
     {"bench speed --ablation --parts=kernel", "--parts"},

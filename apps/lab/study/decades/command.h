@@ -1,0 +1,23 @@
+// The study `decades`: what should travel on machines of 1988 to 2025. It is a program in Python, apps/python/dmpc/decades.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/frontend/line/command_line.h"
+
+namespace dmpc::apps {
+
+struct DecadesOptions {
+  std::vector<std::string> words;  ///< for the program in Python
+  bool is_quick = false;
+};
+
+void add_options(OptionSet set, DecadesOptions& options);
+
+/// Becomes Python, with this dmpc for its renders. Throws InstallationError if there is no Python.
+int study_decades_command(const DecadesOptions& options, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,152 @@
+"""The page: who wins where, by how much, how sure that is, and what was expected."""
+
+import html
+import math
+
+from . import design, figures, predictions, prices, verdicts
+
+_HEAD = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Thirty years later: what should travel?</title>
+<style>
+:root { color-scheme: light dark; --ink: #222; --paper: #fff; --faint: #777; --line: #ccc }
+@media (prefers-color-scheme: dark) { :root { --ink: #ddd; --paper: #17191c; --faint: #999; --line: #444 } }
+@media print { :root { --ink: #000; --paper: #fff } }
+body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
+h1 { font-size: 1.6rem } h2 { font-size: 1.15rem; margin-top: 2.2rem }
+p.first { font-size: 1.15rem }
+img { max-width: 100%; height: auto }
+pre { overflow-x: auto; font-size: .8rem; border-left: 3px solid var(--line); padding: .3rem .6rem; white-space: pre-wrap; overflow-wrap: anywhere }
+div.wide { overflow-x: auto } table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums }
+td, th { padding: .15rem .6rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top }
+.note { color: var(--faint); font-size: .85rem }
+</style></head><body>
+"""
+_FAMILY_TEXT = ("<b>P</b> pages travel to the node whose pixel needs them; <b>Q</b> questions travel to the node that owns a part of the "
+                "scene; <b>R</b> rays travel from region to region; <b>C</b> nothing travels, every node has the whole scene.")
+
+
+def sentence(found):
+    """Who wins where, and how many cells are decided."""
+    cells = [each for each in found if each.cell.set == "map"]
+    decided = [each for each in found if each.is_decided]
+    winners = {family: sum(each.winner.family == family for each in cells if each.is_decided) for family in design.FAMILIES}
+    order = sorted((family for family in winners if winners[family]), key=lambda family: -winners[family])
+    told = ", ".join(f"{family} in {winners[family]}" for family in order)
+    return (f"{len(decided)} of {len(found)} cells are decided; of the {len(cells)} of machine and memory below "
+            f"{told or 'no family wins any'}, and {sum(not each.is_decided for each in cells)} are undecided.")
+
+
+def write(kept, plan, memories, found, checked, expected, priced, effort):
+    drawn = figures.Figures(kept.folder)
+    cells = [each for each in found if each.cell.set == "map"]
+    lights = [each for each in found if each.cell.set == "light"] + [each for each in cells if each.cell.step in (1, 4, 6)]
+    parts = [_HEAD, "<h1>Thirty years later: what should travel?</h1>", f"<p class=first>{html.escape(sentence(found))}</p>",
+             _picture(figures.map_of(drawn, "map", f"{len(plan.scenes)} scenes, 64 nodes, Whitted, 4 samples a pixel", cells),
+                      "Winners by machine and memory"),
+             f"<p>{_FAMILY_TEXT} The number is how many times as long the runner-up takes (geometric mean over {', '.join(plan.scenes)}); "
+             "<i>alone</i>: nobody else has room in every scene. The percentage is the share of draws of the machine's prices, each within "
+             "the certainty of its source, in which the winner stays ahead; the fainter, the fewer. Dotted cells are undecided: the winner "
+             f"stays in fewer than 80 of 100 draws, or the picture is too small. A cell has {plan.draws} draws, or fewer if the first "
+             f"{plan.draws_least} all agree. Each system stands at the best of one search on {' and '.join(plan.scouts)} in the same memory.</p>",
+             _command(memories, cells[0], kept)]
+    parts += _scenes(drawn, plan, cells)
+    parts += ["<h2>Time over memory</h2>", _picture(figures.fronts(drawn, "fronts", cells), "Time over memory, by machine and family"),
+              "<p class=note>The time of each family at its best over that of whole copies, in which nothing travels: geometric mean of "
+              "paired ratios over the scenes, with 95 % by bootstrap over them. A family has no point where it has no room.</p>",
+              _command(memories, cells[-1], kept), "<h2>What the time is made of</h2>",
+              _picture(figures.parts(drawn, "parts", cells), "Shares of the nodes' time"), _command(memories, cells[len(cells) // 2], kept),
+              "<h2>What turns a cell</h2>", _turning(priced, found)]
+    if any(each.cell.set == "light" for each in found):
+        parts += ["<h2>Incoherence: does scattered light turn the winner?</h2>",
+                  _picture(figures.bounces(drawn, "bounces", lights), "Bounces against winner"),
+                  _command(memories, next(each for each in found if each.cell.set == "light"), kept)]
+    parts += ["<h2>Other numbers of nodes, other sizes</h2>", _table_of(found)] if any(each.cell.set != "map" for each in found) else []
+    parts += ["<h2>Too small, or undecided</h2>", _undecided(found), "<h2>What was expected</h2>", _expected(expected, found),
+              "<h2>Controls</h2>", _rows(("control", ""), [(one.text, "as it must be" if one.is_right else "NOT as it must be") for one in checked]),
+              f"<p class=note>{html.escape(effort)}; all in runs.jsonl. Times are those of modelled machines (dmpc machine NAME prints each "
+              "price with its source); memories are steps of equal factors from the least with which pages work to what whole copies "
+              "need.</p></body></html>"]
+    (kept.folder / "index.html").write_text("\n".join(parts))
+
+
+def _picture(names, text):
+    return (f'<picture><source srcset="{names["dark"]}" media="(prefers-color-scheme: dark) and (not print)">'
+            f'<img src="{names["light"]}" alt="{html.escape(text)}"></picture>')
+
+
+def _command(memories, verdict, kept):
+    scene = verdict.cell.scenes[0]
+    line = verdicts.line_of_winner(memories, verdict, scene)
+    seconds = verdict.winner.best[scene][2]["seconds"]
+    return (f"<p class=note>One run of {html.escape(place_of(verdict.cell))}, {scene}, {seconds:.4g} s (in the study's folder, after "
+            f"it has run):</p><pre>dmpc {html.escape(line)} -o out.png</pre>")
+
+
+def place_of(cell):
+    return f"{cell.machine}, memory {figures.step_text(cell.step)}, {cell.nodes} nodes, {cell.light}"
+
+
+def _rows(heads, rows):
+    head = "".join(f"<th>{html.escape(each)}" for each in heads)
+    body = "".join("<tr>" + "".join(f"<td>{html.escape(str(each))}" for each in row) for row in rows)
+    return f"<div class=wide><table><tr>{head}{body}</table></div>"
+
+
+def _scenes(drawn, plan, cells):
+    """A map a scene, of the same runs."""
+    parts = ["<h2>Scene by scene</h2>"]
+    for scene in plan.scenes:
+        single = [verdicts.of_scene(each, scene) for each in cells]
+        memory = f"{design.SCENES[scene][0]:,} triangles"
+        parts.append(_picture(figures.map_of(drawn, f"map-{scene}", f"{scene}, {memory}", single), f"Winners for {scene}"))
+    parts.append("<p class=note>Shares of draws are those of all scenes together.</p>")
+    return parts
+
+
+def _turning(priced, found):
+    rows = []
+    for each in found:
+        turn = prices.turning(priced, each)
+        if turn:
+            name, exponent, factor = turn
+            rows.append((place_of(each.cell), each.winner.family, f"{each.lead:.2f}", name, f"{exponent:+.2f}",
+                         "-" if factor is None else f"{factor:.2g}"))
+    rows.sort(key=lambda row: float(row[2]))
+    return ("<p>Least squares over the draws of each cell: the lead goes as the price to this power, and times this factor it is a tie. The "
+            "price is the one whose doubt moves the lead most; cells with the smallest leads first.</p>"
+            + _rows(("cell", "winner", "lead", "price", "power", "tie at times"), rows[:20]))
+
+
+def _table_of(found):
+    return _rows(("set", "cell", "scenes", "winner", "lead", "stays"),
+                 [(each.cell.set, place_of(each.cell), ", ".join(each.cell.scenes), each.winner.family,
+                   "alone" if math.isinf(each.lead) else f"{each.lead:.2f}", f"{100 * each.stays:.0f} % of {len(each.times)}")
+                  for each in found if each.cell.set != "map"])
+
+
+def _undecided(found):
+    rows = [(place_of(each.cell), ", ".join(each.cell.scenes), each.winner.family, each.rivals[0].family if each.rivals else "-",
+             "-" if math.isinf(each.lead) else f"{each.lead:.2f}", each.small or f"stays in {100 * each.stays:.0f} % of {len(each.times)} draws")
+            for each in found if not each.is_decided]
+    return _rows(("cell", "scenes", "ahead", "next", "lead", "why"), rows) if rows else "<p>None.</p>"
+
+
+def _expected(expected, found):
+    by_key = {each.cell.key: each for each in found}
+    parts = []
+    for one in expected:
+        rows, winners, leads = [], 0, 0
+        for key, (winner, lead) in one.cells.items():
+            if key in by_key:
+                verdict = by_key[key]
+                is_winner, is_lead = predictions.held((winner, lead), verdict)
+                winners, leads = winners + is_winner, leads + is_lead
+                rows.append((place_of(verdict.cell), winner, "alone" if lead is None else f"{lead:.2f}", verdict.winner.family,
+                             "alone" if math.isinf(verdict.lead) else f"{verdict.lead:.2f}",
+                             "held" if is_lead else "winner held" if is_winner else "not held",
+                             "" if verdict.is_decided else "undecided"))
+        parts.append(f"<p>{html.escape(one.text)} File {one.name}, SHA-256 <code>{one.sha256}</code>. Of {len(rows)} predicted cells that "
+                     f"were run, {winners} winners held, and {leads} also in their lead, within a factor of {predictions.NEAR}.</p>"
+                     + _rows(("cell", "expected", "lead", "came", "lead", "", ""), rows))
+    return "".join(parts) or "<p>Nothing was predicted.</p>"
