@@ -13,6 +13,7 @@ namespace dmpc::apps {
 struct MachineOptions {
   std::string machine;                ///< a preset's name or a machine file
   std::optional<std::uint32_t> draw;  ///< of its prices
+  bool is_measured = false;           ///< with the prices of this computer
 };
 
 void add_options(OptionSet options, MachineOptions& machine);

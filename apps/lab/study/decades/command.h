@@ -17,7 +17,7 @@ struct DecadesOptions {
 
 void add_options(OptionSet set, DecadesOptions& options);
 
-/// Becomes Python, with this dmpc for its renders. Throws InstallationError if there is no Python.
+/// Does not return; throws as become_python() does.
 int study_decades_command(const DecadesOptions& options, std::ostream& output);
 
 }  // namespace dmpc::apps

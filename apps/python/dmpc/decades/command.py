@@ -2,12 +2,13 @@
 
 import argparse
 import functools
+import math
 import os
 import sys
 import time
 
 from .. import program
-from . import controls, design, memory, page, predictions, prices, runs, search, verdicts
+from . import controls, design, measuring, memory, page, predictions, prices, runs, search, verdicts
 
 
 def main(words):
@@ -17,6 +18,10 @@ def main(words):
     try:
         if options.part == "plan":
             return _plan(kept, plan)
+        if options.part == "hold":
+            for row in measuring.hold(kept.folder):
+                _say(f"{row['cell']}: predicted {row['predicted']:.4g} s, took {row['timed']:.4g} s")
+            return 0
         study(kept, plan, options.quick)
     except KeyboardInterrupt:
         _say(f"stopped; the same line continues after the {len(kept)} runs that {options.output} has")
@@ -36,7 +41,7 @@ def study(kept, plan, is_quick):
     settings = verdicts.found_settings(kept, plan, memories, cells)
     _say(f"{len(kept) - count} runs; rendering {len(cells)} cells")
     found = search.in_step(kept, [verdicts.verdict_on(kept, memories, settings, cell) for cell in cells])
-    found = [each for each in found if each.winner.best]
+    found = [each for each in found if math.isfinite(each.winner.mean(each.scenes))]
     _say(f"{len(kept) - count} runs; drawing prices")
     verdicts.draw(kept, plan, memories, found)
     checked = controls.check(kept, memories, found)
@@ -47,19 +52,26 @@ def study(kept, plan, is_quick):
 
 
 def _plan(kept, plan):
-    """What runs of each family cost, by one of each, and what the design needs at most."""
-    cell = design.Cell("map", "hdr", 5, 64, "whitted", ("rings-4-t1",))
-    memories = memory.steps_of(kept, "rings-4-t1", 64)
-    lines = {name: runs.line_of(cell, "rings-4-t1", memories[7], name, ()) for name in plan.systems}
-    for name, result in zip(lines, kept.get(list(lines.values()))):
-        print(f"{name:14} {result.get('processor', float('nan')):6.2f} s of processor time a run")
-    cells = plan.cells()
-    trials = sum(1 + sum(len(option.values) - 1 for option in design.SYSTEMS[name].searched) for name in plan.systems)
-    places = len({(each.machine, each.step) for each in cells})
-    print(f"{places} searches x {len(plan.scouts)} scenes x {trials} runs = {places * len(plan.scouts) * trials} at most")
-    rows = sum(len(each.scenes) for each in cells)
-    print(f"{len(cells)} cells, {rows} cells x scenes, {rows * 4 * plan.kept * len(plan.scouts)} runs at most")
-    print(f"draws: {rows * 2 * plan.draws_least} runs if {plan.draws_least} settle each cell, {rows * 3 * plan.draws} at most")
+    """What runs cost, by one of each family in each set of cells, and what the design then takes."""
+    memories = functools.cache(lambda scene, nodes: memory.steps_of(kept, scene, nodes))
+    total = 0.0
+    for name, light, nodes, scenes in dict.fromkeys((each.set, each.light, each.nodes, each.scenes) for each in plan.cells()):
+        cells = [each for each in plan.cells() if (each.set, each.light, each.nodes, each.scenes) == (name, light, nodes, scenes)]
+        lines = [runs.line_of(design.Cell(name, "hdr", 4, nodes, light, (scene,)), scene, memories(scene, nodes)[design.WHOLE], system, ())
+                 for scene in scenes for system in ("svm", "forest", "scattered")]
+        costs = [one["processor"] for one in kept.get(lines) if "processor" in one]
+        cost = sum(costs) / max(len(costs), 1)
+        trials = 0
+        if name == "map":
+            trials = len(cells) * len(plan.scouts) * sum(1 + sum(len(option.values) - 1 for option in design.SYSTEMS[system].searched)
+                                                         for system in plan.systems)
+        rendered = len(cells) * len(scenes) * len(design.FAMILIES) * plan.kept * len(plan.scouts)
+        drawn = [sum(each.step > 1 for each in cells) * len(scenes) * 2 * draws for draws in (plan.draws_least, plan.draws)]
+        seconds = cost * (trials / 2 + rendered / 2 + drawn[0])
+        total += seconds
+        print(f"{name:6} {light:8} {nodes:4} nodes, {', '.join(scenes)}: {cost:.2f} s of processor time a run; {len(cells)} cells; searches "
+              f"{trials}, renders {rendered}, half of which have no room, draws {drawn[0]} to {drawn[1]}: {seconds / 60:.0f} minutes")
+    print(f"{total / 60:.0f} minutes of processor time if {plan.draws_least} draws settle each cell")
     return 0
 
 
@@ -70,7 +82,7 @@ def _say(text):
 def _parser():
     parser = argparse.ArgumentParser(prog="dmpc study decades")
     parser.add_argument("--output", required=True)
-    parser.add_argument("--part", choices=("plan", "run", "page"), default="run")
+    parser.add_argument("--part", choices=("plan", "run", "hold"), default="run")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     return parser

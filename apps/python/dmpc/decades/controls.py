@@ -17,7 +17,7 @@ def check(kept, memories, found):
     controls = []
     for name in dict.fromkeys(each.cell.set for each in found):
         verdict = next(each for each in found if each.cell.set == name)
-        scene = verdict.cell.scenes[0]
+        scene = verdict.scenes[0]
         line = verdicts.line_of_winner(memories, verdict, scene)
         result = verdict.winner.best[scene][2]
         samples = next(word for word in line.split() if word.startswith("--samples="))
@@ -25,8 +25,8 @@ def check(kept, memories, found):
         [drawn] = kept.get([other])
         controls.append(Control(f"{name}: other samples, another film", drawn.get("film") not in (None, result["film"]), other))
         films = {each.winner.best[one][2]["film"]: one for each in found if each.cell.set == name and each.cell.light == verdict.cell.light
-                 for one in each.cell.scenes}
-        scenes = {one for each in found if each.cell.set == name and each.cell.light == verdict.cell.light for one in each.cell.scenes}
+                 for one in each.scenes}
+        scenes = {one for each in found if each.cell.set == name and each.cell.light == verdict.cell.light for one in each.scenes}
         nodes = {each.cell.nodes for each in found if each.cell.set == name}
         controls.append(Control(f"{name}: one film a scene, whatever machine, memory and system: {len(films)} of {len(scenes)}",
                                 len(films) == len(scenes) * (1 if 512 not in nodes else 2), line))

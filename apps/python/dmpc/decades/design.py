@@ -1,6 +1,6 @@
 """The design: which machines, scenes and memories, which systems with which options, and which of their combinations are cells."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 MACHINES = {"ipsc2": 1988, "paragon": 1993, "myrinet": 2005, "fdr": 2015, "hdr": 2022, "ndr": 2025}
 PRICED = {("ipsc2", "voxels"): "ipsc2-1994"}  # one computer, whose prices belong to a structure
@@ -43,6 +43,7 @@ DONOR = Searched("work-donor", ("ring", "host"))
 RESIDENT = Searched("resident", ("0", "50"))
 RAYS = (Searched("no-backpressure", ("off", "on")), Searched("ray-batch", ("default", "64")))
 SPACE = Searched("structure", ("extents", "grid", "voxels"))
+GRID = Searched("structure", ("grid", "extents", "voxels"))
 
 
 @dataclass(frozen=True)
@@ -62,13 +63,13 @@ SYSTEMS = {each.name: each for each in (
     System("forest", "questions", ("--strategy=forest", "--structure=extents"), (PAGE, Searched("in-flight", ("16", "64")), DONOR)),
     System("forest-static", "questions", ("--strategy=forest", "--structure=extents", "--work-item=0", "--pixels=interleaved"),
            (PAGE, Searched("in-flight", ("16", "64")))),
-    System("equal-size", "rays", ("--strategy=dataflow", "--balance=equal-size"), (replace(SPACE, values=("grid", "extents", "voxels")), *RAYS)),
+    System("equal-size", "rays", ("--strategy=dataflow", "--balance=equal-size"), (GRID, *RAYS)),
     System("scattered", "rays", ("--strategy=dataflow", "--balance=scattered", "--regions=16"),
-           (replace(SPACE, values=("grid", "extents", "voxels")), *RAYS)),
+           (GRID, *RAYS)),
     System("subsampled", "rays", ("--strategy=dataflow", "--balance=subsampled"),
-           (replace(SPACE, values=("grid", "extents", "voxels")), *RAYS)),
+           (GRID, *RAYS)),
     System("moving", "rays", ("--strategy=dataflow", "--balance=moving", "--regions=16"),
-           (replace(SPACE, values=("grid", "extents", "voxels")), *RAYS)),
+           (GRID, *RAYS)),
 )}
 
 
@@ -84,12 +85,13 @@ class Cell:
 
     @property
     def key(self):
-        return f"{self.set} {self.machine} {self.step} {self.nodes} {self.light}"
+        """By which predictions name it; cells of other sizes have a scene each."""
+        return f"{self.set} {self.machine} {self.step} {self.nodes} {self.light}" + (f" {self.scenes[0]}" if self.set == "size" else "")
 
 
 @dataclass(frozen=True)
 class Design:
-    systems: tuple
+    systems: tuple  # the names of those that are searched
     scouts: tuple  # scenes on which options are searched
     steps: tuple
     scenes: tuple
@@ -106,16 +108,13 @@ class Design:
                                    for machine in MACHINES for step in steps]
 
 
-_FEW = (1, 4, 6)
+_LIT, _OTHER = (1, 4), (4,)
 WHOLE_DESIGN = Design(
     systems=tuple(SYSTEMS), scouts=("rings-4-t1", "tetra-9"), steps=tuple(range(STEPS)),
-    scenes=("rings-4-t1", "landscape-8", "tetra-9", "tetra-10"), kept=2, draws=100, draws_least=20,
-    sets=(("light", 64, "paths-0", _FEW, ("rings-4-t1", "landscape-8")), ("light", 64, "paths-1", _FEW, ("rings-4-t1", "landscape-8")),
-          ("light", 64, "paths-3", _FEW, ("rings-4-t1", "landscape-8")),
-          ("nodes", 8, "whitted", _FEW, ("rings-4-t1", "tetra-9")), ("nodes", 512, "whitted", _FEW, ("rings-4-t1", "tetra-9")),
-          ("size", 64, "whitted", _FEW, ("mount-6-t6",)), ("size", 64, "whitted", _FEW, ("mount-11",)),
-          ("size", 64, "whitted", _FEW, ("grove-5",))))
+    scenes=("rings-4-t1", "landscape-8", "tetra-9", "tetra-10"), kept=1, draws=100, draws_least=20,
+    sets=(*(("light", 64, light, _LIT, ("rings-4-t1", "landscape-8")) for light in LIGHTS if light != "whitted"),
+          ("nodes", 8, "whitted", _OTHER, ("rings-4-t1", "tetra-9")), ("nodes", 512, "whitted", _OTHER, ("rings-4-t1", "tetra-9")),
+          *(("size", 64, "whitted", _OTHER, (scene,)) for scene in ("mount-6-t6", "mount-11", "grove-5"))))
 QUICK_DESIGN = Design(
-    systems=("replicated", "svm", "forest", "scattered", "subsampled"), scouts=("rings-4-t1",), steps=(1, 4, 7),
-    scenes=("rings-4-t1", "tetra-9"), kept=1, draws=10, draws_least=10,
-    sets=())
+    systems=("replicated", "svm", "forest", "scattered", "subsampled"), scouts=("rings-4-t1", "tetra-9"), steps=(1, 4, 7),
+    scenes=("rings-4-t1", "tetra-9"), kept=1, draws=10, draws_least=10)

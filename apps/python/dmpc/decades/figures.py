@@ -57,7 +57,7 @@ def map_of(figures, name, title, found):
             on = "#ffffff" if strength > 0.6 else ink
             lead = "alone" if math.isinf(each.lead) else f"{each.lead:.2f}"
             axis.text(x, y + 0.1, f"{design.FAMILIES[each.winner.family]} {lead}", ha="center", va="center", color=on, fontsize=10)
-            share = "too small" if each.small else f"{100 * each.stays:.0f} %" if each.times and math.isfinite(each.lead) else ""
+            share = "too small" if each.is_too_small else f"{100 * each.stays:.0f} %" if each.times and math.isfinite(each.lead) else ""
             axis.text(x, y - 0.25, share, ha="center", va="center", color=on, fontsize=7)
         axis.set_xlim(-0.5, len(machines) - 0.5)
         axis.set_ylim(-0.5, len(steps) - 0.5)
@@ -91,9 +91,9 @@ def fronts(figures, name, found):
             cells = sorted((each for each in found if each.cell.machine == machine), key=lambda each: each.cell.step)
             copies = next((row for each in cells for row in each.rows if row.family == "copies" and row.best and each.cell.step == design.WHOLE), None)
             for family in design.FAMILIES:
-                points = [(each.cell.step, *verdicts.interval([row.seconds(scene) / copies.seconds(scene) for scene in each.cell.scenes]))
+                points = [(each.cell.step, *verdicts.interval([row.seconds(scene) / copies.seconds(scene) for scene in each.scenes]))
                           for each in cells for row in each.rows
-                          if copies and row.family == family and math.isfinite(row.mean(each.cell.scenes))]
+                          if copies and row.family == family and math.isfinite(row.mean(each.scenes))]
                 if points:
                     steps, means, lows, highs = zip(*points)
                     axis.errorbar([step + 0.06 * list(design.FAMILIES).index(family) for step in steps], means,
@@ -141,7 +141,7 @@ def parts(figures, name, found):
 
 
 def _mean_share(verdict, keys):
-    results = [verdict.winner.best[scene][2] for scene in verdict.cell.scenes]
+    results = [verdict.winner.best[scene][2] for scene in verdict.scenes]
     return sum(one["share"][key] for one in results for key in keys) / len(results)
 
 
@@ -158,9 +158,9 @@ def bounces(figures, name, found):
             axis = axes[index // columns][index % columns]
             cells = {each.cell.light: each for each in found if each.cell.machine == machine and each.cell.step == step}
             for family in design.FAMILIES:
-                points = [(place, row.mean(cells[light].cell.scenes) / cells[light].winner.mean(cells[light].cell.scenes))
+                points = [(place, row.mean(cells[light].scenes) / cells[light].winner.mean(cells[light].scenes))
                           for place, light in enumerate(lights) if light in cells for row in cells[light].rows
-                          if row.family == family and math.isfinite(row.mean(cells[light].cell.scenes))]
+                          if row.family == family and math.isfinite(row.mean(cells[light].scenes))]
                 if points:
                     axis.plot(*zip(*points), color=COLOURS[family], marker=MARKS[family], markersize=5, linewidth=1.2)
             axis.set_yscale("log")

@@ -30,7 +30,6 @@ class Runs:
                 except json.JSONDecodeError:
                     continue  # the line that was being written when the study was stopped
                 self._kept[one["line"]] = one
-        self._out = open(self._file, "a", buffering=1)
 
     @property
     def _file(self):
@@ -91,7 +90,8 @@ class Runs:
                 one = {"line": line, "misfit": str(error)}
         with self._lock:
             self._kept[line] = one
-            self._out.write(json.dumps(one) + "\n")
+            with open(self._file, "a") as file:
+                file.write(json.dumps(one) + "\n")
 
 
 def _figures(stats):

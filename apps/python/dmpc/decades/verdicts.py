@@ -10,6 +10,7 @@ from . import design, runs, search
 TIE = 1.01  # times that differ by less are equal, as in dmpc study systems
 RIVALS_WITHIN = 1.6  # of the winner's time: who is slower is not drawn, but for the runner-up
 DECIDED = 0.8  # of the draws
+SMALL = 0.5  # of the time: more in the host, or in film and end, and a picture is too small to tell
 BATCH = 10
 
 
@@ -29,17 +30,27 @@ class Row:
 
 @dataclass
 class Verdict:
+    """On the scenes whose pictures are large enough to tell, or on all of them if none is."""
     cell: design.Cell
-    rows: list  # the fastest family first; those without room in a scene last
+    best: dict  # rows by family
     times: list = field(default_factory=list)  # by draw: of each family drawn, by scene, the seconds
 
-    @property
-    def factors(self):
-        """By draw, of the nearest rival over the winner."""
-        return [min(self._mean(drawn, row.family) for row in self.rivals) / self._mean(drawn, self.winner.family) for drawn in self.times]
+    def __post_init__(self):
+        self.small = {scene: why for scene in self.cell.scenes if (why := self._why_small(scene))}
+        self.scenes = tuple(scene for scene in self.cell.scenes if scene not in self.small) or self.cell.scenes
+        self.rows = sorted(self.best.values(), key=lambda row: row.mean(self.scenes))  # the fastest first
 
-    def _mean(self, drawn, family):
-        return math.exp(sum(math.log(drawn[family][scene]) for scene in self.cell.scenes) / len(self.cell.scenes))
+    def _why_small(self, scene):
+        """Nothing, or that the host, the film's way or the end of the run take most of the time of the fastest, so that it says nothing of
+        others; where one family alone has room, there is nothing to tell."""
+        ahead, *others = sorted(self.best.values(), key=lambda row: row.seconds(scene))
+        if not others or math.isinf(others[0].seconds(scene)):
+            return None
+        result = ahead.best[scene][2]
+        ends = result["share"]["film_wait"] + result["share"]["idle_at_end"]
+        if result["host"] > SMALL:
+            return f"the host is busy for {100 * result['host']:.0f} % of the time"
+        return f"film and the end of the run take {ends:.0f} % of the time" if ends > 100 * SMALL else None
 
     @property
     def winner(self):
@@ -47,14 +58,21 @@ class Verdict:
 
     @property
     def rivals(self):
-        others = [row for row in self.rows[1:] if math.isfinite(row.mean(self.cell.scenes))]
-        return [row for row in others[:2]
-                if row is others[0] or row.mean(self.cell.scenes) < RIVALS_WITHIN * self.winner.mean(self.cell.scenes)]
+        others = [row for row in self.rows[1:] if math.isfinite(row.mean(self.scenes))]
+        return [row for row in others[:2] if row is others[0] or row.mean(self.scenes) < RIVALS_WITHIN * self.winner.mean(self.scenes)]
 
     @property
     def lead(self):
         """How many times as long the runner-up takes; infinite for a winner that alone has room in every scene."""
-        return self.rivals[0].mean(self.cell.scenes) / self.winner.mean(self.cell.scenes) if self.rivals else float("inf")
+        return self.rivals[0].mean(self.scenes) / self.winner.mean(self.scenes) if self.rivals else math.inf
+
+    @property
+    def factors(self):
+        """By draw, of the nearest rival over the winner."""
+        return [min(self._mean(drawn, row.family) for row in self.rivals) / self._mean(drawn, self.winner.family) for drawn in self.times]
+
+    def _mean(self, drawn, family):
+        return math.exp(sum(math.log(drawn[family][scene]) for scene in self.scenes) / len(self.scenes))
 
     @property
     def stays(self):
@@ -62,27 +80,19 @@ class Verdict:
         return 1.0 if not self.rivals or not self.times else sum(factor > TIE for factor in self.factors) / len(self.times)
 
     @property
-    def is_decided(self):
-        return self.small is None and self.stays >= DECIDED
+    def is_too_small(self):
+        return len(self.small) == len(self.cell.scenes)
 
     @property
-    def small(self):
-        """Why the picture is too small to tell, or nothing: where film, host or end of the run take most of the winner's time."""
-        for scene in self.cell.scenes:
-            result = self.winner.best[scene][2]
-            ends = result["share"]["film_wait"] + result["share"]["idle_at_end"]
-            if result["host"] > 0.5:
-                return f"{scene}: the host is busy for {100 * result['host']:.0f} % of the time"
-            if ends > 50:
-                return f"{scene}: film and the end of the run take {ends:.0f} % of the time"
-        return None
+    def is_decided(self):
+        return not self.is_too_small and self.stays >= DECIDED and self.lead > TIE
 
     def needs_draws(self, plan):
         """Until the share is known: as many draws as are wanted, or fewer if all of the first, or too few of all, stay."""
         count, lost = len(self.times), sum(factor <= TIE for factor in self.factors)
-        if not self.rivals or count >= plan.draws:
+        if not self.rivals or self.is_too_small or count >= plan.draws:
             return False
-        return not (count >= plan.draws_least and (lost == 0 or lost > (1 - DECIDED) * plan.draws))
+        return not (count >= plan.draws_least and (lost == 0 or lost > plan.draws - DECIDED * plan.draws))
 
 
 def found_settings(kept, plan, memories, cells):
@@ -114,14 +124,14 @@ def verdict_on(kept, memories, settings, cell):
     for (family, scene, name, setting), result in zip(trials, results):
         if runs.seconds_of(result) < rows[family].seconds(scene):
             rows[family].best[scene] = (name, setting, result)
-    return Verdict(cell, sorted(rows.values(), key=lambda row: row.mean(cell.scenes)))
+    return Verdict(cell, rows)
 
 
 def draw(kept, plan, memories, verdicts):
     """Adds draws to the verdicts that need them, batch by batch."""
     while waiting := [each for each in verdicts if each.needs_draws(plan)]:
         asked = [(each, number) for each in waiting for number in range(len(each.times), min(len(each.times) + BATCH, plan.draws))]
-        lines = [{row.family: {scene: _line(memories, each.cell, row, scene, number) for scene in each.cell.scenes}
+        lines = [{row.family: {scene: _line(memories, each.cell, row, scene, number) for scene in each.scenes}
                   for row in [each.winner, *each.rivals]} for each, number in asked]
         kept.get([line for rows in lines for row in rows.values() for line in row.values()])
         for (each, _), rows in zip(asked, lines):
@@ -152,9 +162,8 @@ def interval(ratios):
 
 def of_scene(verdict, scene):
     """The verdict on one scene of a cell, by the same runs: without draws unless its winner and its rivals are those of the cell."""
-    cell = replace(verdict.cell, scenes=(scene,))
-    single = Verdict(cell, sorted(verdict.rows, key=lambda row: row.seconds(scene)))
+    single = Verdict(replace(verdict.cell, scenes=(scene,)), verdict.best)
     drawn = {row.family for row in [verdict.winner, *verdict.rivals]}
-    if all(row.family in drawn for row in [single.winner, *single.rivals]):
+    if scene in verdict.scenes and all(row.family in drawn for row in [single.winner, *single.rivals]):
         single.times = verdict.times
     return single
