@@ -89,7 +89,7 @@ def fronts(figures, name, found):
         for index, machine in enumerate(machines):
             axis = axes[index // columns][index % columns]
             cells = sorted((each for each in found if each.cell.machine == machine), key=lambda each: each.cell.step)
-            copies = next((row for each in cells for row in each.rows if row.family == "copies" and row.best and each.cell.step == design.WHOLE), None)
+            copies = next((each.best["copies"] for each in cells if each.cell.step == design.WHOLE and each.best["copies"].best), None)
             for family in design.FAMILIES:
                 points = [(each.cell.step, *verdicts.interval([row.seconds(scene) / copies.seconds(scene) for scene in each.scenes]))
                           for each in cells for row in each.rows

@@ -65,7 +65,8 @@ def write(kept, plan, memories, found, checked, expected, priced, effort):
                   _command(memories, next(each for each in found if each.cell.set == "light"), kept)]
     parts += ["<h2>Other numbers of nodes, other sizes</h2>", _table_of(found)] if any(each.cell.set != "map" for each in found) else []
     parts += ["<h2>Too small, or undecided</h2>", _undecided(found), "<h2>What was expected</h2>", _expected(expected, found),
-              "<h2>Held against reality</h2>", _reality(kept.folder / "reality.json"), "<h2>Controls</h2>", _rows(("control", ""), [(one.text, "as it must be" if one.is_right else "NOT as it must be") for one in checked]),
+              "<h2>Held against reality</h2>", _reality(kept.folder / "reality.json"), "<h2>Controls</h2>",
+              _rows(("control", ""), [(one.text, "as it must be" if one.is_right else "NOT as it must be") for one in checked]),
               f"<p class=note>{html.escape(effort)}; all in runs.jsonl. Times are those of modelled machines (dmpc machine NAME prints each "
               "price with its source); memories are steps of equal factors from the least with which pages work to what whole copies "
               "need.</p></body></html>"]

@@ -65,12 +65,13 @@ class Runs:
         drawn = re.search(r"--machine=machines/(\S+)\.(\d+)\.json", line)
         if drawn:
             self._write(f"machines/{drawn[1]}.{drawn[2]}.json", lambda: program.run(["machine", drawn[1], f"--draw={drawn[2]}"]))
-        database = re.match(r"render databases/(\S+)\.(\S+)\.(\S+)\.pages ", line)
-        if database and not (self.folder / f"databases/{database[0].split('/')[1].split(' ')[0]}").exists():
-            scene, structure, page = database[1], database[2], database[3]
-            self.say(f"building {scene}, {structure}, pages of {page}")
-            target = self.folder / "databases" / f"{scene}.{structure}.{page}.pages"
-            program.run(["build", scene, *design.SCENES[scene][1], f"--structure={structure}", f"--page-size={page}", "-o", str(target)])
+        database = re.match(r"render (databases/(\S+)\.(\S+)\.(\S+)\.(\S+)\.pages) ", line)
+        if database and not (self.folder / database[1]).exists():
+            _, scene, structure, page, transport = database.groups()
+            self.say(f"building {scene} for {transport}, {structure}, pages of {page}")
+            light = ["--transport=paths", "--sky=1"] if transport == "paths" else []
+            program.run(["build", scene, *design.SCENES[scene][1], *light, f"--structure={structure}", f"--page-size={page}",
+                         "-o", str(self.folder / database[1])])
 
     def _write(self, name, text):
         path = self.folder / name
@@ -111,13 +112,15 @@ def line_of(cell, scene, memory, system, setting, draw=None):
     """The command of a run. `setting` has the value of each searched option, or nothing for the default."""
     options = dict(setting)
     structure = options.pop("structure", None) or "extents"
+    structure = "extents" if "--instances=keep" in design.SCENES[scene][1] else structure  # which other structures do not have
     page = options.pop("page-size", None)
     priced = design.PRICED.get((cell.machine, structure), cell.machine)
     machine = priced if draw is None else f"machines/{priced}.{draw}.json"
     side = design.RESOLUTIONS[cell.nodes]
     page = page or "1KiB"
     if scene in design.BUILT:
-        subject = [f"databases/{scene}.{structure}.{page}.pages"]
+        transport = "paths" if cell.light.startswith("paths") else "whitted"
+        subject = [f"databases/{scene}.{structure}.{page}.{transport}.pages"]
     else:
         subject = [scene, *design.SCENES[scene][1], f"--structure={structure}", f"--page-size={page}"]
     words = [word for word in design.SYSTEMS[system].words if not word.startswith("--structure=")]
