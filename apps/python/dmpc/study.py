@@ -13,7 +13,7 @@ from . import studying
 from .calls import sweep
 from .program import Text
 
-__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "references", "scale"]
+__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "decades", "references", "scale"]
 
 
 def balance(
@@ -136,6 +136,13 @@ def paper(
 ) -> str:
     """Regenerate the tables and claims of the 1994 article."""
     return studying.study("paper", [], locals())
+
+
+def decades(
+    *, output: Text | None = None, part: Literal["plan", "run", "hold"] | None = None, quick: bool = False, jobs: int | None = None
+) -> str:
+    """Find what should travel, pages, rays or questions, on machines of 1988 to 2025."""
+    return studying.study("decades", [], locals())
 
 
 def references(

@@ -186,7 +186,7 @@ class StudyTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             first = self.study(folder)
             text = (pathlib.Path(folder) / "index.html").read_text()
-            self.assertIn(" of 2 cells are decided", text)
+            self.assertIn(" of 2 cells are decided. ", text)
             self.assertIn("dmpc render ", text)
             self.assertNotIn("NOT as it must be", text)
             lines = (pathlib.Path(folder) / "runs.jsonl").read_text().splitlines()
@@ -218,7 +218,7 @@ class StudyTest(unittest.TestCase):
 
     def test_the_first_sentence_says_how_many_are_decided_of_all(self):
         found = [verdict({"pages": (1, 1), "rays": (2, 2)}, [2] * 20), verdict({"rays": (1, 1), "pages": (2, 2)}, [2] * 70 + [0.5] * 30)]
-        self.assertTrue(page.sentence(found).startswith("1 of 2 cells are decided; of the 2 of machine and memory below pages in 1"))
+        self.assertTrue(page.sentence(found).startswith("1 of 2 cells are decided. Of the 2 machines and memories below pages 1 (by 2.00"))
 
 
 class CommandTest(unittest.TestCase):

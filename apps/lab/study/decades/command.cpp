@@ -15,6 +15,7 @@ void add_options(OptionSet set, DecadesOptions& options) {
       "hold: time some renders over MPI on this computer beside their prediction, for the page");
   set.add_flag("--quick", options.is_quick, "Fewer cells, scenes and draws: 4 minutes on two cores, where all take 90");
   set.add_text("--jobs", "1..256 [all cores]", pass("--jobs"), "Runs at a time");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc study decades --quick -o decades\n"
@@ -27,6 +28,9 @@ int study_decades_command(const DecadesOptions& options, std::ostream& output) {
   std::vector<std::string> words = options.words;
   if (options.is_quick) {
     words.emplace_back("--quick");
+  }
+  if (options.quiet) {
+    words.emplace_back("--quiet");
   }
   become_python("decades.command", "study decades", words);
 }

@@ -13,6 +13,7 @@ namespace dmpc::apps {
 struct DecadesOptions {
   std::vector<std::string> words;  ///< for the program in Python
   bool is_quick = false;
+  bool quiet = false;  ///< no progress
 };
 
 void add_options(OptionSet set, DecadesOptions& options);

@@ -13,7 +13,7 @@ from . import controls, design, measuring, memory, page, predictions, prices, ru
 
 def main(words):
     options = _parser().parse_args(words)
-    kept = runs.Runs(options.output, options.jobs, _say)
+    kept = runs.Runs(options.output, options.jobs, (lambda text: None) if options.quiet else _say)
     plan = design.QUICK_DESIGN if options.quick else design.WHOLE_DESIGN
     try:
         if options.part == "plan":
@@ -37,18 +37,18 @@ def study(kept, plan, is_quick):
     began, count = time.monotonic(), len(kept)
     memories = functools.cache(lambda scene, nodes: memory.steps_of(kept, scene, nodes))
     cells = plan.cells()
-    _say(f"searching the options of {len(plan.systems)} systems for {len(plan.map_cells())} machines and memories")
+    kept.say(f"searching the options of {len(plan.systems)} systems for {len(plan.map_cells())} machines and memories")
     settings = verdicts.found_settings(kept, plan, memories, cells)
-    _say(f"{len(kept) - count} runs; rendering {len(cells)} cells")
+    kept.say(f"{len(kept) - count} runs; rendering {len(cells)} cells")
     found = search.in_step(kept, [verdicts.verdict_on(kept, memories, settings, cell) for cell in cells])
     found = [each for each in found if math.isfinite(each.winner.mean(each.scenes))]
-    _say(f"{len(kept) - count} runs; drawing prices")
+    kept.say(f"{len(kept) - count} runs; drawing prices")
     verdicts.draw(kept, plan, memories, found)
     checked = controls.check(kept, memories, found)
     minutes = (time.monotonic() - began) / 60
     page.write(kept, plan, memories, found, checked, predictions.read(), prices.Prices(),
                f"{len(kept) - count} runs in {minutes:.0f} minutes, {len(kept)} in all" if len(kept) > count else f"{len(kept)} runs")
-    _say(f"{kept.folder / 'index.html'}: " + page.sentence(found))
+    kept.say(f"{kept.folder / 'index.html'}: " + page.sentence(found))
 
 
 def _plan(kept, plan):
@@ -84,5 +84,6 @@ def _parser():
     parser.add_argument("--output", required=True)
     parser.add_argument("--part", choices=("plan", "run", "hold"), default="run")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--quiet", action="store_true")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     return parser

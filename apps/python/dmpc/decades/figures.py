@@ -50,14 +50,15 @@ def map_of(figures, name, title, found):
         for each in found:
             x, y = machines.index(each.cell.machine), steps.index(each.cell.step)
             colour = COLOURS[each.winner.family]
-            strength = 0.15 + 0.85 * max(0.0, (each.stays - 0.4) / 0.6)
+            is_drawn = bool(each.times) or math.isinf(each.lead)
+            strength = 0.15 + 0.85 * max(0.0, (each.stays - 0.4) / 0.6) if is_drawn else 0.4
             axis.add_patch(pyplot.Rectangle((x - 0.48, y - 0.48), 0.96, 0.96, facecolor=colour, alpha=strength, edgecolor="none"))
             if not each.is_decided:
                 axis.add_patch(pyplot.Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, fill=False, edgecolor=ink, linestyle=":", linewidth=1.2))
             on = "#ffffff" if strength > 0.6 else ink
             lead = "alone" if math.isinf(each.lead) else f"{each.lead:.2f}"
             axis.text(x, y + 0.1, f"{design.FAMILIES[each.winner.family]} {lead}", ha="center", va="center", color=on, fontsize=10)
-            share = "too small" if each.is_too_small else f"{100 * each.stays:.0f} %" if each.times and math.isfinite(each.lead) else ""
+            share = "too small" if each.is_too_small else "" if math.isinf(each.lead) else f"{100 * each.stays:.0f} %" if is_drawn else "not drawn"
             axis.text(x, y - 0.25, share, ha="center", va="center", color=on, fontsize=7)
         axis.set_xlim(-0.5, len(machines) - 0.5)
         axis.set_ylim(-0.5, len(steps) - 0.5)

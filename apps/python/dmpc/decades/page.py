@@ -29,14 +29,20 @@ _FAMILY_TEXT = ("<b>P</b> pages travel to the node whose pixel needs them; <b>Q<
 
 
 def sentence(found):
-    """Who wins where, and how many cells are decided."""
+    """How many cells are decided, who wins how many of the map, and by how much."""
     cells = [each for each in found if each.cell.set == "map"]
-    decided = [each for each in found if each.is_decided]
-    winners = {family: sum(each.winner.family == family for each in cells if each.is_decided) for family in design.FAMILIES}
-    order = sorted((family for family in winners if winners[family]), key=lambda family: -winners[family])
-    told = ", ".join(f"{family} in {winners[family]}" for family in order)
-    return (f"{len(decided)} of {len(found)} cells are decided; of the {len(cells)} of machine and memory below "
-            f"{told or 'no family wins any'}, and {sum(not each.is_decided for each in cells)} are undecided.")
+    decided = [each for each in cells if each.is_decided]
+    won = {family: [each.lead for each in decided if each.winner.family == family] for family in design.FAMILIES}
+    told = ", ".join(_won(family, won[family]) for family in sorted(won, key=lambda family: -len(won[family])) if won[family])
+    return (f"{sum(each.is_decided for each in found)} of {len(found)} cells are decided. Of the {len(cells)} machines and memories below "
+            f"{told or 'no family'} win; {len(cells) - len(decided)} are undecided.")
+
+
+def _won(family, leads):
+    finite = [lead for lead in leads if math.isfinite(lead)]
+    alone = len(leads) - len(finite)
+    parts = ([f"by {min(finite):.2f} to {max(finite):.2f} times the time"] if finite else []) + ([f"{alone} alone"] if alone else [])
+    return f"{family} {len(leads)} ({', '.join(parts)})"
 
 
 def write(kept, plan, memories, found, checked, expected, priced, effort):
@@ -74,7 +80,7 @@ def write(kept, plan, memories, found, checked, expected, priced, effort):
 
 
 def _picture(names, text):
-    return (f'<picture><source srcset="{names["dark"]}" media="(prefers-color-scheme: dark) and (not print)">'
+    return (f'<picture><source srcset="{names["dark"]}" media="(prefers-color-scheme: dark)">'
             f'<img src="{names["light"]}" alt="{html.escape(text)}"></picture>')
 
 
@@ -87,7 +93,10 @@ def _command(memories, verdict, kept):
 
 
 def place_of(cell):
-    return f"{cell.machine}, memory {figures.step_text(cell.step)}, {cell.nodes} nodes, {cell.light}"
+    """Machine and memory, and what is not as in the map."""
+    nodes = f", {cell.nodes} nodes" if cell.nodes != 64 else ""
+    light = f", {cell.light.replace('-', ' of ')} bounces" if cell.light != "whitted" else ""
+    return f"{cell.machine}, memory {figures.step_text(cell.step)}{nodes}{light}"
 
 
 def _rows(heads, rows):
@@ -103,7 +112,7 @@ def _scenes(drawn, plan, cells):
         single = [verdicts.of_scene(each, scene) for each in cells]
         memory = f"{design.SCENES[scene][0]:,} triangles"
         parts.append(_picture(figures.map_of(drawn, f"map-{scene}", f"{scene}, {memory}", single), f"Winners for {scene}"))
-    parts.append("<p class=note>Shares of draws are those of all scenes together.</p>")
+    parts.append("<p class=note>A cell has a share if its families were drawn, which were those of all scenes together.</p>")
     return parts
 
 
@@ -115,6 +124,8 @@ def _turning(priced, found):
             name, exponent, factor = turn
             rows.append((place_of(each.cell), each.winner.family, f"{each.lead:.2f}", name, f"{exponent:+.2f}",
                          "-" if factor is None else f"{factor:.2g}"))
+    if not rows:
+        return "<p>There are too few draws to tell the prices apart.</p>"
     rows.sort(key=lambda row: float(row[2]))
     return ("<p>Least squares over the draws of each cell: the lead goes as the price to this power, and times this factor it is a tie. The "
             "price is the one whose doubt moves the lead most; cells with the smallest leads first.</p>"

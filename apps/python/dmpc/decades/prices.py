@@ -41,12 +41,14 @@ def _at(machine, path):
 def turning(prices, verdict):
     """The price to which the lead is most sensitive within its doubt, the exponent of the lead, and the factor on that price that would
     make it a tie; nothing without draws, or if the price has no doubt."""
-    if len(verdict.times) < 10:
+    if not verdict.times:
         return None
     rows = [prices.factors(verdict.cell.machine, number) for number in range(len(verdict.times))]
     names = [name for name in rows[0] if any(abs(row[name]) > 1e-9 for row in rows)]
     names = [name for index, name in enumerate(names)
              if not any(all(abs(row[name] - row[other]) < 1e-3 for row in rows) for other in names[:index])]
+    if len(rows) < 2 * (len(names) + 1):
+        return None  # of more prices than so few draws can tell apart
     matrix = numpy.array([[row[name] for name in names] + [1.0] for row in rows])
     logs = numpy.log(verdict.factors)
     ridge = 1e-3 * numpy.eye(len(names) + 1)
