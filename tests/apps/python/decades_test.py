@@ -54,6 +54,20 @@ class VerdictTest(unittest.TestCase):
         made = verdict({"pages": (2, 8), "rays": (1, None)})
         self.assertTrue(math.isinf(made.lead) and made.is_decided and not made.needs_draws(PLAN))
 
+    def test_a_draw_times_the_winner_and_its_rivals_on_the_machine_of_that_draw(self):
+        def answer(line):
+            drawn = int(line.split("machines/hdr.")[1].split(".")[0])
+            return {"line": line, "seconds": 3 + drawn if "--strategy=dataflow" in line else 2}
+
+        made = verdict({"pages": (2, 2), "rays": (3, 3)})
+        for scene in "ab":
+            made.best["rays"].best[scene] = ("scattered", (), result(3))
+        kept = mock.Mock()
+        kept.kept.side_effect = answer
+        with mock.patch.dict(design.SCENES, {"a": (1, ()), "b": (1, ())}):
+            verdicts.draw(kept, replace(PLAN, draws_least=10, draws=10), lambda scene, nodes: [1 << 20] * 8, [made])
+        self.assertEqual([round(factor, 9) for factor in made.factors], [(3 + number) / 2 for number in range(10)])
+
     def test_a_cell_is_undecided_below_80_of_100_draws_and_ties_do_not_stay(self):
         times = {"pages": (1, 1), "rays": (2, 2)}
         self.assertTrue(verdict(times, [2] * 80 + [0.5] * 20).is_decided)
@@ -146,6 +160,7 @@ class PredictionsTest(unittest.TestCase):
         self.assertEqual(predictions.held(("rays", 2.0), made), (False, False))
         self.assertEqual(predictions.held(("pages", 1.5), made), (True, True))
         self.assertEqual(predictions.held(("pages", 1.2), made), (True, False))
+        self.assertEqual(predictions.held(("pages", 4.0), made), (True, False))
         self.assertEqual(predictions.held(("pages", None), made), (True, False))
         self.assertEqual(predictions.held(("pages", None), verdict({"pages": (1, 1)})), (True, True))
 
@@ -172,13 +187,13 @@ class DesignTest(unittest.TestCase):
 class StudyTest(unittest.TestCase):
     """A small study from end to end, by the program."""
 
-    SMALL = design.Design(systems=("replicated", "svm", "scattered"), scouts=("balls-1",), steps=(2, 7), scenes=("balls-1", "rings-1"),
+    SMALL = design.Design(systems=("replicated", "svm", "scattered"), scouts=("rings-4-t1",), steps=(4, 7), scenes=("rings-4-t1", "mount-6-t6"),
                           kept=1, draws=10, draws_least=10)
 
     def study(self, folder):
         kept = runs.Runs(folder, 2, lambda text: None)
-        with mock.patch.dict(design.MACHINES, {"hdr": 2022}, clear=True), mock.patch.dict(design.RESOLUTIONS, {64: 32}), \
-                mock.patch.dict(design.SCENES, {"balls-1": (10, ()), "rings-1": (61, ())}), redirect_stderr(io.StringIO()):
+        with mock.patch.dict(design.MACHINES, {"paragon": 1993}, clear=True), mock.patch.dict(design.RESOLUTIONS, {64: 32}), \
+                redirect_stderr(io.StringIO()):
             command.study(kept, self.SMALL, True)
         return kept
 
@@ -186,7 +201,8 @@ class StudyTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             first = self.study(folder)
             text = (pathlib.Path(folder) / "index.html").read_text()
-            self.assertIn(" of 2 cells are decided. ", text)
+            self.assertIn("2 of 2 cells are decided. ", text)
+            self.assertTrue((pathlib.Path(folder) / "machines" / "paragon.9.json").exists())
             self.assertIn("dmpc render ", text)
             self.assertNotIn("NOT as it must be", text)
             lines = (pathlib.Path(folder) / "runs.jsonl").read_text().splitlines()

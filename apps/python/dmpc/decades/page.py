@@ -41,7 +41,8 @@ def sentence(found):
 def _won(family, leads):
     finite = [lead for lead in leads if math.isfinite(lead)]
     alone = len(leads) - len(finite)
-    parts = ([f"by {min(finite):.2f} to {max(finite):.2f} times the time"] if finite else []) + ([f"{alone} alone"] if alone else [])
+    least, most = f"{min(finite, default=0):.2f}", f"{max(finite, default=0):.2f}"
+    parts = ([f"by {least if least == most else f'{least} to {most}'} times the time"] if finite else []) + ([f"{alone} alone"] if alone else [])
     return f"{family} {len(leads)} ({', '.join(parts)})"
 
 
