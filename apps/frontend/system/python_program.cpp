@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
@@ -39,6 +40,9 @@ void become_python(const std::string& name, const std::string& what, const std::
   }
   values.push_back(nullptr);
   ::setenv("DMPC", std::filesystem::read_symlink("/proc/self/exe").replace_filename("dmpc").c_str(), 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);  // dmpc holds back what Ctrl-C sends, and Python would inherit that
   for (const char* const python : pythons) {
     ::execvp(python, values.data());
   }
