@@ -7,6 +7,7 @@
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
 #include "apps/lab/study/command.h"
+#include "apps/lab/study/decades/command.h"
 #include "apps/lab/study/paper/command.h"
 #include "apps/lab/study/references/command.h"
 #include "apps/lab/study/sweep/command.h"
@@ -29,6 +30,8 @@ void declare_all(Commands& commands) {
   commands.add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
   commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
   commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
+  commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025", DecadesOptions(),
+               study_decades_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
   commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", StudySweepOptions(),

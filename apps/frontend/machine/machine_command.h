@@ -1,7 +1,9 @@
 // The command `machine`: prints a machine's figures as JSON.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 #include "apps/frontend/line/command_line.h"
@@ -9,7 +11,9 @@
 namespace dmpc::apps {
 
 struct MachineOptions {
-  std::string machine;  ///< a preset's name or a machine file
+  std::string machine;                ///< a preset's name or a machine file
+  std::optional<std::uint32_t> draw;  ///< of its prices
+  bool is_measured = false;           ///< with the prices of this computer
 };
 
 void add_options(OptionSet options, MachineOptions& machine);

@@ -123,6 +123,34 @@ constexpr Preset presets[] = {
      .hop_ns = {200, "a layer of switches: Overview of Recent Supercomputers, medium"},
      .service_ns = {20'000, "assumed, low"},
      .slowdown = {ipsc2_slowdown / 15, "SuperSPARC of 40 MFLOPS, 15 times the iPSC/2's node: assumed, low"}},
+    {.name = "myrinet",
+     .title = "a cluster of 2005: Opteron processors on Myrinet-2000",
+     .topology = {TopologyKind::fat_tree, "Clos network of switches: Myricom, high"},
+     .uplinks = {4, "as many links up as down, as a Clos network has: quoted, medium"},
+     .switching = {Switching::packet, "packets that switches cut through: Myricom, high"},
+     .long_message =
+         {{.send_ns = 800, .latency_ns = 1'400, .receive_ns = 800, .byte_ps = 4'049},
+          "3.2 us in all through one switch and 247 MB/s with MPI over MX-2G, D cards with one port: Myricom, Performance "
+          "Measurements of Myrinet-2000, high; the 0.8 us of each processor: assumed from LogP's 2 us of the Lanai cards "
+          "before, low"},
+     .hop_ns = {100, "half of what hardware and one switch take, 0.5 us with the fibres' ends: Myricom, the same page, medium"},
+     .service_ns = {1'000, "assumed, low"},
+     .slowdown = {8,
+                  "an Opteron at 2.4 GHz: clock 1.4, instructions a clock 2, and half of the work by vectors a quarter as wide: "
+                  "computed, not measured, low"}},
+    {.name = "fdr",
+     .title = "a cluster of 2015 on FDR InfiniBand, 56 Gbit/s",
+     .topology = {TopologyKind::fat_tree, "FDR InfiniBand as a fat tree: quoted, medium"},
+     .uplinks = {4, "as many links up as down, without oversubscription: quoted as usual, medium"},
+     .switching = {Switching::packet, "packets of up to 4 KiB that switches cut through: InfiniBand, high"},
+     .long_message =
+         {{.send_ns = 300, .latency_ns = 400, .receive_ns = 300, .byte_ps = 158},
+          "1.0 to 1.3 us in all with MPI through one switch, 0.2 to 0.4 us of them on each processor, and 6.3 GB/s of the "
+          "link's 6.8: quoted, medium"},
+     .hop_ns = {100, "a switch: quoted as 0.1 to 0.2 us, medium"},
+     .service_ns = {400, "assumed, low"},
+     .slowdown =
+         {2, "a Xeon E5 of 2014 beside a core of a server of today, 1.4 to 2 times in SPEC CPU by one thread: quoted, medium"}},
     {.name = "gigabit",
      .title = "a cluster of today on gigabit Ethernet",
      .topology = {TopologyKind::fat_tree, "star or Clos network of switches, medium"},
@@ -145,6 +173,18 @@ constexpr Preset presets[] = {
                       "quoted, medium"},
      .hop_ns = {100, "a switch: quoted, medium"},
      .service_ns = {300, "assumed, low"},
+     .slowdown = {1, "a node is one core as that on which the operations were measured, medium"}},
+    {.name = "ndr",
+     .title = "a cluster of 2025 on NDR InfiniBand, 400 Gbit/s",
+     .topology = {TopologyKind::fat_tree, "NDR InfiniBand as a fat tree: quoted, medium"},
+     .uplinks = {4, "as many links up as down, without oversubscription: quoted as usual, medium"},
+     .switching = {Switching::packet, "packets of up to 4 KiB that switches cut through: InfiniBand, high"},
+     .long_message =
+         {{.send_ns = 250, .latency_ns = 350, .receive_ns = 250, .byte_ps = 21},
+          "0.24 us on the sender and 46.7 GB/s with UCX over 400 Gbit/s: openucx/ucx, issue 10649, 2025, medium; 0.9 to 1.2 "
+          "us in all through one switch: quoted as HDR's, medium"},
+     .hop_ns = {100, "a switch, as HDR's: quoted, medium"},
+     .service_ns = {300, "as HDR's: assumed, low"},
      .slowdown = {1, "a node is one core as that on which the operations were measured, medium"}},
 };
 

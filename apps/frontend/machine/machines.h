@@ -27,11 +27,11 @@ struct MachineDescription {
   std::string title = {};  ///< a description in one line; empty for a user's machine
 };
 
-/// ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.
+/// From ipsc2 of 1988 to ndr of 2025. Thread-safe.
 const std::vector<MachineDescription>& machine_presets();
 /// Null if no preset has this name. Thread-safe.
 const MachineDescription* find_machine_preset(std::string_view name);
-/// "ipsc2, ipsc860, ..., hdr", for messages.
+/// "ipsc2, ipsc2-1994, ..., ndr", for messages.
 std::string machine_preset_names();
 
 /// The machine's name and what is special about its links, if anything is: "ipsc2", "ipsc2 without contention" or "ipsc2 with

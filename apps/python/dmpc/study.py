@@ -13,7 +13,7 @@ from . import studying
 from .calls import sweep
 from .program import Text
 
-__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "references"]
+__all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames", "paper", "decades", "references"]
 
 
 def balance(
@@ -27,8 +27,9 @@ def balance(
     None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background",
     "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
     bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None,
-    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
-    "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    clamp: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None,
+    plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -43,9 +44,10 @@ def traffic(
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
     Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
     "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int
-    | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text
-    | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None =
-    None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text |
+    None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid",
+    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None =
+    None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -61,9 +63,9 @@ def cache(
     Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None,
     no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
-    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
-    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text
+    | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None =
+    None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -85,9 +87,9 @@ def speedup(
     samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit",
     "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None,
     transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters:
-    int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None
-    = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text |
-    None = None, plots: Text | None = None
+    int | None = None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text | None = None, record_order:
+    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
+    "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -104,9 +106,9 @@ def systems(
     samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit",
     "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None,
     transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters:
-    int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None
-    = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text |
-    None = None, plots: Text | None = None
+    int | None = None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text | None = None, record_order:
+    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
+    "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -123,9 +125,9 @@ def frames(
     None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
     "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport:
     Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None =
-    None, plots: Text | None = None
+    None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
+    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None =
+    None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())
@@ -136,6 +138,13 @@ def paper(
 ) -> str:
     """Regenerate the tables and claims of the 1994 article."""
     return studying.study("paper", [], locals())
+
+
+def decades(
+    *, output: Text | None = None, part: Literal["plan", "run", "hold"] | None = None, quick: bool = False, jobs: int | None = None
+) -> str:
+    """Find what should travel, pages, rays or questions, on machines of 1988 to 2025."""
+    return studying.study("decades", [], locals())
 
 
 def references(

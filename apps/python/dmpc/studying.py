@@ -14,7 +14,7 @@ def study(name, positions, options):
         program.scene_of(options)
     arguments = [str(each) for position in positions for each in program.several(options[position])]
     line = [*program.words({key: value for key, value in options.items() if key not in positions}), "--", *arguments]
-    return program.run(["study", name, "--quiet", *line]) if name == "paper" else table(name, line)
+    return program.run(["study", name, "--quiet", *line]) if name in ("paper", "decades") else table(name, line)
 
 
 def table(name, line):

@@ -104,6 +104,7 @@ void check_page(const std::string& name) {
 }  // namespace
 
 TEST_CASE("the lab of the working set shows what comes of it" * doctest::test_suite("slow")) { check_page("working_set"); }
+TEST_CASE("the lab of what should travel shows what comes of it" * doctest::test_suite("slow")) { check_page("travel"); }
 TEST_CASE("the lab of granularity shows what comes of it" * doctest::test_suite("slow")) { check_page("granularity"); }
 TEST_CASE("the lab of speedup shows what comes of it" * doctest::test_suite("slow")) { check_page("speedup"); }
 TEST_CASE("the lab of balance shows what comes of it" * doctest::test_suite("slow")) { check_page("balance"); }

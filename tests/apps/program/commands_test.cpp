@@ -58,7 +58,7 @@ TEST_CASE("scene, check and compare take their own options") {
 TEST_CASE("machine takes a name") {
   CHECK(parse({"machine", "cm5"}).options<MachineOptions>().machine == "cm5");
   CHECK(contains(parse({"machine", "--help"}).options<HelpText>().text,
-                 "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
+                 "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, gigabit, hdr, ndr"));
 }
 
 TEST_CASE("help shows examples and every command") {

@@ -388,7 +388,7 @@ TEST_CASE("the help of render names the values and the defaults of options") {
         "1..546 [what fills 4 KiB; 2 KiB without bundles or with --ray-slots; 1 KiB on modelled machines]",
         "0..64 [4; up to 64 with few nodes and bundles]", "1..4096 [64 with more than 128 nodes; otherwise credits]",
         "0..16384 [256; 512 without bundles; 128 with --ray-slots]", "threads|pool|virtual|mpi [threads]",
-        "MACHINE|FILE.json [ipsc2]", "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit, hdr",
+        "MACHINE|FILE.json [ipsc2]", "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, gigabit, hdr, ndr",
         "64, replicated 16, forest 16 to 256, runner virtual 16, replicated 1, mpi up to 256", "4, or 3 without bundles"}) {
     CHECK_MESSAGE(contains(text, word), word);
   }

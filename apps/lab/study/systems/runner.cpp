@@ -2,9 +2,9 @@
 
 #include <variant>
 
+#include "apps/frontend/machine/drawn_machine.h"
 #include "apps/frontend/table/filled_columns.h"
 #include "apps/lab/study/engine/time_part_columns.h"
-#include "apps/lab/study/systems/price_draws.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 

@@ -3,9 +3,9 @@
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/words.h"
+#include "apps/frontend/machine/drawn_machine.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/lab/study/studies.h"
-#include "apps/lab/study/systems/price_draws.h"
 #include "apps/lab/study/systems/runner.h"
 #include "core/base/expect.h"
 #include "core/base/ranges.h"

@@ -29,9 +29,9 @@ std::uint64_t alpha_ns(const nodes::MessageCost& cost) { return cost.send_ns + c
 
 }  // namespace
 
-TEST_CASE("there are eight machines, found by their names and by no others") {
-  CHECK(machine_presets().size() == 8);
-  CHECK(machine_preset_names() == "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, gigabit, hdr");
+TEST_CASE("there are eleven machines, found by their names and by no others") {
+  CHECK(machine_presets().size() == 11);
+  CHECK(machine_preset_names() == "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, gigabit, hdr, ndr");
   for (const MachineDescription& preset : machine_presets()) {
     CHECK(find_machine_preset(preset.machine.name) == &preset);
   }
@@ -95,7 +95,7 @@ TEST_CASE("the machines of 1988 to 1993 with routers of their own make circuits,
     CHECK(machine(name).switching == nodes::Switching::circuit);
     CHECK(machine(name).uplinks == 1);
   }
-  for (const std::string name : {"cm5", "cs2", "gigabit", "hdr"}) {
+  for (const std::string name : {"cm5", "cs2", "myrinet", "fdr", "gigabit", "hdr", "ndr"}) {
     CHECK(machine(name).switching == nodes::Switching::packet);
     CHECK(machine(name).topology == nodes::TopologyKind::fat_tree);
     CHECK(machine(name).uplinks == (name == "cm5" ? 2 : 4));
@@ -108,8 +108,11 @@ TEST_CASE("an empty message to a neighbour takes what is published, its hops amo
   };
   CHECK(neighbour_us(machine("ipsc860"), 1) >= 65);
   CHECK(neighbour_us(machine("ipsc860"), 1) <= 75);
-  CHECK(neighbour_us(machine("hdr"), 2) >= 1.0);
-  CHECK(neighbour_us(machine("hdr"), 2) <= 1.3);
+  for (const std::string name : {"fdr", "hdr", "ndr"}) {
+    CHECK(neighbour_us(machine(name), 2) >= 1.0);
+    CHECK(neighbour_us(machine(name), 2) <= 1.3);
+  }
+  CHECK(neighbour_us(machine("myrinet"), 2) == doctest::Approx(3.2));
 }
 
 TEST_CASE("every machine takes time for messages and contends for links") {

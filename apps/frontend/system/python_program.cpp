@@ -1,0 +1,52 @@
+#include "apps/frontend/system/python_program.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include "apps/frontend/system/companion_path.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::array<const char*, 2> pythons = {"/usr/bin/python3", "python3"};
+
+/// Its arguments: the module, what needs it, and the words for it.
+constexpr const char* driver = R"(import importlib, sys
+packages = {"dmpc": "python3-dmpc", "numpy": "python3-numpy", "pandas": "python3-pandas", "OpenImageIO": "python3-openimageio",
+            "matplotlib": "python3-matplotlib"}
+name, what, *words = sys.argv[1:]
+try:
+    module = importlib.import_module("dmpc." + name)
+except ModuleNotFoundError as error:
+    missing = error.name.split(".")[0]
+    package = packages.get(missing, missing)
+    sys.exit(f"dmpc: {what} needs Python's module {missing}: apt-get install {package}"
+             + (", or set PYTHONPATH to apps/python of the sources" if missing == "dmpc" else ""))
+sys.exit(module.main(words))
+)";
+
+}  // namespace
+
+void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words) {
+  std::vector<std::string> line = {"python3", "-X", "utf8", "-c", driver, name, what};
+  line.insert(line.end(), words.begin(), words.end());
+  std::vector<char*> values;
+  for (std::string& word : line) {
+    values.push_back(word.data());
+  }
+  values.push_back(nullptr);
+  ::setenv("DMPC", std::filesystem::read_symlink("/proc/self/exe").replace_filename("dmpc").c_str(), 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);  // dmpc holds back what Ctrl-C sends, and Python would inherit that
+  for (const char* const python : pythons) {
+    ::execvp(python, values.data());
+  }
+  throw InstallationError(what + " needs Python: apt-get install python3-dmpc python3-matplotlib");
+}
+
+}  // namespace dmpc::apps
