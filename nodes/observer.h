@@ -71,13 +71,19 @@ struct Span {
   /// The number of the call of the node's program. For send the call whose packets are sent, for take_over the last one before.
   std::uint64_t call = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
-  std::uint64_t own_ns = 0;  ///< its own duration, without interrupts and packets that arrived meanwhile
-  Charges before, after;     ///< operations charged until its begin and its end; equal except for calls of the program
+  std::uint64_t own_ns = 0;       ///< its own duration, without interrupts and packets that arrived meanwhile
+  std::uint64_t received_ns = 0;  ///< taking those packets (modelled machines)
+  bool is_in_idle = false;        ///< for serve: the node had nothing else to do
+  Charges before, after;          ///< operations charged until its begin and its end; equal except for calls of the program
 
   /// Whether it is a call of the program and no interrupt.
   bool is_own_call() const { return activity == Activity::work || activity == Activity::receive; }
   /// The classes of operations charged during it.
   ChargeBits charged() const { return charged_between(before, after); }
+  /// Taking the packets that arrived meanwhile, as a span of its own over the same time.
+  Span taking_packets() const {
+    return {.node = node, .activity = Activity::take_over, .begin_ns = begin_ns, .end_ns = end_ns, .own_ns = received_ns};
+  }
 };
 
 /// Times of a message. What does not apply is 0.

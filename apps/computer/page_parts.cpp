@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/computer/record.h"
+#include "apps/frontend/run/time_parts.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {
@@ -30,8 +31,8 @@ constexpr std::array own_words = {
 
 /// Terms whose explanations in dmpc apply to any program.
 constexpr std::array<std::string_view, 14> common_words = {
-    "asleep", "cache", "eviction",           "fault",          "fetch",   "lru", "node", "idle at the end", "service while idle",
-    "link",   "p95",   "service while busy", "stack distance", "topology"};
+    "asleep", "cache", "eviction",         "fault",          "fetch",   "lru", "node", "idle at the end", service_idle_words,
+    "link",   "p95",   service_busy_words, "stack distance", "topology"};
 
 std::vector<GlossaryEntry> all_words() {
   std::vector<GlossaryEntry> all(own_words.begin(), own_words.end());
@@ -50,8 +51,6 @@ std::span<const GlossaryEntry> page_words() {
   static const std::vector<GlossaryEntry> all = all_words();
   return all;
 }
-
-PageSpeaker speaker(const std::string& name) { return {.name = name, .words = page_words()}; }
 
 void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count) {
   page.add_text(origin.program + ", " + origin.date);

@@ -22,9 +22,6 @@ inline constexpr std::uint32_t readable_nodes_max = 256;
 /// In alphabetical order. Thread-safe.
 std::span<const GlossaryEntry> page_words();
 
-/// Returns the page's speaker: the program `name`.
-PageSpeaker speaker(const std::string& name);
-
 /// Begins a page with its origin, its facts and the program's result.
 void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count);
 

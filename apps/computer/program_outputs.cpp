@@ -98,7 +98,7 @@ void add_heat(Page& page, const ProgramRecord& record) {
 void add_own_pages(Page& page, const ProgramRecord& record) {
   const svm::PageCounters& pages = record.tasks.last_pages;
   const std::string remark = remark_on_runs(record);
-  add_pages(page, pages, *record.view->fetches, record.nodes.size() <= readable_nodes_max, remark);
+  add_pages(page, pages, *record.view->fetches, record.virtual_ns.has_value(), record.nodes.size() <= readable_nodes_max, remark);
   if (pages.faults > 0) {
     add_misses(page, *record.view->misses, record.tasks.page_count, record.tasks.cache_pages, pages, remark);
   }
@@ -112,14 +112,16 @@ void write_program_page(const ProgramRecord& record, std::ostream& output) {
   core::expect(record.view.has_value(), "a page that is written was looked on for");
   const bool has_pages = record.vocabulary.has_pages();
   const Origin origin = program_origin(record.name);
-  Page page("Run of " + record.name, std::cerr, speaker(record.name));
+  Page page("Run of " + record.name, page_words());
   begin_page(page, origin, facts_of(record), record.result, record.node_count());
   if (record.tasks.run_count > 1) {
     page.add_text("Times and counters are of all " + counted(record.tasks.run_count, "run") +
                   " together, where it does not say otherwise.");
   }
   add_losses(page, losses_of(record));
-  add_steps(page, record.view->steps, program_work(record.vocabulary).names, {}, remark_on_runs(record), "");
+  add_steps(page, record.view->steps, program_work(record.vocabulary).names, {}, record.virtual_ns.has_value(),
+            remark_on_runs(record),
+            record.virtual_ns ? "" : "By the wall clock a call counts as long as it took, even where it waited for a core.");
   if (has_pages) {
     add_heat(page, record);
     add_own_pages(page, record);

@@ -17,7 +17,7 @@ constexpr auto install_bit = 1U << static_cast<std::uint32_t>(core::Charge::page
 ProgramWork program_work(const Vocabulary& vocabulary) {
   const std::vector<NamedOperation>& operations = vocabulary.operations;
   const bool has_pages = vocabulary.has_pages();
-  const std::size_t shown = std::min(operations.size(), nodes::work_count - (has_pages ? 3 : 2));
+  const std::size_t shown = std::min<std::size_t>(operations.size(), has_pages ? 3 : 4);
   ProgramWork work;
   std::vector<std::uint32_t> bits;
   for (std::size_t i = 0; i < shown; ++i) {

@@ -21,8 +21,7 @@ if(TARGET dmpc_module_mpi)
 endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmpc)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "dmpc-mpi, python3")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "dmpc-mpi, gnuplot-nox, python3")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmpc)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -40,7 +39,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++ (>= 4:12)")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libhwy-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-  "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION}), dmpc-mpi (= ${PROJECT_VERSION}), gnuplot-nox")
+  "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION}), dmpc-mpi (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "dmpc's computer for programs of one's own
 Headers, libraries and examples: programs for nodes with bounded memories
 that talk only through mailboxes, run on threads, of one process or several,

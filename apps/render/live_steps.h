@@ -42,7 +42,7 @@ class LiveSteps {
   std::string cells(std::size_t step) const;
   void clear();
 
-  static constexpr std::size_t levels_max = 40;
+  static constexpr std::size_t levels_max = 30;
   static_assert(levels_max * nodes::work_count + nodes::work_count <= 256, "in a byte");
 
  private:

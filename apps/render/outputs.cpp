@@ -53,7 +53,7 @@ OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
   }
   if (options.report) {
     outputs.add("--report", *options.report, check_output_path, [](Record record, std::ostream& stream) {
-      stream << html::render_page(record, this_origin(record.scene_digest), std::cerr);
+      stream << html::render_page(record, this_origin(record.scene_digest));
     });
   }
   for (const HeatRequest& request : options.heat_maps) {

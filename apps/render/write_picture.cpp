@@ -145,7 +145,7 @@ void write_others(const RenderCall& call, const DueFrame& frame, const RenderRec
   const Interrupt::EndAtOnce end_at_once(call.interrupt);
   frame.outputs.write(record, attempts, call.files);
   if (record.options.report && has_viewers(call)) {
-    attempts.make([&] { written.page = html::render_page(record, this_origin(record.scene_digest), std::cerr); });
+    attempts.make([&] { written.page = html::render_page(record, this_origin(record.scene_digest)); });
   }
   attempts.make([&] { written.closing = print_closing(call, frame, record); });
 }

@@ -50,7 +50,7 @@ struct StepSums {
 
 /// One node's steps, on separate cache lines.
 struct alignas(cache_line_bytes) ActivityProfile::Log {
-  std::uint64_t step_ns = first_step_ns;
+  std::uint64_t step_ns = first_step_ns, end_ns = 0;
   StepSums<WorkTimes> works;
   StepSums<WaitTimes> waits;
 
@@ -71,6 +71,7 @@ ActivityProfile::~ActivityProfile() = default;
 
 ActivityProfile::Log& ActivityProfile::log_until(NodeId node, std::uint64_t end_ns) {
   Log& log = logs_[index_of(node)];
+  log.end_ns = std::max(log.end_ns, end_ns);
   while (end_ns > log.step_ns * step_count_max_) {
     log.double_steps();
   }
@@ -81,6 +82,9 @@ void ActivityProfile::ended(const Span& span, const Program& /*program*/) {
   Log& log = log_until(span.node, span.end_ns);
   if (span.own_ns > 0) {
     log.works.add(work_of_(span), log.step_ns, span.begin_ns, span.end_ns, span.own_ns);
+  }
+  if (span.received_ns > 0) {
+    log.works.add(work_of_(span.taking_packets()), log.step_ns, span.begin_ns, span.end_ns, span.received_ns);
   }
 }
 
@@ -98,6 +102,7 @@ std::string ActivityProfile::bytes() const {
     if (log.step_count() > 0) {
       flat.put(index);
       flat.put(log.step_ns);
+      flat.put(log.end_ns);
       flat.put_all(log.works.steps);
       flat.put_all(log.waits.steps);
     }
@@ -111,6 +116,7 @@ void ActivityProfile::add(std::string_view bytes) {
     Log& log = logs_.at(flat.take<std::uint32_t>());
     core::expect(log.step_count() == 0, "a node is on one rank");
     log.step_ns = flat.take<std::uint64_t>();
+    log.end_ns = flat.take<std::uint64_t>();
     log.works.steps = flat.take_all<WorkTimes>();
     log.waits.steps = flat.take_all<WaitTimes>();
   }
@@ -121,6 +127,7 @@ ActivitySteps ActivityProfile::take() {
   std::size_t count = 0;
   for (Log& log : logs_) {
     all.step_ns = std::max(all.step_ns, log.step_ns);
+    all.end_ns = std::max(all.end_ns, log.end_ns);
   }
   for (Log& log : logs_) {
     while (log.step_ns < all.step_ns) {

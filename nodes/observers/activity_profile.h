@@ -2,6 +2,7 @@
 // node's.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace dmpc::nodes {
 
 /// The number of kinds of work. The maker of a profile classifies spans.
-inline constexpr std::size_t work_count = 6;
+inline constexpr std::size_t work_count = 8;
 /// The kind of work of a span. Called by several threads at a time.
 using WorkOf = std::function<std::size_t(const Span& span)>;
 
@@ -30,10 +31,16 @@ using WaitTimes = std::array<std::uint64_t, wait_count>;
 
 /// Steps of equal length from the start of the run.
 struct ActivitySteps {
-  std::uint64_t step_ns = 0;
+  std::uint64_t step_ns = 0, end_ns = 0;  ///< length of a step; end of the last span or wait of any node
   std::vector<std::vector<WorkTimes>>
       nodes;  ///< by number, the host last; each with all steps up to the last in which any was busy, or waited
   std::vector<std::vector<WaitTimes>> waits = {};  ///< likewise
+
+  /// Of a step; the last ends with the run. Never 0.
+  std::uint64_t length_ns(std::size_t step) const {
+    const std::uint64_t begin_ns = step * step_ns;
+    return end_ns > begin_ns ? std::min(step_ns, end_ns - begin_ns) : step_ns;
+  }
 };
 
 /// Adds up the spans and waits of each node by time: a span's own duration is spread evenly over its length. Thread safety: as an

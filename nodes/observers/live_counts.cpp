@@ -36,6 +36,9 @@ void LiveCounts::ended(const Span& span, const Program& /*program*/) {
   Node& node = nodes_[index_of(span.node)];
   node.now_ns.set(span.end_ns);
   node.busy_ns[work_of_(span)].add(span.own_ns);
+  if (span.received_ns > 0) {
+    node.busy_ns[work_of_(span.taking_packets())].add(span.received_ns);
+  }
 }
 
 void LiveCounts::sent(const Passing& packet) {

@@ -160,6 +160,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     target.inbox.push(computer.messages, number);
     if (target.is_occupied) {
       target.occupied_until_ns += receive_ns;
+      if constexpr (is_watched) {
+        target.span.received_ns += receive_ns;
+      }
       follow_receiving(target, message.header.kind, receive_ns);
     } else {
       const std::uint64_t begin_ns = end_wait(target, number);
@@ -308,6 +311,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
                                                    : self.calls,
               .begin_ns = begin_ns,
               .own_ns = own_ns,
+              .is_in_idle = !self.is_occupied,
               .before = self.charged,
               .after = self.charged};
     }

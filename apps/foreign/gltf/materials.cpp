@@ -150,7 +150,6 @@ class MaterialReader {
     surface.opacity = alpha_mode(source) == "BLEND" ? opacity : 1;
     traits.has_light_texture = traits.has_light_texture && surface.emission != Vec3d{};
     surface.emission = traits.has_light_texture ? Vec3d{} : surface.emission;
-    traits.shines = surface.emission != Vec3d{};
     traits.colors_what_shines_through =
         surface.transmission > 0 && !(surface.base.x == surface.base.y && surface.base.y == surface.base.z);
     traits.has_clear_coat = coat && coat->number("clearcoatFactor", 0) > 0;
@@ -305,8 +304,6 @@ void note_losses(const std::vector<MaterialTraits>& materials, const std::vector
     }
   }
   note_count(file.notes, "textures not used, since they are not of a surface's colour", textures.size());
-  note("materials that shine by themselves, and light other things by paths, not by --transport=whitted",
-       [&](std::size_t i) { return materials[i].shines; });
   note("materials whose own light is a texture's, shown without it",
        [&](std::size_t i) { return materials[i].has_light_texture; });
   note("materials that colour what shines through them, shown without that",

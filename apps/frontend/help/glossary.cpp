@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstddef>
 
+#include "apps/frontend/run/time_parts.h"
 #include "core/base/ranges.h"
 
 namespace dmpc::apps {
@@ -83,8 +84,8 @@ constexpr std::array entries = {
     GlossaryEntry{"replicated", "The strategy in which nothing travels: every node has the whole database."},
     GlossaryEntry{"run hash", "A digest of all events in virtual time, the machine and the film: equal runs have equal hashes."},
     GlossaryEntry{"sample", "A ray through a pixel and all rays that follow from it; a pixel is the mean of its samples."},
-    GlossaryEntry{"service while busy", "The time for which serving requests of others keeps a node from its own work."},
-    GlossaryEntry{"service while idle",
+    GlossaryEntry{service_busy_words, "The time for which serving requests of others keeps a node from its own work."},
+    GlossaryEntry{service_idle_words,
                   "The time for which a node serves requests of others while it has no work; nothing is lost by it."},
     GlossaryEntry{"shading", "Computing the light that a hit sends back, and the rays that go on from it."},
     GlossaryEntry{"slot", "Reserved space for one packet or ray; a credit is the right to use one."},

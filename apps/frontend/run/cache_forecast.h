@@ -5,6 +5,7 @@
 // pages; (B) only the time for pages does: page wait, service of interrupts, messages. Either may be the longer one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct TimeBand {
   double faults = 0;                 ///< by the run's own curve, compared with its own faults
   double least_ns = 0, most_ns = 0;  ///< interval of both readings, as wide as the curve is uncertain
 
-  double width() const { return most_ns / least_ns - 1; }
-  /// Wider bands are too vague to be shown.
+  double width() const { return most_ns / std::max(least_ns, 1.0) - 1; }
+  /// Wider bands are called vague.
   static constexpr double width_max = 0.1;
   bool is_narrow() const { return width() <= width_max; }
 };

@@ -46,9 +46,9 @@ std::string words_of(TimePart part, const WaitKinds& waits) {
     case TimePart::other_wait:
       return "other waits";
     case TimePart::service_busy:
-      return "service while busy";
+      return std::string(service_busy_words);
     case TimePart::service_idle:
-      return "service while idle";
+      return std::string(service_idle_words);
     case TimePart::idle_at_end:
       return "idle at the end";
     default:

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "nodes/observers/activity_profile.h"
 #include "nodes/virtual/virtual_times.h"
@@ -40,6 +41,9 @@ inline constexpr std::size_t time_part_count = 11;
 inline constexpr std::array<const char*, time_part_count> time_part_names = {
     "computing",  "data_wait",    "starvation",   "token_wait", "credit_wait", "film_wait",
     "other_wait", "service_busy", "service_idle", "messages",   "idle_at_end"};
+
+/// Shown names that other tables have, too.
+inline constexpr std::string_view service_busy_words = "service while busy", service_idle_words = "service while idle";
 
 /// The waits in the order in which a nodes::ActivityProfile numbers them for wait_of().
 inline constexpr std::array<TimePart, nodes::wait_count> wait_parts = {

@@ -29,7 +29,7 @@ Work work_for(Doing doing) {
     case Doing::shade:
       return Work::shading;
     case Doing::install:
-      return Work::paging;
+      return Work::installing;
     case Doing::pack:
       return Work::packing;
     default:
@@ -43,7 +43,7 @@ Work work_for(const nodes::Span& span) {
     case nodes::Activity::take_over:
       return Work::messages;
     case nodes::Activity::serve:
-      return Work::paging;
+      return span.is_in_idle ? Work::service_idle : Work::service_busy;
     default:
       return work_for(doing_of(span.charged()));
   }

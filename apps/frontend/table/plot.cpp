@@ -5,8 +5,7 @@
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/words.h"
-#include "apps/frontend/table/plot_axis.h"
-#include "core/base/expect.h"
+#include "apps/frontend/table/drawn_plot.h"
 
 namespace dmpc::apps {
 
@@ -28,42 +27,13 @@ constexpr const char* next_line = ", \\\n  ";
 
 /// Names of positions along x up to this length are upright.
 constexpr std::size_t upright_letters_max = 3;
-/// Names of positions along x that can be distinguished in little space.
-constexpr std::size_t small_names_max = 24;
 
 /// Gap between the bars of adjacent positions, in positions.
 constexpr double gap = 0.2;
 
-/// Returns a name of a position as in the CSV file: a text or a whole number.
-std::string text_of_cell(const Cell& cell) {
-  const std::string* const text = std::get_if<std::string>(&cell);
-  const std::uint64_t* const number = std::get_if<std::uint64_t>(&cell);
-  core::expect(text != nullptr || number != nullptr, "a place in a plot has a name or a whole number");
-  const std::string name = text != nullptr ? *text : std::to_string(*number);
-  core::expect(name.find_first_of("\r\n") == std::string::npos, "a place in a plot has a name of one line");
-  return name;
-}
-
-bool stands_at_place(const PlotSeries& series) { return series.mark == PlotMark::bars || series.mark == PlotMark::bands; }
-
-class Script {
+class Script : private DrawnPlot {
  public:
-  Script(const Plot& plot, const Table& table, const std::string& data_file) : plot_(plot), table_(table), data_(data_file) {
-    is_bars_ = std::any_of(plot.series.begin(), plot.series.end(), stands_at_place);
-    for (const PlotSeries& series : plot.series) {
-      core::expect(stands_at_place(series) == is_bars_, "the series of a plot are all bars or bands, or none is");
-      core::expect(series.color < plot_color_count, "a plot has so many colours");
-      if (std::any_of(table.rows().begin(), table.rows().end(), [&](const auto& row) { return is_meant(series, row); })) {
-        drawn_.push_back(&series);
-      }
-    }
-    for (const std::vector<Cell>& row : table.rows()) {
-      if (has_places() && std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
-        add_place(row);
-      }
-    }
-    core::expect(has_places() || plot.places.size() == 1, "numbers along x are of one column");
-  }
+  Script(const Plot& plot, const Table& table, const std::string& data_file) : DrawnPlot(plot, table), data_(data_file) {}
 
   std::optional<std::string> text() const {
     if (drawn_.empty()) {
@@ -75,73 +45,6 @@ class Script {
   }
 
  private:
-  bool is_meant(const PlotSeries& series, const std::vector<Cell>& row) const {
-    return is_visible(row[number_of_column(table_, series.column)]) &&
-           std::all_of(series.where.begin(), series.where.end(), [&](const auto& condition) {
-             return text_of_cell(row[number_of_column(table_, condition.first)]) == condition.second;
-           });
-  }
-
-  /// Returns whether the axis can show a cell's number.
-  bool is_visible(const Cell& cell) const {
-    const std::optional<double> number = number_of(cell);
-    return number && (plot_.y.scale == PlotScale::linear || *number > 0);
-  }
-
-  void add_place(const std::vector<Cell>& row) {
-    const std::string name =
-        joined(plot_.places, " ", [&](const std::string& column) { return text_of_cell(row[number_of_column(table_, column)]); });
-    if (std::find(places_.begin(), places_.end(), name) == places_.end()) {
-      places_.push_back(name);
-    }
-  }
-
-  /// Returns whether bars stand at named positions.
-  bool has_places() const { return is_bars_ && !plot_.bar_width; }
-
-  const std::string& unit_of(const std::string& column) const { return table_.columns()[number_of_column(table_, column)].unit; }
-
-  double number_in(const std::vector<Cell>& row, const std::string& column) const {
-    return number_of(row[number_of_column(table_, column)]).value_or(0);
-  }
-
-  PlotExtent span_of_x() const {
-    PlotExtent extent;
-    for (const std::vector<Cell>& row : table_.rows()) {
-      if (std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
-        const double x = number_in(row, plot_.places.front());
-        extent.add(x);
-        extent.add(x + plot_.bar_width.value_or(0));
-      }
-    }
-    return extent;
-  }
-
-  static std::vector<std::string> ends_of(const PlotSeries& series) {
-    const bool has_ends = series.mark == PlotMark::intervals || series.mark == PlotMark::bands;
-    return has_ends ? std::vector{series.low, series.high} : std::vector<std::string>{};
-  }
-
-  PlotExtent span_of_y() const {
-    PlotExtent extent;
-    for (const std::vector<Cell>& row : table_.rows()) {
-      double sum = 0;
-      for (const PlotSeries* series : drawn_) {
-        if (is_meant(*series, row)) {
-          const double value = number_in(row, series->column);
-          sum = plot_.is_stacked ? sum + value : value;
-          extent.add(sum);
-          for (const std::string& end : ends_of(*series)) {
-            extent.add(number_in(row, end));
-          }
-        }
-      }
-    }
-    return extent;
-  }
-
-  bool is_small() const { return plot_.size == PlotSize::small; }
-
   std::string head() const {
     return "# Draws " + plot_.name + ".svg from " + data_ + ": gnuplot " + plot_.name +
            ".gnuplot\n"
@@ -149,64 +52,27 @@ class Script {
            "set encoding utf8\n"
            "set datafile separator ','\n"
            "set datafile missing NaN\n"
-           "set terminal svg size " +
-           (is_small() ? "480," + std::to_string(small_height()) + " noenhanced font 'sans-serif,13'"
-                       : "960,600 noenhanced font 'sans-serif,14'") +
-           " background '#ffffff'\n"
+           "set terminal svg size 960,600 noenhanced font 'sans-serif,14' background '#ffffff'\n"
            "set output " +
-           gnuplot_text(plot_.name + ".svg") + "\nset title " + gnuplot_text(plot_.title) + "\nset key " + key() +
-           "\n"
-           "set border 3\nset tics nomirror\nset grid ytics linecolor '#dddddd'\n" +
-           (is_small() ? "set xlabel offset 0,0.5\n" : "");
-  }
-
-  /// Returns the height that gives the plot enough space beside the legend and the names below.
-  std::size_t small_height() const {
-    constexpr std::size_t plot_height = 270, line_height = 18, letter_width = 7;
-    std::size_t longest_name = 0, longest_title = 0;
-    for (const std::string& name : places_) {
-      longest_name = std::max(longest_name, name.size());
-    }
-    for (const PlotSeries* series : drawn_) {
-      longest_title = std::max(longest_title, series->title.size());
-    }
-    const std::size_t titles_in_line = longest_title > 20 ? 1 : 2;
-    return plot_height + line_height * ((drawn_.size() + 1) / titles_in_line) + letter_width * longest_name;
-  }
-
-  std::string key() const {
-    const bool needs_none = is_small() && drawn_.size() == 1;  // the title has it
-    return needs_none ? "off" : is_small() ? "bmargin center horizontal Left reverse" : "outside right top Left reverse";
+           gnuplot_text(plot_.name + ".svg") + "\nset title " + gnuplot_text(plot_.title) +
+           "\nset key outside right top Left reverse\n"
+           "set border 3\nset tics nomirror\nset grid ytics linecolor '#dddddd'\n";
   }
 
   std::string bars() const {
-    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + legend_number(bar_width()) + "\n"
-                    : "";
-  }
-
-  /// Returns 1, 2 or 5 times a power of ten, so that every name at a multiple of it has space; a large plot has all names.
-  std::size_t name_step() const {
-    for (std::size_t power = 1; is_small(); power *= 10) {
-      for (const std::size_t digit : {1U, 2U, 5U}) {
-        if (places_.size() <= digit * power * small_names_max) {
-          return digit * power;
-        }
-      }
-    }
-    return 1;
+    return is_bars_
+               ? (has_places() ? positions() : "") + "set style fill solid\nset boxwidth " + legend_number(bar_width()) + "\n"
+               : "";
   }
 
   /// Returns the positions of bars, from 1 on.
-  std::string places() const {
+  std::string positions() const {
     const std::string count = std::to_string(places_.size());
-    const std::size_t step = name_step();
     std::string names, tics;
     std::size_t longest = 0;
     for (std::size_t place = 0; place < places_.size(); ++place) {
       names += (place == 0 ? "" : ", ") + gnuplot_text(places_[place]);
-      if (place % step == 0) {
-        tics += (place == 0 ? "" : ", ") + gnuplot_tic(places_[place], std::to_string(place + 1));
-      }
+      tics += (place == 0 ? "" : ", ") + gnuplot_tic(places_[place], std::to_string(place + 1));
       longest = std::max(longest, places_[place].size());
     }
     return "array names[" + count + "] = [" + names + "]\nplace_of(name) = sum [i = 1:" + count +
@@ -350,12 +216,7 @@ class Script {
     return text + "\n";
   }
 
-  const Plot& plot_;
-  const Table& table_;
   std::string data_;
-  bool is_bars_ = false;
-  std::vector<const PlotSeries*> drawn_;  ///< series that have a row
-  std::vector<std::string> places_;       ///< names of bars
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A plot of a table: curves or bars of named columns, drawn by gnuplot from the table's CSV file.
+// A plot of a table: curves or bars of named columns, drawn by gnuplot from the table's CSV file, or by a page's script.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 /// hatched.
 inline constexpr std::size_t plot_color_count = 12;
 
-/// Colours as #rrggbb. All except black are legible on white and on black; a dark page turns black into white.
+/// Colours as #rrggbb, legible on white.
 extern const std::array<const char*, 8> plot_colors;
 
 struct PlotSeries {
@@ -43,10 +43,6 @@ struct PlotAxis {
   std::optional<double> least = std::nullopt, most = std::nullopt;  ///< limits of the axis; nothing: those of the drawn values
 };
 
-/// large: a file of its own. small: a part of a page, legible on a telephone, with the legend below, which has the height that it
-/// needs.
-enum class PlotSize : std::uint8_t { large, small };
-
 /// Either all series are bars or bands, or none is.
 struct Plot {
   std::string name;  ///< file name without an extension
@@ -58,7 +54,6 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::optional<double> bar_width = {};  ///< width of bars at numbers along x, each to the right of its number
   bool is_stacked = false;               ///< stacked bars, the first at the bottom
-  PlotSize size = PlotSize::large;
 };
 
 /// Returns a plot of series over one column.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 
-#include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
 
 namespace dmpc::apps {
@@ -25,6 +25,14 @@ void widen(PlotAxis& axis, const PlotExtent& extent) {
   if (!axis.least && is_logarithmic) {
     axis.least = extent.least / margin_factor;
   }
+}
+
+std::vector<Tick> ticks_at_powers_of_2(const PlotExtent& shown) {
+  std::vector<Tick> ticks;
+  for (double power = std::exp2(std::ceil(std::log2(shown.least))); power <= shown.largest; power *= 2) {
+    ticks.push_back({power, legend_number(power)});
+  }
+  return ticks;
 }
 
 }  // namespace
@@ -62,18 +70,32 @@ std::string axis_lines(const std::string& name, const PlotAxis& axis) {
          end(axis.most) + "]\n" + (axis.scale == PlotScale::linear ? "" : "set logscale " + name + base + "\n");
 }
 
-std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent& extent, const std::string& unit) {
+ShownAxis shown_axis(PlotAxis axis, const PlotExtent& extent, const std::string& unit, bool has_margin) {
   const bool is_logarithmic = axis.scale == PlotScale::powers_of_10;
-  const PlotExtent shown{axis.least.value_or(extent.least), axis.most.value_or(extent.largest)};
-  if (axis.scale == PlotScale::powers_of_2 || !(shown.largest > shown.least) || (is_logarithmic && shown.least <= 0)) {
+  PlotExtent shown{axis.least.value_or(extent.least), axis.most.value_or(extent.largest)};
+  if (!(shown.largest > shown.least) || (axis.scale != PlotScale::linear && shown.least <= 0)) {
+    return {shown.least, shown.least + 1, {}};
+  }
+  if (has_margin || is_logarithmic) {
+    widen(axis, shown);
+    shown = {axis.least.value_or(shown.least), axis.most.value_or(shown.largest)};
+  }
+  return {shown.least, shown.largest,
+          axis.scale == PlotScale::powers_of_2 ? ticks_at_powers_of_2(shown)
+                                               : amount_ticks(shown.least, shown.largest, is_logarithmic, unit)};
+}
+
+std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent& extent, const std::string& unit) {
+  const bool has_margin = name == "y";
+  const ShownAxis shown = shown_axis(axis, extent, unit, has_margin);
+  if (axis.scale == PlotScale::powers_of_2 || shown.ticks.empty()) {
     return axis_lines(name, axis);
   }
-  if (name == "y" || is_logarithmic) {
-    widen(axis, shown);
+  if (has_margin || axis.scale == PlotScale::powers_of_10) {
+    widen(axis, {axis.least.value_or(extent.least), axis.most.value_or(extent.largest)});
   }
   std::string tics;
-  for (const Tick& tick :
-       amount_ticks(axis.least.value_or(shown.least), axis.most.value_or(shown.largest), is_logarithmic, unit)) {
+  for (const Tick& tick : shown.ticks) {
     tics += (tics.empty() ? "" : ", ") + gnuplot_tic(tick.text, shortest(tick.position));
   }
   return axis_lines(name, axis) + "set " + name + "tics (" + tics + ")\n";

@@ -216,7 +216,7 @@ int compare_pages(const CompareOptions& options, Interrupt& interrupt, std::ostr
   const std::optional<FigureComparison> counters = compare_counters_of(pages, options.figures, options.report.has_value());
   if (options.report) {
     OutputFile file(*options.report);
-    file.write(page_of(pages, counters, options.sandbox, std::cerr));
+    file.write(page_of(pages, counters, options.sandbox));
     interrupt.set_consequence("the output may be incomplete");
     file.commit();
   }

@@ -101,8 +101,7 @@ std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage,
   return std::nullopt;
 }
 
-std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox,
-                    std::ostream& complaints) {
+std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox) {
   html::Comparison comparison{.pages = {{{pages[0].file, pages[0].run, picture_of(pages[0], sandbox)},
                                          {pages[1].file, pages[1].run, picture_of(pages[1], sandbox)}}},
                               .picture_sentence = {},
@@ -115,7 +114,7 @@ std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<
   } else {
     comparison.counter_sentence = without_counters(pages) + ".";
   }
-  return html::comparison_page(comparison, this_origin(), complaints);
+  return html::comparison_page(comparison, this_origin());
 }
 
 }  // namespace dmpc::apps

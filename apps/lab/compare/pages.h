@@ -30,8 +30,6 @@ std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage,
 std::string without_counters(const std::array<PlayedPage, 2>& pages);
 
 /// Returns the page. Throws core::InputError if a picture cannot be read within `sandbox`, or if their clocks differ.
-/// `complaints`: as html::comparison_page().
-std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox,
-                    std::ostream& complaints);
+std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox);
 
 }  // namespace dmpc::apps

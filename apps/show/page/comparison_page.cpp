@@ -36,7 +36,7 @@ struct TimeByName {
 };
 
 /// Returns the name of nodes' remaining time.
-const char* rest_of(const json& run) { return run["clock"] == "virtual time" ? "idle at the end" : "waiting for a core"; }
+const char* rest_of(const json& run) { return run["clock"] == "virtual time" ? "idle at the end" : "between calls"; }
 
 TimeByName time_by_name(const Pages& pages) {
   TimeByName times;
@@ -126,6 +126,27 @@ std::string run_time_conclusion(const Pages& pages) {
          *most + "\", " + ms_text(std::abs(ms)) + " a node " + (ms < 0 ? "less" : "more") + ".";
 }
 
+/// Returns the words of one command that the other has not, without the names of outputs.
+std::string own_words(const json& run, const json& other) {
+  const auto words = other["words"].get<std::vector<std::string>>();
+  std::vector<std::string> own;
+  for (const std::string& word : run["words"].get<std::vector<std::string>>()) {
+    const bool is_output = word.starts_with("--report=") || word.ends_with(".png") || word.ends_with(".exr") || word == "-o";
+    if (!is_output && std::find(words.begin(), words.end(), word) == words.end()) {
+      own.push_back(word);
+    }
+  }
+  return joined(own, " ");
+}
+
+/// Returns how the commands differ; empty if they do not.
+std::string option_sentence(const Pages& pages) {
+  const json &a = pages[0].run.data, &b = pages[1].run.data;
+  const std::string own_a = own_words(a, b), own_b = own_words(b, a);
+  const auto text = [](const std::string& own) { return own.empty() ? "no other word" : "`" + own + "`"; };
+  return own_a.empty() && own_b.empty() ? "" : "A was run with " + text(own_a) + ", B with " + text(own_b) + ".";
+}
+
 void add_run(Page& page, const ComparedPage& compared, const char* letter) {
   const json& run = compared.run.data;
   page.add_facts(
@@ -138,7 +159,6 @@ void add_run(Page& page, const ComparedPage& compared, const char* letter) {
 
 void add_compared_pictures(Page& page, const Comparison& comparison) {
   page.begin_section("Pictures");
-  page.add_conclusion(comparison.picture_sentence);
   for (std::size_t side = 0; side < letters.size(); ++side) {
     const ComparedPage& compared = comparison.pages[side];
     add_picture(page, compared.picture, std::string("The picture of ") + letters[side],
@@ -196,7 +216,6 @@ Table sums_table(const Pages& pages) {
 
 void add_compared_counters(Page& page, const Comparison& comparison) {
   page.begin_section("Counters");
-  page.add_conclusion(comparison.counter_sentence);
   page.add_table(sums_table(comparison.pages));
   if (comparison.counters && !comparison.counters->rows().empty()) {
     page.add_table(*comparison.counters);
@@ -237,12 +256,15 @@ Table time_table(const Pages& pages) {
   return table;
 }
 
-std::string comparison_page(const Comparison& comparison, const Origin& origin, std::ostream& complaints) {
+std::string comparison_page(const Comparison& comparison, const Origin& origin) {
   const Pages& pages = comparison.pages;
   check_clocks(pages);
-  Page page("Two runs: " + pages[0].file + " and " + pages[1].file, complaints);
+  Page page("Two runs: " + pages[0].file + " and " + pages[1].file);
+  page.end_opening({{option_sentence(pages), "To reproduce and to cite it"},
+                    {run_time_conclusion(pages), "plot-times"},
+                    {comparison.picture_sentence, "Pictures"},
+                    {comparison.counter_sentence, "Counters"}});
   page.add_text(origin.program + ", " + origin.date);
-  page.add_conclusion(run_time_conclusion(pages));
   for (std::size_t side = 0; side < letters.size(); ++side) {
     add_run(page, pages[side], letters[side]);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <optional>
 #include <string>
 
@@ -27,9 +26,9 @@ struct Comparison {
   std::optional<Table> counters = {};  ///< counters that differ
 };
 
-/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if the runs'
-/// clocks differ, so that they have no common time, or if no temporary file can be written.
-std::string comparison_page(const Comparison& comparison, const Origin& origin, std::ostream& complaints);
+/// Returns the whole document. Throws core::InputError if the runs' clocks differ, so that they have no common time, or if no
+/// temporary file can be written.
+std::string comparison_page(const Comparison& comparison, const Origin& origin);
 
 /// Returns milliseconds of a node's mean by what it did or waited for: a row for each item that either run has, and one for the
 /// whole run, to which the others add up.

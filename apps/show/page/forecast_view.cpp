@@ -10,7 +10,6 @@
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/run/run_view.h"
 #include "apps/frontend/show/page/shares.h"
-#include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table.h"
 #include "apps/run/report.h"
 #include "apps/show/page/page_data.h"
@@ -26,10 +25,10 @@ using nlohmann::json;
 constexpr std::size_t sizes_max = 4096;         ///< limit when they are read back
 constexpr double reported_error_least = 0.001;  ///< smaller errors are not reported
 
-std::string why_wide(const CacheForecast& forecast) {
-  std::string text =
-      "The band lies between two readings of that run: that all of its time except computing grows with the faults, or only page "
-      "wait, service of interrupts and messages.";
+std::string why_wide(const CacheForecast& forecast, bool is_of_time) {
+  std::string text = is_of_time ? "The band lies between two readings of that run: that all of its time except computing grows "
+                                  "with the faults, or only page wait, service of interrupts and messages."
+                                : "";
   if (forecast.curve_error >= reported_error_least) {
     text += " It is wider by " + share_text(forecast.curve_error) +
             ", by which the curve misses that run's own faults, as several pixels wait for one page, the policy is not lru, or "
@@ -65,18 +64,14 @@ Table forecast_table(const ForecastView& view) {
   Table table(
       "Run time by the size of the caches",
       {{"cache", "pages", 0}, {"faults", "", 0}, {"least", "ms", 3}, {"most", "ms", 3}, {"wide", "%", 1}, {"run", "ms", 3}});
-  std::size_t wide = 0;
   for (const std::uint32_t pages : sizes_of(view)) {
     std::vector<Cell> row = {std::uint64_t{pages}};
     row.resize(table.columns().size());
     if (const TimeBand* const size = of_size(view.sizes, pages)) {
       row[1] = static_cast<std::uint64_t>(std::llround(size->faults));
       row[4] = 100 * size->width();
-      if (size->is_narrow()) {
-        row[2] = milliseconds(size->least_ns);
-        row[3] = milliseconds(size->most_ns);
-      }
-      wide += size->is_narrow() ? 0 : 1;
+      row[2] = milliseconds(size->least_ns);
+      row[3] = milliseconds(size->most_ns);
     }
     if (const MadeRun* const run = of_size(view.runs, pages)) {
       row[5] = milliseconds(run->total_ns);
@@ -84,22 +79,7 @@ Table forecast_table(const ForecastView& view) {
     table.add_row(std::move(row));
   }
   table.add_note("Predicted from the run with " + counted(view.cache_pages, "page") + " alone. " + view.why);
-  if (wide > 0) {
-    table.add_note("With " + std::to_string(wide) + " of " + counted(view.sizes.size(), "size") +
-                   " nothing is predicted: there the band would be wider than " + share_text(TimeBand::width_max) + ".");
-  }
   return table;
-}
-
-Plot forecast_plot() {
-  constexpr std::size_t dashed = plot_colors.size();
-  std::vector<PlotSeries> series(3);
-  series[0] = {.title = "predicted, least", .column = "least", .color = dashed};
-  series[1] = {.title = "predicted, most", .column = "most", .color = dashed};
-  series[2] = {.title = "run", .column = "run", .mark = PlotMark::points, .color = 1};
-  return curves("forecast", "Run time by the size of the caches", "cache",
-                {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}, {.label = "ms", .least = 0},
-                std::move(series));
 }
 
 /// Returns the conclusion for a cache of twice as many pages or somewhat more.
@@ -110,10 +90,11 @@ std::string forecast_conclusion(const ForecastView& view) {
     return "";
   }
   const std::string with = "With caches of " + counted(twice->cache_pages, "page") + " in place of " + grouped(view.cache_pages) +
-                           " the run would take ";
-  return twice->is_narrow()
-             ? with + amount_text(twice->least_ns, "ns") + " to " + amount_text(twice->most_ns, "ns") + "."
-             : with + "a time that is not predicted: the two readings lie " + share_text(twice->width()) + " apart.";
+                           " the run would " + (view.is_of_time ? "take " : "have ");
+  const std::string unit = view.is_of_time ? "ns" : "";
+  const std::string least = amount_text(twice->least_ns, unit), most = amount_text(twice->most_ns, unit);
+  return with + (least == most ? most : least + " to " + most) + (view.is_of_time ? "" : " faults") +
+         (twice->is_narrow() ? "." : ", which is vague: the ends lie " + share_text(twice->width()) + " apart.");
 }
 
 }  // namespace
@@ -121,19 +102,23 @@ std::string forecast_conclusion(const ForecastView& view) {
 std::optional<ForecastView> forecast_view(const RenderRecord& record) {
   const auto* const report = std::get_if<svm::Report>(&record.report);
   const Account account = account_of(record.report);
-  if (report == nullptr || record.view == nullptr || !record.view->misses || !account.virtual_time) {
+  if (report == nullptr || record.view == nullptr || !record.view->misses) {
     return std::nullopt;
   }
-  const ForecastRun run{.parts = parts_of(account),
-                        .node_count = static_cast<std::uint32_t>(account.nodes.size()),
-                        .cache_pages = report->plan.frames,
-                        .faults = report->pages().faults};
+  const bool is_of_time = account.virtual_time.has_value();
+  ForecastRun run{.cache_pages = report->plan.frames, .faults = report->pages().faults};
+  if (is_of_time) {
+    run.parts = parts_of(account);
+    run.node_count = static_cast<std::uint32_t>(account.nodes.size());
+  } else {  // as if a fault took a nanosecond, and nothing else took any time
+    run.parts.ns[static_cast<std::size_t>(TimePart::data_wait)] = run.faults;
+  }
   CacheForecast forecast = forecast_caches(run, *record.view->misses, static_cast<std::uint32_t>(record.database.page_count()));
   if (forecast.sizes.empty()) {
     return std::nullopt;
   }
-  const std::string why = why_wide(forecast);
-  return ForecastView{run.cache_pages, why, std::move(forecast.sizes), {{run.cache_pages, run.total_ns()}}};
+  const std::string why = why_wide(forecast, is_of_time);
+  return ForecastView{is_of_time, run.cache_pages, why, std::move(forecast.sizes), {{run.cache_pages, run.total_ns()}}};
 }
 
 json json_of(const ForecastView& view) {
@@ -144,7 +129,8 @@ json json_of(const ForecastView& view) {
   for (const MadeRun& run : view.runs) {
     made.push_back({run.cache_pages, std::llround(run.total_ns)});
   }
-  return {{"cache", view.cache_pages},
+  return {{"unit", view.is_of_time ? "ns" : "faults"},
+          {"cache", view.cache_pages},
           {"widest", TimeBand::width_max},
           {"why", view.why},
           {"points", std::move(points)},
@@ -157,6 +143,9 @@ std::optional<ForecastView> forecast_in(std::string_view page, const std::string
     return std::nullopt;
   }
   const DataPart forecast = DataPart(*data, file + ": data").at("forecast");
+  if (forecast.has("unit") && forecast.at("unit").text() != "ns") {
+    return std::nullopt;
+  }
   const auto cache = [](const DataPart& list) {
     return static_cast<std::uint32_t>(list.at(std::size_t{0}).whole(~std::uint32_t{0}, 1));
   };
@@ -164,7 +153,7 @@ std::optional<ForecastView> forecast_in(std::string_view page, const std::string
     return static_cast<double>(list.at(place).whole(exact_number_max));
   };
   ForecastView view{
-      static_cast<std::uint32_t>(forecast.at("cache").whole(~std::uint32_t{0}, 1)), forecast.at("why").text(), {}, {}};
+      true, static_cast<std::uint32_t>(forecast.at("cache").whole(~std::uint32_t{0}, 1)), forecast.at("why").text(), {}, {}};
   for (std::size_t i = 0; i < forecast.at("points").size(sizes_max); ++i) {
     const DataPart point = forecast.at("points").at(i);
     view.sizes.push_back(
@@ -179,9 +168,9 @@ std::optional<ForecastView> forecast_in(std::string_view page, const std::string
 void add_forecast(Page& page, const ForecastView& view) {
   page.add_conclusion(forecast_conclusion(view));
   page.add_place("what-if");
-  const Table table = forecast_table(view);
-  page.add_plot(forecast_plot(), table);
-  page.add_table(table);
+  if (view.is_of_time) {
+    page.add_table(forecast_table(view));
+  }
 }
 
 void add_forecast_alone(Page& page, const ForecastView& view) {

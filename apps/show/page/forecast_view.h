@@ -24,25 +24,27 @@ struct MadeRun {
   double total_ns = 0;
 };
 
-/// A band of predicted times beside measured runs.
+/// A band of predicted times beside measured runs; of threads, whose times say nothing about a machine, of predicted faults.
 struct ForecastView {
+  bool is_of_time = true;         ///< else all times are numbers of faults
   std::uint32_t cache_pages = 0;  ///< the measured run's
   std::string why;                ///< explains the band's width: sentences
-  std::vector<TimeBand> sizes;    ///< in ascending order, whether narrow enough to be shown or not
+  std::vector<TimeBand> sizes;    ///< in ascending order
   std::vector<MadeRun> runs;
 };
 
-/// Returns the forecast of a finished run; nothing unless pages travel on a modelled machine and references were recorded, or if
-/// no forecast can be made from them.
+/// Returns the forecast of a finished run; nothing unless pages travel and references were recorded, or if no forecast can be
+/// made from them.
 std::optional<ForecastView> forecast_view(const RenderRecord& record);
 
-/// Returns the scripts' data: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
+/// Returns the scripts' data: {unit ("ns" or "faults"), cache, widest (share of a band that is not vague), why, points: [[pages,
+/// faults, least_ns, most_ns]], runs: [[pages, ns]]}.
 nlohmann::json json_of(const ForecastView& view);
-/// Reads the forecast back from the page of a render; nothing if it has none. `file` names the page in messages. Throws
+/// Reads the forecast of times back from the page of a render; nothing if it has none. `file` names the page in messages. Throws
 /// core::InputError for inconsistent data.
 std::optional<ForecastView> forecast_in(std::string_view page, const std::string& file);
 
-/// Adds the forecast as a sentence, a table and a drawing: by gnuplot and, where scripts run, by a script in its own element.
+/// Adds the forecast as a sentence, a table and an element in which a script draws it.
 void add_forecast(Page& page, const ForecastView& view);
 /// As above for a page that plays no run, with its scripts.
 void add_forecast_alone(Page& page, const ForecastView& view);

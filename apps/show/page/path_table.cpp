@@ -4,6 +4,7 @@
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/run/time_parts.h"
 #include "apps/frontend/show/page/shares.h"
 
 namespace dmpc::apps::html {
@@ -42,7 +43,7 @@ std::string packet_text(const std::string& kind_name) {
 }
 
 std::vector<Part> path_parts(const nodes::PathTimes& path) {
-  std::vector<Part> parts = {{"computing", path.computing_ns},     {"service while busy", path.service_busy_ns},
+  std::vector<Part> parts = {{"computing", path.computing_ns},     {std::string(service_busy_words), path.service_busy_ns},
                              {"sending", path.sending_ns},         {"on the way", path.travelling_ns},
                              {"waiting for links", path.links_ns}, {"receiving", path.receiving_ns},
                              {"serving", path.serving_ns}};

@@ -16,6 +16,7 @@
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
+#include "apps/show/page/findings.h"
 #include "apps/show/page/forecast_view.h"
 #include "apps/show/page/path_table.h"
 #include "apps/show/page/pictures.h"
@@ -58,10 +59,13 @@ Facts facts_of(const RenderRecord& record, const Account& account) {
   return facts;
 }
 
-void add_pictures(Page& page, const RenderRecord& record, const Account& account) {
-  page.begin_section("Picture");
+void add_opening(Page& page, const RenderRecord& record, const Account& account) {
   const std::string size = std::to_string(account.film.width()) + "x" + std::to_string(account.film.height()) + " pixels";
   add_picture(page, image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
+  page.end_opening(findings_of(record, account));
+}
+
+void add_heat_maps(Page& page, const RenderRecord& record) {
   const std::vector<core::HeatKind> wanted = kinds_of(record.options.heat_maps);
   if (wanted.empty()) {
     return;
@@ -79,16 +83,19 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
   }
 }
 
-void add_time(Page& page, const RunView& view, const WaitKinds& waits) {
+void add_time(Page& page, const RunView& view, const WaitKinds& waits, bool is_virtual) {
   const std::vector<std::string> names(work_names.begin(), work_names.end());
   const auto wait_names = core::mapped<std::string>(wait_parts, [&waits](TimePart part) { return words_of(part, waits); });
-  add_steps(page, view.steps, names, wait_names, "", "The host is left out.");
+  const char* const rest = is_virtual ? "What is left they were idle at the end."
+                                      : "What is left was between calls. By the wall clock a call counts as long as it took, "
+                                        "even where it waited for a core.";
+  add_steps(page, view.steps, names, wait_names, is_virtual, "", std::string(rest) + " The host is left out.");
 }
 
 void add_fetched(Page& page, const RenderRecord& record) {
   const auto& report = std::get<svm::Report>(record.report);
   const svm::PageCounters pages = report.pages();
-  add_pages(page, pages, *record.view->fetches, true, "");
+  add_pages(page, pages, *record.view->fetches, report.virtual_time.has_value(), true, "");
   if (pages.faults == 0 || !record.view->misses) {
     return;
   }
@@ -96,10 +103,9 @@ void add_fetched(Page& page, const RenderRecord& record) {
   add_misses(page, *record.view->misses, page_count, report.plan.frames, pages, "");
   if (const std::optional<ForecastView> forecast = forecast_view(record)) {
     add_forecast(page, *forecast);
-  } else if (!report.virtual_time) {
-    page.add_text(
-        "The run time with other caches is predicted on modelled machines (`--runner=virtual`) only: times by the wall clock "
-        "compare schedules of this computer.");
+  } else {
+    page.add_text("Of the references only those of one page in " + std::to_string(record.view->misses->every) +
+                  " were recorded, too few to tell what other caches would change.");
   }
 }
 
@@ -134,15 +140,16 @@ void add_traffic(Page& page, const Account& account) {
 
 }  // namespace
 
-std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints) {
+std::string render_page(const RenderRecord& record, const Origin& origin) {
   const Account account = account_of(record.report);
-  Page page("Render of " + record.options.picture.scene, complaints);
+  Page page("Render of " + record.options.picture.scene);
+  add_opening(page, record, account);
   page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts_of(record, account));
-  add_pictures(page, record, account);
+  add_heat_maps(page, record);
   add_time_losses(page, account);
   if (record.view != nullptr) {
-    add_time(page, *record.view, account.waits);
+    add_time(page, *record.view, account.waits, account.virtual_time.has_value());
   }
   if (record.view != nullptr && record.view->fetches) {
     add_fetched(page, record);

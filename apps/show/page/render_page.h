@@ -1,7 +1,6 @@
 // The page of --report: settings, picture, costs and losses of a render.
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 #include "apps/frontend/show/page/origin.h"
@@ -9,8 +8,7 @@
 
 namespace dmpc::apps::html {
 
-/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary
-/// file can be written.
-std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
+/// Returns the whole document. Throws core::InputError if no temporary file can be written.
+std::string render_page(const RenderRecord& record, const Origin& origin);
 
 }  // namespace dmpc::apps::html

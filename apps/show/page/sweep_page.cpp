@@ -2,8 +2,8 @@
 
 namespace dmpc::apps::html {
 
-std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints) {
-  Page page(sweep.title, complaints);
+std::string sweep_page(const Sweep& sweep, const Origin& origin) {
+  Page page(sweep.title);
   page.add_text(origin.program + ", " + origin.date);
   for (const std::string& text : sweep.texts) {
     page.add_text(text);

@@ -1,7 +1,6 @@
 // The page of a study: the results of a sweep as plots and tables.
 #pragma once
 
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +28,7 @@ struct Sweep {
   std::optional<ForecastView> forecast = {};  ///< from one of the sweep's runs, shown beside all of them
 };
 
-/// Returns the whole document. Plots that cannot be drawn are reported to `complaints`. Throws core::InputError if no temporary
-/// file can be written.
-std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
+/// Returns the whole document. Throws core::InputError if no temporary file can be written.
+std::string sweep_page(const Sweep& sweep, const Origin& origin);
 
 }  // namespace dmpc::apps::html

@@ -79,7 +79,7 @@ TEST_CASE("names and results are shown as they are, whatever they contain") {
   };
   program.result = [](const std::vector<std::uint64_t>&) { return std::string("<script>alert(1)</script>\n\xff"); };
   const std::string page = requester_page(program, {"--nodes=3", "--runner=virtual"});
-  CHECK(count(page, "<script") == 1);  // the page's own
+  CHECK(count(page, "<script>") == 1);  // the page's own
   for (const std::string plot : {"Plot: Where each node", "Plot: Memory of each node"}) {
     CHECK_MESSAGE(contains(page, plot), plot);
   }

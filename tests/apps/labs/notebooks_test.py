@@ -109,6 +109,10 @@ class PageTest(unittest.TestCase):
                      '<p id="q2"><b>2.</b> How,\n   then?</p>'):
             self.assertIn(part, page)
 
+    def test_stressed_words_lose_their_asterisks_and_products_keep_theirs(self):
+        self.assertIn("<p><em>A fault</em>, an <em>x</em>. 2 * 3 * 4, a*b*c, <code>*p*</code></p>",
+                      self.page("# L\n\n*A fault*, an *x*. 2 * 3 * 4, a*b*c, `*p*`\n"))
+
     def test_code_in_a_fence_stays_as_it_is_with_its_blank_lines(self):
         self.assertIn("<pre>a = 1\n\nb = `2`  # **x**\n</pre>", self.page("# L\n\n```python\na = 1\n\nb = `2`  # **x**\n```\n\n1. x\n"))
 

@@ -57,7 +57,7 @@ class Overheard {
 };
 
 /// A picture of 6x6 pixels with a checkpoint wherever there can be one, by the strategy that the seed says, and with it maps, a
-/// trace or, seldom, since gnuplot takes its time, a page.
+/// trace or, seldom, a page.
 apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t seed) {
   apps::RenderOptions options;
   options.picture.scene = "balls-1";

@@ -68,7 +68,7 @@ TEST_CASE("where no time has passed nobody was busy, and nobody is busier than a
 
 TEST_CASE("shares are of the time of all nodes") {
   const std::vector<double> shares = shares_between(moment(0, 0), moment(100, 50));
-  CHECK(shares == std::vector<double>{0.25, 0.5, 0, 0, 0, 0});
+  CHECK(shares == std::vector<double>{0.25, 0.5, 0, 0, 0, 0, 0, 0});
 }
 
 }  // namespace dmpc::apps::live_steps_test

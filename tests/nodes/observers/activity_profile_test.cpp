@@ -11,9 +11,11 @@ namespace dmpc::nodes::activity_profile_test {
 namespace {
 
 /// Kinds of work.
-constexpr std::size_t other = 1, received = work_count - 1;
+constexpr std::size_t other = 1, taken = 2, received = work_count - 1;
 
-std::size_t work_of_span(const Span& span) { return span.activity == Activity::receive ? received : other; }
+std::size_t work_of_span(const Span& span) {
+  return span.activity == Activity::receive ? received : span.activity == Activity::take_over ? taken : other;
+}
 
 /// Waits for packets of kind 2 are numbered 3, others 0.
 WaitOf wait_numbers() {
@@ -91,6 +93,21 @@ TEST_CASE("a span counts as whoever made the profile says") {
   const WorkTimes times = reported.profile.take().nodes[0].at(0);
   CHECK(times[received] == 10);
   CHECK(times[other] == 5);
+}
+
+TEST_CASE("packets that are taken during a span are messages over its time, and the run ends with the last span") {
+  ProfiledNodes reported;
+  reported.profile.ended(
+      {.node = NodeId{0}, .activity = Activity::work, .begin_ns = 512, .end_ns = 1536, .own_ns = 600, .received_ns = 424},
+      reported.program);
+  const ActivitySteps steps = reported.profile.take();
+  REQUIRE(steps.nodes[0].size() == 2);
+  CHECK(steps.nodes[0][0][other] + steps.nodes[0][1][other] == 600);
+  CHECK(steps.nodes[0][0][taken] == 212);
+  CHECK(steps.nodes[0][1][taken] == 212);
+  CHECK(steps.end_ns == 1536);
+  CHECK(steps.length_ns(0) == 1024);
+  CHECK(steps.length_ns(1) == 512);
 }
 
 TEST_CASE("work of a kind that there is not is an error") {

@@ -10,7 +10,9 @@ namespace dmpc::nodes::watch_live_counts_test {
 
 namespace {
 
-std::size_t kind_of(const Span& span) { return span.activity == Activity::send ? 4 : 0; }
+std::size_t kind_of(const Span& span) {
+  return span.activity == Activity::send ? 4 : span.activity == Activity::take_over ? 5 : 0;
+}
 
 }  // namespace
 
@@ -20,7 +22,11 @@ TEST_CASE("what each node has done can be read while it does, and never goes bac
   std::jthread node([&] {
     for (std::uint64_t i = 1; i <= 10'000; ++i) {
       counts.sent({.node = NodeId{1}, .peer = NodeId{2}});
-      counts.ended({.node = NodeId{1}, .activity = i % 2 == 0 ? Activity::work : Activity::send, .end_ns = i, .own_ns = 3},
+      counts.ended({.node = NodeId{1},
+                    .activity = i % 2 == 0 ? Activity::work : Activity::send,
+                    .end_ns = i,
+                    .own_ns = 3,
+                    .received_ns = 2},
                    program);
     }
   });
@@ -37,6 +43,7 @@ TEST_CASE("what each node has done can be read while it does, and never goes bac
   CHECK(nodes[1].packets_sent == 10'000);
   CHECK(nodes[1].busy_ns[0] == 15'000);
   CHECK(nodes[1].busy_ns[4] == 15'000);
+  CHECK(nodes[1].busy_ns[5] == 20'000);
   CHECK(nodes[0].packets_sent == 0);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
@@ -30,7 +31,7 @@ void add_shares(Table& table, const std::string& name, std::span<const std::uint
   table.add_row(std::move(row));
 }
 
-bool has_part(const Losses& losses, const std::string& name) {
+bool has_part(const Losses& losses, std::string_view name) {
   return std::find(losses.parts.begin(), losses.parts.end(), name) != losses.parts.end();
 }
 
@@ -38,7 +39,7 @@ std::string note_on(const Losses& losses) {
   if (!losses.is_virtual) {
     return "Wall clock. Asleep: waiting for packets. The nodes share this computer's cores, and those of a pool their threads.";
   }
-  const bool has_service = has_part(losses, "service while busy") || has_part(losses, "service while idle");
+  const bool has_service = has_part(losses, service_busy_words) || has_part(losses, service_idle_words);
   return std::string("Virtual time.") + (has_service ? " Service while busy and service while idle: requests of others served "
                                                        "while the node had other work, and while it had none."
                                                      : "");

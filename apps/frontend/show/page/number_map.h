@@ -1,10 +1,8 @@
-// A matrix of numbers as coloured squares, with named axes, round ticks and a colour scale: SVG.
+// A matrix of numbers, which a page's script shows as coloured squares with named axes and a scale.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -21,11 +19,5 @@ struct NumberMap {
   std::optional<double> column_ns{};  ///< duration of a column, if columns are steps of time from 0 on; nothing: counted
   std::optional<double> most{};       ///< upper end of the scale; nothing: the largest number
 };
-
-/// Requires rows * columns numbers. If squares are few and large, their numbers are written in them.
-std::string svg_of(const NumberMap& map);
-
-/// Index of each number on a scale of 256 colours, from dark (0) to light (`most`).
-std::vector<std::uint8_t> color_numbers(std::span<const double> values, double most);
 
 }  // namespace dmpc::apps::html

@@ -1,12 +1,16 @@
 #include "apps/frontend/show/page/page.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/data_url.h"
 #include "apps/frontend/show/page/escaped.h"
+#include "apps/frontend/show/page/plot_data.h"
 #include "apps/frontend/show/page/table.h"
 
 namespace dmpc::apps::html {
@@ -40,6 +44,17 @@ std::string heading_of(std::size_t section, const std::string& heading) {
   return "<h2 id=\"" + id_of(section) + "\">" + escaped(heading) + "</h2>\n";
 }
 
+/// The sentences as links, without those that are empty.
+std::string links_of(std::span<const Finding> findings, std::span<const std::string> headings) {
+  return joined(findings, "", [&](const Finding& finding) {
+    const auto at = std::find(headings.begin(), headings.end(), finding.place);
+    const std::string id = at == headings.end() ? finding.place : id_of(static_cast<std::size_t>(at - headings.begin()) + 1);
+    return finding.sentence.empty()
+               ? ""
+               : "<li><a href=\"#" + escaped(id) + "\">" + escaped_with_code(finding.sentence) + "</a></li>\n";
+  });
+}
+
 /// What the words of a text mean; empty if it has none of these.
 std::string meanings(const std::string& words, std::span<const GlossaryEntry> glossary) {
   std::string list;
@@ -49,6 +64,14 @@ std::string meanings(const std::string& words, std::span<const GlossaryEntry> gl
     }
   }
   return list.empty() ? "" : "<dl class=\"glossary\">\n" + list + "</dl>\n";
+}
+
+std::string data_element(const std::string& attribute, const std::string& json) {
+  std::string text = "<script type=\"application/json\" " + attribute + ">";
+  for (const char letter : json) {
+    text += letter == '<' ? "\\u003c" : std::string(1, letter);  // JSON has it in texts alone
+  }
+  return text + "</script>";
 }
 
 std::string capitalized(std::string text) {
@@ -70,13 +93,16 @@ std::string citation(const std::string& title, const Origin& origin, const Facts
 
 }  // namespace
 
-Page::Page(std::string title, std::ostream& complaints, PageSpeaker speaker)
-    : title_(std::move(title)),
-      glossary_(speaker.words),
-      charts_(complaints, std::move(speaker.name)),
-      styles_({page_style}),
-      scripts_({save_script}),
-      words_(title_) {}
+Page::Page(std::string title, std::span<const GlossaryEntry> words)
+    : title_(std::move(title)), glossary_(words), styles_({page_style}), scripts_({page_script}), words_(title_) {}
+
+void Page::end_opening(std::vector<Finding> findings) {
+  opening_ = std::exchange(body_, "");
+  findings_ = std::move(findings);
+  for (const Finding& finding : findings_) {
+    words_ += "\n" + finding.sentence;
+  }
+}
 
 void Page::begin_section(const std::string& heading) {
   headings_.push_back(heading);
@@ -107,10 +133,7 @@ void Page::add_code(const std::string& text) { body_ += "<pre class=\"copy\">" +
 
 void Page::add_place(const std::string& id) { body_ += "<div id=\"" + escaped(id) + "\"></div>\n"; }
 
-void Page::add_map(const NumberMap& map, const std::string& caption) {
-  const std::string url = data_url("image/svg+xml", svg_of(map));
-  add_figure(url, "class=\"plot\"", map.title, caption, shown_save_link(map.title, "SVG"));
-}
+void Page::add_map(const NumberMap& map, const std::string& caption) { add_drawn("", map.title, map_data(map), caption); }
 
 void Page::add_table(const Table& table) {
   const std::size_t count = table.rows().size();
@@ -125,12 +148,19 @@ void Page::add_table(const Table& table) {
 }
 
 void Page::add_plot(const Plot& plot, const Table& table, const std::string& caption) {
-  if (const std::string url = charts_.draw(plot, table); !url.empty()) {
-    add_figure(url, "class=\"plot\"", "Plot: " + plot.title, caption, shown_save_link(plot.title, "SVG"));
+  if (const std::optional<std::string> data = plot_data(plot, table)) {
+    add_drawn(" id=\"plot-" + escaped(plot.name) + "\"", plot.title, *data, caption);
     for (const PlotSeries& series : plot.series) {
       words_ += "\n" + series.title;
     }
   }
+}
+
+void Page::add_drawn(const std::string& id, const std::string& title, const std::string& data, const std::string& caption) {
+  body_ += "<figure class=\"plot\"" + id + ">" + data_element("class=\"plot-data\"", data) + "<p>Plot: " + escaped(title) +
+           ". Scripts draw it.</p><figcaption>" + escaped(caption) + " " + shown_save_link(title, "SVG") +
+           "</figcaption></figure>\n";
+  words_ += "\n" + title + "\n" + caption;
 }
 
 void Page::add_figure(const std::string& url, const std::string& attributes, const std::string& description,
@@ -163,11 +193,7 @@ void Page::add_style(const WebPart& style) { styles_.push_back(style); }
 void Page::add_script(const WebPart& script) { scripts_.push_back(script); }
 
 void Page::add_data(const std::string& id, const std::string& json) {
-  data_ += "<script type=\"application/json\" id=\"" + escaped(id) + "\">";
-  for (const char letter : json) {
-    data_ += letter == '<' ? "\\u003c" : std::string(1, letter);  // JSON has it in texts alone
-  }
-  data_ += "</script>\n";
+  data_ += data_element("id=\"" + escaped(id) + "\"", json) + "\n";
 }
 
 std::string Page::text() const {
@@ -182,6 +208,10 @@ std::string Page::text() const {
   for (std::size_t i = 0; i < headings.size(); ++i) {
     contents += "<a href=\"#" + id_of(i + 1) + "\">" + escaped(headings[i]) + "</a>\n";
   }
+  const std::string links = links_of(findings_, headings_);
+  const std::string opening = opening_.empty() && links.empty() ? ""
+                                                                : "<div class=\"opening\">\n" + opening_ +
+                                                                      "<ul class=\"findings\">\n" + links + "</ul>\n</div>\n";
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
          policy_of(styles_, scripts_) +
@@ -189,7 +219,7 @@ std::string Page::text() const {
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
          escaped(title_) + "</title>\n" + elements("style", styles_) + "</head>\n<body>\n<main>\n<h1>" + escaped(title_) +
-         "</h1>\n" + (contents.empty() ? "" : "<nav aria-label=\"Contents\">\n" + contents + "</nav>\n") + body_ +
+         "</h1>\n" + opening + (contents.empty() ? "" : "<nav aria-label=\"Contents\">\n" + contents + "</nav>\n") + body_ +
          glossary_section + "</main>\n" + data_ + elements("script", scripts_) + "</body>\n</html>\n";
 }
 

@@ -1,14 +1,12 @@
 // One page of HTML that needs no other file and no network: sections of text, tables, pictures and plots.
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/frontend/help/glossary.h"
-#include "apps/frontend/show/page/charts.h"
 #include "apps/frontend/show/page/number_map.h"
 #include "apps/frontend/show/page/origin.h"
 #include "apps/frontend/show/page/web_part.h"
@@ -20,20 +18,21 @@ namespace dmpc::apps::html {
 /// Names and values.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// The program that a page belongs to.
-struct PageSpeaker {
-  std::string name = "dmpc";  ///< program's name in front of error messages
-  /// The glossary; outlives the page.
-  std::span<const GlossaryEntry> words = glossary();
+/// A sentence, and what shows it: the id of a plot, or a section's heading.
+struct Finding {
+  std::string sentence;
+  std::string place;
 };
 
 /// A document under construction. All texts are shown literally, except code between backticks in paragraphs, cells and notes.
 /// Pictures, plots and tables have links that save them. Not thread-safe.
 class Page {
  public:
-  /// `complaints` as for Charts.
-  Page(std::string title, std::ostream& complaints, PageSpeaker speaker = {});
+  /// `words`: the glossary; outlives the page.
+  explicit Page(std::string title, std::span<const GlossaryEntry> words = glossary());
 
+  /// What was added so far opens the page, beside these sentences and before the table of contents.
+  void end_opening(std::vector<Finding> findings);
   /// Begins a section, which the page's table of contents links to.
   void begin_section(const std::string& heading);
   void add_text(const std::string& paragraph);
@@ -47,10 +46,11 @@ class Page {
                   const std::string& caption, const std::string& save);
   /// An empty element, for a script that finds it by its id.
   void add_place(const std::string& id);
+  /// Drawn by the page's script.
   void add_map(const NumberMap& map, const std::string& caption);
   /// A table with title and notes; a long one is folded.
   void add_table(const Table& table);
-  /// Adds nothing if there is nothing to see, or no program to draw it.
+  /// Drawn by the page's script; adds nothing if there is nothing to see. Its element's id is "plot-" and its name.
   void add_plot(const Plot& plot, const Table& table, const std::string& caption = "");
   /// How to reproduce and cite it: its origin, and the `results` by which another run is recognized as the same.
   void add_origin(const Origin& origin, const Facts& results);
@@ -65,13 +65,16 @@ class Page {
   std::string text() const;
 
  private:
+  /// A figure that the page's script draws from its data.
+  void add_drawn(const std::string& id, const std::string& title, const std::string& data, const std::string& caption);
+
   std::string title_;
   std::span<const GlossaryEntry> glossary_;
-  Charts charts_;
   std::vector<WebPart> styles_, scripts_;
   std::string data_;  ///< elements for scripts
   std::vector<std::string> headings_;
-  std::string body_;
+  std::string opening_, body_;
+  std::vector<Finding> findings_;
   std::string words_;  ///< all shown text, without markup
 };
 

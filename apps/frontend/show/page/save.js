@@ -1,15 +1,18 @@
-"use strict";
-// Links that save what a figure shows, which stands in the page once. A plot is saved as it is on white paper, without its style for
-// the dark, which stands in front of what gnuplot drew.
+// Links that save what a figure shows, which is in the page once. A plot is saved as on white paper.
 (() => {
-  const svg = "data:image/svg+xml;base64,";
-  const onWhite = (url) =>
-    url.startsWith(svg) ? svg + btoa(atob(url.slice(svg.length)).replace(/[<]style>rect\[fill[^]*?[<]\/style>\n/, "")) : url;
+  const urlOf = (figure) => {
+    const image = figure.querySelector("img");
+    if (image) return image.src;
+    const copy = figure.querySelector("svg").cloneNode(true), ground = document.createElementNS(copy.namespaceURI, "rect");
+    for (const [key, value] of Object.entries({width: "100%", height: "100%", fill: "#fff"})) ground.setAttribute(key, value);
+    copy.prepend(ground);
+    return "data:image/svg+xml," + encodeURIComponent(new XMLSerializer().serializeToString(copy));
+  };
   for (const link of document.querySelectorAll("figure a.save[hidden]")) {
-    const image = link.closest("figure").querySelector("img");
-    link.href = image.src;
+    const figure = link.closest("figure");
+    link.href = urlOf(figure);
     link.download = link.dataset.name;
-    link.addEventListener("click", () => { link.href = onWhite(image.src); });
+    link.addEventListener("click", () => { link.href = urlOf(figure); });
     link.hidden = false;
   }
 })();

@@ -37,11 +37,11 @@ void add_losses(Page& page, const Losses& losses) {
 }
 
 void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
-               std::span<const std::string> wait_names, const std::string& remark, const std::string& note) {
+               std::span<const std::string> wait_names, bool is_virtual, const std::string& remark, const std::string& note) {
   if (steps.nodes.front().empty()) {
     return;
   }
-  begin(page, "Over time", time_conclusion(steps, wait_names), remark);
+  begin(page, "Over time", is_virtual ? time_conclusion(steps, wait_names) : "", remark);
   Table table = step_table(steps, work_names, wait_names);
   if (!note.empty()) {
     table.add_note(note);
@@ -51,7 +51,7 @@ void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const st
   page.add_table(table);
 }
 
-void add_pages(Page& page, const svm::PageCounters& pages, const svm::Fetches& fetches, bool has_pairs,
+void add_pages(Page& page, const svm::PageCounters& pages, const svm::Fetches& fetches, bool is_virtual, bool has_pairs,
                const std::string& remark) {
   begin(page, "Pages", page_conclusion(pages, fetches), remark);
   if (pages.faults == 0) {
@@ -62,14 +62,14 @@ void add_pages(Page& page, const svm::PageCounters& pages, const svm::Fetches& f
   }
   page.add_plot(page_share_plot(), page_share_table(fetches));
   page.add_table(page_table(fetches));
-  begin(page, "Fetching a page", fetch_conclusion(fetches), remark);
+  begin(page, "Fetching a page", is_virtual ? fetch_conclusion(fetches) : "", remark);
   add_plotted(page, fetch_plot(fetches), fetch_table(fetches));
   page.add_table(fetch_part_table(fetches));
 }
 
 void add_misses(Page& page, const MissEstimate& misses, std::uint32_t page_count, std::uint32_t cache_pages,
                 const svm::PageCounters& pages, const std::string& remark) {
-  begin(page, "Other caches", cache_conclusion(misses, cache_pages, page_count), remark);
+  begin(page, "Other caches", cache_conclusion(misses, cache_pages), remark);
   add_plotted(page, miss_plot(), miss_table(misses, page_count, pages.references, cache_pages, pages.faults));
 }
 

@@ -23,11 +23,13 @@ namespace dmpc::apps::html {
 void add_node_section(Page& page, const std::string& heading, const std::string& conclusion, const Table& table,
                       const std::vector<Plot>& plots);
 void add_losses(Page& page, const Losses& losses);
-/// Adds a section; nothing if no steps were observed. `remark` names the run if there were several; `note` is about the table.
+/// Adds a section; nothing if no steps were observed. `is_virtual`: in virtual time; threads share a computer's cores, so that
+/// how busy they were says nothing about a machine, nor what fetches took. `remark` names the run if there were several; `note`
+/// is about the table.
 void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
-               std::span<const std::string> wait_names, const std::string& remark, const std::string& note);
+               std::span<const std::string> wait_names, bool is_virtual, const std::string& remark, const std::string& note);
 /// Adds the sections on pages and on their fetches, with the pairs of nodes if `has_pairs`.
-void add_pages(Page& page, const svm::PageCounters& pages, const svm::Fetches& fetches, bool has_pairs,
+void add_pages(Page& page, const svm::PageCounters& pages, const svm::Fetches& fetches, bool is_virtual, bool has_pairs,
                const std::string& remark);
 /// Adds a section on the misses of other caches, in a run with caches of `cache_pages`.
 void add_misses(Page& page, const MissEstimate& misses, std::uint32_t page_count, std::uint32_t cache_pages,

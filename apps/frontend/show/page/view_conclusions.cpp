@@ -29,7 +29,7 @@ std::vector<double> busy_shares(const nodes::ActivitySteps& steps) {
     for (std::size_t step = 0; step < shares.size(); ++step) {
       const nodes::WorkTimes& times = steps.nodes[node][step];
       shares[step] += static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0})) /
-                      (static_cast<double>(steps.step_ns) * static_cast<double>(node_count));
+                      static_cast<double>(steps.length_ns(step) * node_count);
     }
   }
   return shares;
@@ -44,19 +44,16 @@ std::size_t tail_of(std::span<const double> shares) {
 /// What most of the waits of all nodes but the host, which is the last, were for; empty where nothing was waited for.
 std::string wait_sentence(const nodes::ActivitySteps& steps, std::span<const std::string> names) {
   nodes::WaitTimes sums{};
-  double whole_ns = 0;
   for (std::size_t node = 0; node + 1 < steps.waits.size(); ++node) {
     for (const nodes::WaitTimes& times : steps.waits[node]) {
       std::transform(sums.begin(), sums.end(), times.begin(), sums.begin(), std::plus());
-      whole_ns += static_cast<double>(steps.step_ns);
     }
   }
   const auto most = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   if (names.empty() || sums.at(most) == 0) {
     return "";
   }
-  return " Most of what they waited was \"" + names[most] + "\", " + share_text(static_cast<double>(sums.at(most)) / whole_ns) +
-         " of their time.";
+  return " Most of what they waited was \"" + names[most] + "\".";
 }
 
 }  // namespace
@@ -82,7 +79,6 @@ std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& 
   if (pages.faults == 0) {
     return "No page was fetched: each node found all that it looked up at home.";
   }
-  const double asked = share_of(static_cast<double>(pages.faults), static_cast<double>(pages.references));
   std::vector<double> served(fetches.peer_count);
   for (std::size_t pair = 0; pair < fetches.by_pair.size(); ++pair) {
     served[pair % fetches.peer_count] += static_cast<double>(fetches.by_pair[pair]);
@@ -94,9 +90,11 @@ std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& 
                                      share_text(share_of(served.back(), static_cast<double>(pages.faults))) +
                                      ", nodes above the requester the others"
                                : evenness(served, "served");
-  return counted(pages.faults, "page fault") + " in " + counted(pages.references, "look-up") + " (" + share_text(asked) +
-         "); the tenth of the pages that was fetched most had " + share_text(top_tenth_share(by_page)) + " of the fetches. " +
-         even + (even.empty() ? "" : ".");
+  return grouped(pages.misses) + " of " + counted(pages.references, "look-up") + " missed (" +
+         percent_text(percent_of(static_cast<double>(pages.misses), static_cast<double>(pages.references)), 2) + "), with " +
+         counted(pages.faults, "page fault") +
+         ": one page is fetched for all that wait for it. The tenth of the pages that was fetched most had " +
+         share_text(top_tenth_share(by_page)) + " of the fetches. " + even + (even.empty() ? "" : ".");
 }
 
 std::string fetch_conclusion(const svm::Fetches& fetches) {
@@ -120,18 +118,21 @@ std::string fetch_conclusion(const svm::Fetches& fetches) {
          std::string(svm::fetch_part_names[part]) + "\".";
 }
 
-std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages, std::uint32_t page_count) {
+std::string larger_cache_sentence(const MissEstimate& misses, std::uint32_t cache_pages) {
   const double own = misses.misses(cache_pages), twice = misses.misses(2 * cache_pages);
   if (own == 0 || cache_pages / misses.every < 1) {
     return "";
   }
+  return twice > hardly_less * own ? "A larger cache would save almost nothing."
+                                   : "Twice the cache would fault " + times_text(twice / own) + " as often.";
+}
+
+std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages) {
+  const std::string larger = larger_cache_sentence(misses, cache_pages);
   const auto cold = static_cast<double>(misses.curve.cold_misses()) * misses.every;
-  const std::string cold_text = share_text(share_of(cold, own)) +
-                                " of the misses are of pages that a node looks up for the first time, which no cache avoids.";
-  if (2 * cache_pages >= page_count || twice > hardly_less * own) {
-    return "A larger cache would save almost nothing: " + cold_text;
-  }
-  return "Caches of twice as many pages would miss " + times_text(twice / own) + " as often; " + cold_text;
+  return larger.empty() ? ""
+                        : larger + " " + share_text(share_of(cold, misses.misses(cache_pages))) +
+                              " of the faults are of pages that a node looks up for the first time, which no cache avoids.";
 }
 
 }  // namespace dmpc::apps::html

@@ -14,6 +14,8 @@ namespace dmpc::apps::html {
 std::string time_conclusion(const nodes::ActivitySteps& steps, std::span<const std::string> wait_names = {});
 std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& fetches);
 std::string fetch_conclusion(const svm::Fetches& fetches);
-std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages, std::uint32_t page_count);
+/// What twice the cache would change; empty if the sample says nothing.
+std::string larger_cache_sentence(const MissEstimate& misses, std::uint32_t cache_pages);
+std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages);
 
 }  // namespace dmpc::apps::html

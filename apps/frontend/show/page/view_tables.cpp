@@ -141,8 +141,8 @@ Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string>
     columns.push_back({wait_names[wait], "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
-  const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
+    const auto whole_ns = static_cast<double>(steps.length_ns(step) * node_count_of(steps));
     std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
     for (std::size_t work = 0; work < work_names.size(); ++work) {
       row.emplace_back(percent_of(static_cast<double>(sum_ns(steps.nodes, step, work)), whole_ns));
@@ -152,10 +152,7 @@ Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string>
     }
     table.add_row(std::move(row));
   }
-  table.add_note(
-      "Of all nodes' time. What is left " +
-      std::string(wait_names.empty() ? "they waited." : "they were idle at the end, or on threads waiting for a core.") +
-      " With threads a call counts as long as it took by the wall clock, even where it waited for a core.");
+  table.add_note("Of all nodes' time." + std::string(wait_names.empty() ? " What is left they waited." : ""));
   return table;
 }
 
@@ -188,9 +185,10 @@ NumberMap step_map(const nodes::ActivitySteps& steps) {
                 .column_ns = static_cast<double>(steps.step_ns),
                 .most = 100};
   for (std::size_t node = 0; node < map.rows; ++node) {
-    for (const nodes::WorkTimes& times : steps.nodes[node]) {
+    for (std::size_t step = 0; step < map.columns; ++step) {
+      const nodes::WorkTimes& times = steps.nodes[node][step];
       const auto busy_ns = static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0}));
-      map.values.push_back(percent_of(busy_ns, static_cast<double>(steps.step_ns)));
+      map.values.push_back(percent_of(busy_ns, static_cast<double>(steps.length_ns(step))));
     }
   }
   return map;
@@ -302,8 +300,8 @@ Plot page_share_plot() {
 
 Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::uint64_t references, std::uint32_t cache_pages,
                  std::uint64_t faults) {
-  Table table("Misses by the size of the caches",
-              {{"cache", "pages", 0}, {"misses", "", 0}, {"of all look-ups", "%", 3}, {"this run", "%", 3}});
+  Table table("Faults by the size of the caches",
+              {{"cache", "pages", 0}, {"faults", "", 0}, {"of all look-ups", "%", 3}, {"this run", "%", 3}});
   const std::uint32_t size_min = estimate.cache_pages_min();
   std::vector<std::uint32_t> sizes = geometric_sizes(page_count, 24);
   std::erase_if(sizes, [&](std::uint32_t size) { return size < size_min; });
@@ -332,7 +330,7 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
 }
 
 Plot miss_plot() {
-  return curves("misses", "Misses by the size of the caches", "cache",
+  return curves("misses", "Faults by the size of the caches", "cache",
                 {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10},
                 {.label = "of all look-ups (%)", .least = 0},
                 {{"by stack distances", "of all look-ups"}, {"this run", "this run", {}, PlotMark::points, 1}});

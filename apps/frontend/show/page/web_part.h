@@ -13,7 +13,7 @@ struct WebPart {
 };
 
 extern const WebPart page_style;   ///< page.css
-extern const WebPart save_script;  ///< save.js
+extern const WebPart page_script;  ///< palette.js, plot.js and save.js
 
 /// The content of the policy's meta element: it allows exactly these styles and scripts, by digest, pictures within the page, and
 /// nothing else (W3C, "Content Security Policy Level 3").

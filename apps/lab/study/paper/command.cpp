@@ -86,7 +86,7 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
     }
   }
   if (options.report) {
-    attempts.make([&] { write_file(*options.report, page_of(report, std::cerr)); });
+    attempts.make([&] { write_file(*options.report, page_of(report)); });
   }
 }
 

@@ -158,17 +158,16 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
   write_tables(report.tables, folder, attempts);
   const Pictures pictures = draw_all(report.tables, folder, attempts, complaints);
   attempts.make([&] { write_file(folder / "report.md", text_with(report, pictures, complaints)); });
-  std::ostringstream said_above;
-  attempts.make([&] { write_file(folder / page_name, page_of(report, said_above)); });
+  attempts.make([&] { write_file(folder / page_name, page_of(report)); });
   attempts.make([&] { write_archive(report, folder, complaints); });
   return complaints;
 }
 
-std::string page_of(const PaperReport& report, std::ostream& complaints) {
+std::string page_of(const PaperReport& report) {
   std::vector<html::SweepPart> parts = core::mapped<html::SweepPart>(report.tables, [&](const NamedTable& named) {
     return html::SweepPart{named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)};
   });
-  return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin(), complaints);
+  return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin());
 }
 
 }  // namespace dmpc::apps

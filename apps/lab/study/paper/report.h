@@ -38,9 +38,8 @@ std::vector<OutputName> report_files(const PaperReport& report, const std::files
 /// has, too, and about missing hashes. Each file is one attempt.
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
 
-/// Returns the report as a page. Pictures that could not be drawn are reported to `complaints`. Throws core::InputError if no
-/// temporary file can be written.
-std::string page_of(const PaperReport& report, std::ostream& complaints);
+/// Returns the report as a page.
+std::string page_of(const PaperReport& report);
 
 struct PaperPlot {
   std::string table;  ///< name of the table's files: "table_3"

@@ -1,9 +1,7 @@
-"use strict";
 // What goes on, as its server tells it (apps/render/live_events.h): of a run the picture tile by tile, and what each node did step by
 // step; where one looks round, whole pictures, and where the camera is to be, which the server is told.
 const byId = (id) => document.getElementById(id);
 const looksRound = document.querySelector("main").className === "view";
-const colors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", overhead: "#8c6d46"};
 const triesMax = 3;  // of EventSource, one every few seconds
 let head = null, shot = null, raster = null, shares = [], doublings = 0, tries = 0, hasEnded = false;
 
@@ -57,7 +55,7 @@ const begin = (reported) => {
   shares = head.works.map((work) => {
     const item = make("li", byId("shares")), swatch = make("span", item);
     swatch.className = "swatch";
-    swatch.style.background = colors[work];
+    swatch.style.background = colorOf(work);
     make("span", item, work);
     return make("b", item);
   });
@@ -91,7 +89,7 @@ const drawStep = (reported) => {
   doublings = reported.doublings;
   const letters = atob(reported.cells), height = raster.canvas.height / head.nodes, image = new ImageData(1, raster.canvas.height);
   for (let y = 0; y < image.height; ++y) {
-    const cell = letters.charCodeAt(Math.floor(y / height)), color = parseInt(colors[head.works[cell % head.works.length]].slice(1), 16);
+    const cell = letters.charCodeAt(Math.floor(y / height)), color = parseInt(colorOf(head.works[cell % head.works.length]).slice(1, 7), 16);
     const share = Math.floor(cell / head.works.length) / head.levels;
     image.data.set([color >> 16, color >> 8 & 255, color & 255, Math.round(255 * share)], 4 * y);
   }

@@ -1,4 +1,3 @@
-"use strict";
 // The data that came with the page, and what all parts of it are built of.
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent);

@@ -6,7 +6,7 @@ underRows.push((run, box) => {
   const canvas = makeCanvas(run, "levels", "How full all nodes together were over time, at most: " + texts.join(", "), box);
   canvas.className = "time";
   legend(box, "Most at a time, of all nodes together: ", texts.map((text, i) => [text, levelColors[i]]));
-  part(() => state.t, () => {
+  part(() => [state.t, moment()].join(), () => {
     const [pen, wide] = square(canvas, levelsHigh);
     run.levels.forEach(({name, values, most, steps, step_ns}, i) => {
       const peak = mostOf(({levels}) => Math.max(0, ...levels.filter((level) => level.name === name).map((level) => level.largest * level.most)));

@@ -9,7 +9,7 @@ cards.push({id: "machine", headingOf: () => "The machine", start: (run, box) => 
   const machine = run.machine = {places: new Map()};
   machine.canvas = makeCanvas(run, "machine", "Nodes by how much they compute, and links by how long they were held. The tables of nodes and links below say the same.", box,
     (x, y) => partAt(run, x, y), (right, down) => right || !links.length ? {node: beside(state.node, right || down, nodes)} : {link: beside(state.link, down, links.length)});
-  make("p", {class: "note"}, box, "Discs: computing in the time shown. " + (over.links ? "Links: bytes in the time shown." : links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
+  make("p", {class: "note"}, box, "Discs: computing in the time shown. " + (over.links ? "Links: bytes in the time shown." : links.length ? "Links: held over the whole run." : ""));
   const placeOf = placerOf(run);
   for (let node = 0; node < nodes; ++node) machine.places.set("node " + node, placeOf(node));
   placeOthers(run, placeOf);
@@ -40,6 +40,8 @@ const partAt = (run, x, y) => {
   }
   return "node" in best ? best : linkAt(run, x, y);
 };
+/// Of the nodes' time by name what closing lines sum up as computing.
+const computes = (name) => ["tracing", "shading", "installing", "packing", "overhead"].includes(name);
 const drawMachine = (run) => {
   const {nodes, works, machine: {places, cell, canvas}} = run, choice = chosen(), bright = brightNodes(run, choice), [pen, size] = square(canvas);
   const dims = hasChoice(choice), radius = 0.3 * cell * size, shown = stepsShown(run);
@@ -54,8 +56,8 @@ const drawMachine = (run) => {
     else pen.rect(x * size - 4, y * size - 4, 8, 8);
     pen.fill();
     if (isNode) {
-      const computing = works.reduce((sum, work) => sum + (work.name === "tracing" || work.name === "shading" ? shareOf(work, node, shown) : 0), 0);
-      pen.fillStyle = workColors.tracing;
+      const computing = works.reduce((sum, work) => sum + (computes(work.name) ? shareOf(work, node, shown) : 0), 0);
+      pen.fillStyle = partColors.tracing;
       const solid = pen.globalAlpha;
       pen.globalAlpha = solid * Math.min(1, 0.08 + 0.92 * computing);
       pen.fill();
@@ -73,5 +75,5 @@ const drawMachine = (run) => {
   }
   pen.globalAlpha = 1;
 };
-const nodeText = (run, node) => node > run.nodes ? "No such node." : node === run.nodes ? "The host." :
-  `Node ${node}, ${partText()}: ` + sharesOf(run, [node]).filter(([name, share]) => share >= 0.0005 || name === run.rest).map(([name, share]) => `${name} ${percentText(share)}`).join(", ") + ".";
+const sharesText = (shares, {rest}) => shares.filter(([name, share]) => share >= 0.0005 || name === rest).map(([name, share]) => `${name} ${percentText(share)}`).join(", ");
+const nodeText = (run, node) => node > run.nodes ? "No such node." : node === run.nodes ? "The host." : `Node ${node}, ${partText()}: ${sharesText(sharesOf(run, [node]), run)}.`;

@@ -15,7 +15,7 @@ const drawPages = (run, canvas) => {
       pen.globalAlpha = alpha * (isChosen || (choice.page < 0 && (bright.size === 0 || bright.has(home))) ? 1 : 0.2);
       pen.fillRect(i * width, high - 86 * share, Math.max(1, width - 0.5), 86 * share);
     };
-    pen.fillStyle = isChosen ? "#e03030" : workColors.paging;
+    pen.fillStyle = isChosen ? "#e03030" : partColors.pages;
     bar(fetched / most, over.pages ? 0.35 : 1);
     if (over.pages) bar(heatOf("pages", over, i), 1);
   });

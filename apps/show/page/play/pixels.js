@@ -10,6 +10,8 @@ const startPixels = async (run, box) => {
   const image = document.querySelectorAll("img.picture")[index], pen = canvas.getContext("2d", {willReadFrequently: true});
   await image.decode();
   pen.drawImage(image, 0, 0, wide, high);
+  const caption = image.closest(".opening") && image.closest("figure").querySelector("figcaption");
+  if (caption) box.append(caption.cloneNode(true));
   const film = pen.getImageData(0, 0, wide, high).data, frame = pen.createImageData(wide, high), out = new Uint32Array(frame.data.buffer);
   run.pixels = {canvas, pen, film, frame, out, lit: new Uint32Array(out.length), tinted: ""};
   part(() => [state.t, state.heat, state.mix, choiceKey(chosen())].join(), () => drawPixels(run));

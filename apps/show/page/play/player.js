@@ -21,23 +21,26 @@ const square = (canvas, high = 0) => {
 
 /// Under the pointer, until it leaves or a click settles it.
 const point = (choice) => {
-  pointed = hasChoice(choice) || choice.x >= 0 ? choice : null;
+  pointed = hasChoice(choice) || choice.x >= 0 || "at" in choice ? choice : null;
   changed();
 };
 const settle = (choice) => {
   pointed = null;
   change({...nothing, ...choice});
 };
-const partText = () => isWhole() ? "in the whole run" : state.to > state.from ? `from ${timeText(state.from)} to ${timeText(state.to)}` : "at " + timeText(state.t);
+const partText = () => moment() >= 0 ? "at " + timeText(moment()) : isWhole() ? "in the whole run" : state.to > state.from ? `from ${timeText(state.from)} to ${timeText(state.to)}` : "at " + timeText(state.t);
 /// Of all runs, but what one alone has.
 const wordsOf = (choice) => {
-  const isOfAll = choice.x >= 0 || (choice.node >= 0 && choice.peer < 0);
+  const isOfAll = choice.x >= 0 || "at" in choice || (choice.node >= 0 && choice.peer < 0);
   const said = runs.filter(({index}) => isOfAll || index === choice.run).map((run) => {
-    const text = choice.x >= 0 ? pixelText(run, choice) : sayings.map((say) => say(run, choice)).find((words) => words);
+    const text = choice.x >= 0 ? pixelText(run, choice) : sayings.map((say) => say(run, choice)).find((words) => words) || ("at" in choice ? momentText(run) : "");
     return text && letterOf(run) ? letterOf(run) + ": " + text : text;
   });
-  return said.filter((text) => text).join(" ") || "Point at a pixel, a node, a link or a page, or move over them by arrow keys. A click keeps it chosen, Escape lets go.";
+  return said.filter((text) => text).join(" ") || "Point at a pixel, a moment of a node, a link or a page, or move over them by arrow keys. A click keeps it chosen, Escape lets go.";
 };
+
+/// Of all nodes together.
+const momentText = (run) => `All nodes, ${partText()}: ${sharesText(sharesOf(run, [...Array(run.nodes).keys()]), run)}.`;
 
 /// A run's own command, with what writes this view down.
 const commandText = (run) => {
@@ -76,7 +79,7 @@ const changed = () => {
 };
 const stepKey = () => runs.map((run) => stepsShown(run).join()).join();
 
-/// Of each run a share and a bar.
+/// Of each run a share and a bar; above the parts of computing their sum, which is in the closing lines.
 const startNames = (box) => {
   const table = make("table", {id: "names"}, box), head = make("tr", {}, make("thead", {}, table)), body = make("tbody", {}, table);
   make("th", {scope: "col", class: "text"}, head, "what");
@@ -84,9 +87,11 @@ const startNames = (box) => {
     make("th", {scope: "col"}, head, letterOf(run) || "share");
     make("td", {}, head);
   }
-  const names = [...new Set(runs.flatMap(({works}) => works.map(({name}) => name))), ...new Set(runs.map(({rest}) => rest))].map((name) => {
+  const own = [...new Set(runs.flatMap(({works}) => works.map(({name}) => name)))], waits = runs.flatMap((run) => run.waits.map(({name}) => name)), isPart = (name) => isSummed && computes(name);
+  const isSummed = own.some(computes) && runs[0].clock === "virtual time", rests = [...new Set(runs.map(({rest}) => rest))], inOrder = (of) => own.filter(of);
+  const names = [...(isSummed ? ["computing"] : []), ...inOrder(computes), ...inOrder((name) => waits.includes(name)), ...inOrder((name) => !computes(name) && !waits.includes(name)), ...rests].map((name) => {
     const row = make("tr", {}, body);
-    make("th", {scope: "row", class: "text"}, row, name);
+    make("th", {scope: "row", class: isPart(name) ? "text part" : "text"}, row, name);
     return {name, cells: runs.map(() => {
       const text = make("td", {}, row), bar = make("div", {class: "bar"}, make("td", {class: "bars"}, row));
       bar.style.background = colorOf(name);
@@ -97,9 +102,17 @@ const startNames = (box) => {
   part(() => stepKey() + choiceKey(chosen()), () => {
     const nodes = summed(runs[0], chosen());
     runs.forEach((run, i) => {
-      const shares = Object.fromEntries(sharesOf(run, summed(run, chosen())));
+      const all = sharesOf(run, summed(run, chosen())), shares = Object.fromEntries(all);
+      shares.computing = all.reduce((sum, [name, share]) => sum + (computes(name) ? share : 0), 0);
+      // Each is the distance of two rounded ends, as in closing lines, so that all add up to 100 %.
+      const ends = [{exact: 0, shown: 0}, {exact: 0, shown: 0}], percentOf = (name) => {
+        const end = ends[+isPart(name)], before = end.shown;
+        end.exact += shares[name];
+        end.shown = Math.floor(1000 * end.exact + .5);
+        return percentText((end.shown - before) / 1000);
+      };
       for (const {name, cells} of names) {
-        cells[i].text.textContent = name in shares ? percentText(shares[name]) : "";
+        cells[i].text.textContent = name in shares ? percentOf(name) : "";
         cells[i].bar.style.width = 100 * (shares[name] || 0) + "%";
       }
     });
@@ -197,6 +210,7 @@ const startCards = (run, grid) => {
 };
 const start = async () => {
   const begin = performance.now(), section = make("section", {id: "player", "aria-labelledby": "player-head"});
+  document.documentElement.dataset.plays = "";  // the picture of the page's opening gives way to the one that plays
   (document.querySelector("nav") || document.querySelector("h1")).after(section);
   make("h2", {id: "player-head"}, section, runs.length > 1 ? "The runs, on one clock" : "The run, as it went");
   startBar(make("div", {id: "bar", role: "group", "aria-label": "Playing"}, section));

@@ -18,11 +18,11 @@ const overTime = (rows) => {
   return {...rows, values, largest, peak: largest * rows.most / 255 / rows.step_ns};
 };
 const openRun = (data, index) => {
-  const {levels = [], ...over} = data.over || {}, rest = data.clock === "virtual time" ? "idle at the end" : "waiting for a core";
+  const {levels = [], ...over} = data.over || {}, rest = data.clock === "virtual time" ? "idle at the end" : "between calls";
   const values = (field) => ({...field, values: unpacked(field.values)});
   return {...data, index, rest, done: unpacked(data.done), fields: Object.fromEntries(data.fields.map((field) => [field.name, values(field)])),
     // What nodes did, then what they waited for; what is left of a step is the rest.
-    works: [...data.works, ...data.waits.filter(({name}) => name !== rest)].map((work) => ({...work, steps: data.steps, values: unpacked(work.shares)})),
+    works: [...data.works, ...data.waits.filter(({name}) => name !== rest)].map((work) => ({...work, steps: data.steps, step_ns: data.step_ns, total_ns: data.total_ns, values: unpacked(work.shares)})),
     over: Object.fromEntries(Object.entries(over).map(([name, rows]) => [name, overTime({...rows, total_ns: data.total_ns})])),
     levels: levels.map(overTime).filter(({values: all}) => all.some((value) => value > 0))};
 };

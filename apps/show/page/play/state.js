@@ -5,8 +5,10 @@ const nothing = {node: -1, peer: -1, link: -1, page: -1, x: -1, y: -1};
 const state = {t: totalMs, from: 0, to: 0, heat: "", mix: 70, run: 0, why: -1, ...nothing};
 let pointed = null;
 const chosen = () => pointed || state;
+/// Under the pointer a moment, in ms, where it is over the rows of time; else -1. All but the picture shows that moment.
+const moment = () => pointed && "at" in pointed ? pointed.at : -1;
 const hasChoice = ({node, link, page}) => node >= 0 || link >= 0 || page >= 0;
-const choiceKey = ({run, node, peer, link, page, x, y}) => [run, node, peer, link, page, x, y].join();
+const choiceKey = ({run, node, peer, link, page, x, y, at = -1}) => [run, node, peer, link, page, x, y, at].join();
 
 /// The nodes of a run that stay bright. A link and a page are of the run that is chosen.
 const brightNodes = (run, {run: of, node, peer, link, page, x, y}) => {
@@ -45,24 +47,26 @@ const change = (parts) => {
 
 /// At the end, where a page opens, all of the run is shown, not its last moment.
 const isWhole = () => state.to <= state.from && state.t >= totalMs;
-/// Steps of the brush, or else all, or the one of now: first and last. Beyond the end of a run there is none.
+/// Steps of the pointer's moment, of the brush, or else all, or the one of now: first and last. Beyond the end of a run there is none.
 const stepsShown = ({step_ns, steps, total_ns}) => {
-  const [from, to] = isWhole() ? [0, totalMs] : state.to > state.from ? [state.from, state.to * (1 - 1e-9)] : [state.t, state.t];
+  const [from, to] = moment() >= 0 ? [moment(), moment()] : isWhole() ? [0, totalMs] : state.to > state.from ? [state.from, state.to * (1 - 1e-9)] : [state.t, state.t];
   const stepOf = (ms) => Math.max(0, Math.min(steps - 1, Math.ceil(total_ns / step_ns) - 1, Math.floor(ms * 1e6 / step_ns)));
   return from > total_ns / 1e6 ? [0, -1] : [stepOf(from), stepOf(to)];
 };
-const lengthOf = ([first, last]) => last - first + 1;
+/// How many steps that is; the last of a run ends with it.
+const lengthOf = ({step_ns, total_ns}, [first, last]) => (Math.min(total_ns, (last + 1) * step_ns) - first * step_ns) / step_ns;
 /// In the steps shown how many of a row, and how that is to the most of any row of any run.
 const countOf = (rows, row) => Math.round(sumOf(rows, row, stepsShown(rows)) * rows.most / 255);
 const heatOf = (name, {[name]: rows}, row) => {
   const shown = stepsShown(rows), peak = mostOf(({over}) => over[name] ? over[name].peak : 0);
-  return sumOf(rows, row, shown) / rows.largest / Math.max(1, lengthOf(shown)) * rows.peak / peak;
+  return sumOf(rows, row, shown) / rows.largest / Math.max(1, shown[1] - shown[0] + 1) * rows.peak / peak;
 };
 /// The share of a node's time in steps that it did a work, 0 to 1.
-const shareOf = (work, node, shown) => sumOf(work, node, shown) / 255 / Math.max(1, lengthOf(shown));
-/// Of all works of some nodes, in the steps shown, and what is left.
+const shareOf = (work, node, shown) => Math.min(1, sumOf(work, node, shown) / 255 / (lengthOf(work, shown) || 1));
+/// Of all works of some nodes, in the steps shown, and what is left; of all nodes in the whole run exactly.
 const sharesOf = (run, nodes) => {
-  const shown = stepsShown(run), shares = run.works.map((work) => [work.name, nodes.reduce((sum, node) => sum + shareOf(work, node, shown), 0) / nodes.length]);
+  const shown = stepsShown(run), isAll = nodes.length === run.nodes && lengthOf(run, shown) * run.step_ns >= run.total_ns;
+  const shares = run.works.map((work) => [work.name, isAll ? work.ns / run.total_ns / run.nodes : nodes.reduce((sum, node) => sum + shareOf(work, node, shown), 0) / nodes.length]);
   return [...shares, [run.rest, Math.max(0, 1 - shares.reduce((sum, [, share]) => sum + share, 0))]];
 };
 
@@ -95,17 +99,7 @@ const within = (number, count) => Math.max(0, Math.min(count - 1, Math.floor(num
 
 /// Colours as 0xAABBGGRR, as they lie in an image's memory.
 const packedColor = (red, green, blue) => (255 << 24 | blue << 16 | green << 8 | red) >>> 0;
-const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 const packedHex = (hex) => (packedColor(...channels(hex)) & 0xffffff | parseInt(hex.slice(7) || "ff", 16) << 24) >>> 0;
-/// The map inferno of the page's other pictures, straight between ten of its colours.
-const heatStops = ["#000004", "#1b0c41", "#4a0c6b", "#781c6d", "#a52c60", "#cf4446", "#ed6925", "#fb9b06", "#f7d13d", "#fcffa4"].map(channels);
-const heatColors = Uint32Array.from({length: 256}, (unused, i) => {
-  const at = Math.min(8, Math.floor(i / 255 * 9)), part = i / 255 * 9 - at;
-  return packedColor(...heatStops[at].map((low, k) => Math.round(low + (heatStops[at + 1][k] - low) * part)));
-});
+const heatColors = Uint32Array.from({length: 256}, (unused, i) => packedColor(...heatAt(i / 255)));
 /// Nodes have twelve hues, neighbours apart.
 const nodeColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#a03030", "#8c6d46", "#6a4fb0", "#86b300", "#2f7f8f", "#d98f8f"].map(packedHex);
-/// Work strong, waits pale.
-const workColors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", overhead: "#8c6d46", "page wait": "#009e7370", "answer wait": "#009e7370",
-  "ray wait": "#cc79a780", "starvation": "#e6c30070", "token wait": "#6a4fb080", "credit wait": "#d55e0080", "film wait": "#56b4e980", "other waits": "#80808080", "idle at the end": "#80808040"};
-const colorOf = (name) => workColors[name] || "#80808060";

@@ -18,7 +18,7 @@ const startTime = (run, box) => {
     canvas.addEventListener("pointermove", (event) => {
       const now = timeAt(event);
       if (start !== null) change({from: Math.min(now, start), to: Math.max(now, start)});
-      else if (canvas === raster) point({...nothing, run: run.index, node: nodeAt(event)});
+      else point({...nothing, run: run.index, node: nodeAt(event), at: Math.min(now, run.total_ns / 1e6 * (1 - 1e-9))});
     });
     canvas.addEventListener("pointerup", (event) => {
       if (start !== null && Math.abs(timeAt(event) - start) < totalMs / 200) {
@@ -109,6 +109,8 @@ const drawTime = (run) => {
 /// What further scripts draw over the rows of time, told run, pen, width and height, and put below them.
 const overRows = [], underRows = [];
 const drawNow = (pen, wide, height) => {
+  pen.fillStyle = css("ink");
+  if (moment() >= 0) pen.fillRect(moment() / totalMs * wide - 0.5, 0, 1, height);
   pen.fillStyle = "#e03030";
   pen.fillRect(state.t / totalMs * wide - 1, 0, 2, height);
 };

@@ -1,8 +1,9 @@
-// What if caches had another size: the band of predicted run time, drawn where it is narrow enough, and runs as dots.
+// What if caches had another size: the band of predicted run times, or of faults where times say nothing, paler where it is vague, and
+// runs as dots.
 /// Fills `box`. What is asked for is in `state`: cache (pages) and dots (1 or 0); `settle` is told when it changed. Gives what draws it anew.
-const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle) => {
-  const isNarrow = ([, , least, most]) => most / least - 1 <= widest, pagesText = (count) => count === 1 ? "1 page" : numberText(count) + " pages";
-  const ms = (ns) => (ns / 1e6).toLocaleString("en", {maximumSignificantDigits: 4}), number = () => Math.max(0, points.findLastIndex(([pages]) => pages <= state.cache));
+const startWhatIf = (box, {unit = "ns", cache: own, widest, why, points, runs}, state, settle) => {
+  const isOfTime = unit === "ns", spread = ([, , least, most]) => most / Math.max(1, least) - 1, isNarrow = (point) => spread(point) <= widest, pagesText = (count) => count === 1 ? "1 page" : numberText(count) + " pages";
+  const ms = (ns) => (isOfTime ? ns / 1e6 : ns).toLocaleString("en", {maximumSignificantDigits: 4}), unitText = isOfTime ? " ms" : " faults", number = () => Math.max(0, points.findLastIndex(([pages]) => pages <= state.cache));
   const bar = make("div", {class: "asks"}, box);
   const slider = control(bar, "What if a cache had", "input", {id: "cache", type: "range", min: 0, max: points.length - 1}), said = make("output", {for: "cache"}, bar);
   const dots = control(bar, "Show runs", "input", {id: "dots", type: "checkbox"});
@@ -14,17 +15,18 @@ const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle
     picture.append(element);
   };
   box.append(picture);
-  make("p", {class: "note"}, box, "Band: predicted from the run with " + pagesText(own) + " alone, and not where it would be wider than " + percentText(widest) + ". Dots: runs that were made. " + why);
+  make("p", {class: "note"}, box, "Band: predicted from the run with " + pagesText(own) + " alone, pale where it is wider than " + percentText(widest) + ". Dots: runs that were made. " + why);
 
   const words = ([pages, faults, least, most]) => {
     const run = state.dots && runs.find(([size]) => size === pages);
-    return pagesText(pages) + ": " + (pages === own ? "the run from which all else is predicted, " + ms(least) + " ms" : isNarrow([pages, faults, least, most]) ?
-      `predicted ${ms(least)} to ${ms(most)} ms, with ${numberText(faults)} faults` : `not predicted, as the two readings lie ${percentText(most / least - 1)} apart, more than ${percentText(widest)}`) +
-      (run && pages !== own ? `; a run took ${ms(run[1])} ms.` : ".");
+    const [low, high] = [ms(least), ms(most)], made = run && pages !== own ? `; a run ${isOfTime ? "took" : "had"} ${ms(run[1])}${unitText}.` : ".";
+    return pagesText(pages) + ": " + (pages === own ? "the run from which all else is predicted, " + low + unitText :
+      `predicted ${low === high ? low : low + " to " + high}${unitText}` + (isOfTime ? `, with ${numberText(faults)} faults` : "") +
+      (isNarrow([pages, faults, least, most]) ? "" : `, which is vague: the ends lie ${percentText(spread([pages, faults, least, most]))} apart`)) + made;
   };
   const show = () => {
     const wide = Math.max(260, box.clientWidth - 20), high = 240, left = 64, right = wide - 14, top = 14, bottom = high - 38, at = points[number()];
-    const times = [...points.filter(isNarrow).flatMap((point) => point.slice(2)), ...runs.map(([, ns]) => ns)], sizes = [...points, ...runs].map(([pages]) => pages);
+    const times = [...points.flatMap((point) => point.slice(2)), ...runs.map(([, ns]) => ns)].map((time) => Math.max(1, time)), sizes = [...points, ...runs].map(([pages]) => pages);
     const scale = (values, from, to) => {
       const low = Math.log(Math.min(...values)), span = Math.log(Math.max(...values)) - low || 1;
       return (value) => from + (to - from) * (Math.log(value) - low) / span;
@@ -35,24 +37,24 @@ const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle
     slider.setAttribute("aria-valuetext", said.textContent);
     dots.checked = !!state.dots;
     picture.replaceChildren();
-    for (const [key, value] of Object.entries({width: wide, height: high, role: "img", "aria-label": "Run time by the size of the caches: the table below says the same"})) picture.setAttribute(key, value);
+    for (const [key, value] of Object.entries({width: wide, height: high, role: "img", "aria-label": isOfTime ? "Run time by the size of the caches: the table below says the same" : "Faults by the size of the caches: the table above says nearly the same"})) picture.setAttribute(key, value);
     for (let power = Math.floor(Math.log10(Math.min(...times))); power <= Math.log10(Math.max(...times)); ++power) for (const digit of [1, 2, 5]) {
       const ns = digit * 10 ** power, place = y(ns);
       if (place < top || place > bottom) continue;
       add("line", {class: "grid", x1: left, x2: right, y1: place, y2: place});
-      add("text", {x: left - 6, y: place + 4, "text-anchor": "end"}, ms(ns) + " ms");
+      add("text", {x: left - 6, y: place + 4, "text-anchor": "end"}, ms(ns) + unitText);
     }
     for (let size = 1; size <= Math.max(...sizes); size *= 4) if (x(size) >= left) add("text", {x: x(size), y: bottom + 16, "text-anchor": "middle"}, numberText(size));
     add("text", {x: (left + right) / 2, y: high - 4, "text-anchor": "middle"}, "cache of a node (pages)");
-    for (let first = 0, last; first < points.length; first = last + 1) {
-      for (last = first; last < points.length && isNarrow(points[last]); ++last);
-      const part = points.slice(first, last), edge = (k) => part.map((point) => x(point[0]) + "," + y(point[k]));
-      if (part.length) for (const k of [2, 3]) add("polyline", {class: "edge", points: edge(k).join(" ")});
-      if (part.length) add("polygon", {class: "band", points: [...edge(2), ...edge(3).reverse()].join(" ")});
-    }
+    // From one size to the next, so that each part is as pale as it is vague.
+    points.slice(1).forEach((point, i) => {
+      const part = [points[i], point], edge = (k) => part.map((end) => x(end[0]) + "," + y(Math.max(1, end[k])));
+      add("polygon", {class: part.every(isNarrow) ? "band" : "band vague", points: [...edge(2), ...edge(3).reverse()].join(" ")});
+      for (const k of [2, 3]) add("polyline", {class: "edge", points: edge(k).join(" ")});
+    });
     if (state.dots) for (const [pages, ns] of runs) add("circle", {class: "dot", cx: x(pages), cy: y(ns), r: 5});
     add("line", {class: "edge", x1: x(at[0]), x2: x(at[0]), y1: top, y2: bottom});
-    if (isNarrow(at)) add("circle", {class: "asked", cx: x(at[0]), cy: y(Math.sqrt(at[2] * at[3])), r: 8});
+    add("circle", {class: "asked", cx: x(at[0]), cy: y(Math.sqrt(Math.max(1, at[2]) * Math.max(1, at[3]))), r: 8});
   };
   slider.addEventListener("input", () => {
     state.cache = points[slider.value][0];

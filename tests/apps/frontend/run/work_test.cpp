@@ -43,10 +43,12 @@ TEST_CASE("what a call was for follows from what it was charged") {
 TEST_CASE("a span counts as what it was charged for, or as messages or pages of its kind") {
   CHECK(work(Activity::work, {Charge::cell_step}) == Work::tracing);
   CHECK(work(Activity::work, {Charge::shading, Charge::cell_step}) == Work::shading);
-  CHECK(work(Activity::receive, {Charge::page_install}) == Work::paging);
+  CHECK(work(Activity::receive, {Charge::page_install}) == Work::installing);
   CHECK(work(Activity::receive, {Charge::ray_packing}) == Work::packing);
   CHECK(work(Activity::receive, {}) == Work::overhead);
-  CHECK(work(Activity::serve, {}) == Work::paging);
+  CHECK(work(Activity::serve, {}) == Work::service_busy);
+  CHECK(work_of({.activity = Activity::serve, .is_in_idle = true, .before = {}, .after = {}}) ==
+        static_cast<std::size_t>(Work::service_idle));
   CHECK(work(Activity::send, {}) == Work::messages);
   CHECK(work(Activity::take_over, {}) == Work::messages);
 }

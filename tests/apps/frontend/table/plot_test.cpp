@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/show/page/web_part.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
@@ -149,28 +150,6 @@ TEST_CASE("rows and places whose names CSV has to quote, which gnuplot would cut
   CHECK(contains(script(bars, table), "using (place_of(texts2[int(column(0)) + 1])):"));
 }
 
-TEST_CASE("a small plot has its legend below, and none for a single series") {
-  Plot plot = curves();
-  CHECK(contains(script(plot), "svg size 960,600"));
-  CHECK(contains(script(plot), "set key outside right top"));
-  plot.size = PlotSize::small;
-  CHECK(contains(script(plot), "svg size 480,288"));
-  CHECK(contains(script(plot), "set key bmargin"));
-  plot.series.pop_back();
-  CHECK(contains(script(plot), "set key off"));
-}
-
-TEST_CASE("a small plot of many bars names every so many") {
-  Table table("Many", {{"node"}, {"time", "s", 1}});
-  for (std::uint64_t node = 0; node < 30; ++node) {
-    table.add_row({node, 1.0});
-  }
-  Plot plot = apps::curves("many", "Many", "node", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
-  CHECK(contains(script(plot, table), "'28' 29, '29' 30)"));
-  plot.size = PlotSize::small;
-  CHECK(contains(script(plot, table), "'26' 27, '28' 29)"));
-}
-
 TEST_CASE("a place of bars may have percents in its name") {
   Table table("Caches", {{"cache"}, {"time", "s", 1}});
   table.add_row({"5 %", 1.0});
@@ -178,18 +157,6 @@ TEST_CASE("a place of bars may have percents in its name") {
       apps::curves("caches", "Caches", "cache", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
   CHECK(contains(script(plot, table), "array names[1] = ['5 %']"));
   CHECK(contains(script(plot, table), "('5 %%' 1)"));
-}
-
-TEST_CASE("a small plot of few short names has them upright, at round numbers") {
-  Table table("Many", {{"node"}, {"time", "s", 1}});
-  for (std::uint64_t node = 0; node < 64; ++node) {
-    table.add_row({node, 1.0});
-  }
-  Plot plot = apps::curves("many", "Many", "node", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
-  plot.size = PlotSize::small;
-  const std::string text = script(plot, table);
-  CHECK(contains(text, "set xtics nomirror ('0' 1, '5' 6, '10' 11,"));
-  CHECK(contains(text, "'60' 61)"));
 }
 
 TEST_CASE("axes have round ticks in units that people read") {
@@ -283,6 +250,18 @@ Light lab(Light light) {
   return {116 * curve(xyz[1]) - 16, 500 * (curve(xyz[0]) - curve(xyz[1])), 200 * (curve(xyz[1]) - curve(xyz[2]))};
 }
 
+/// Those of palette.js.
+std::vector<std::string> page_colors() {
+  const std::string script = html::page_script.text;
+  std::size_t at = script.find("seriesColors = ["), end = script.find(']', at);
+  std::vector<std::string> colors;
+  while ((at = script.find('#', at)) < end) {
+    colors.push_back(script.substr(at, 7));
+    ++at;
+  }
+  return colors;
+}
+
 double color_distance(const Light& a, const Light& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 }  // namespace
@@ -297,13 +276,17 @@ TEST_CASE("people who lack one kind of cones can tell the colours of plots apart
       {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
       {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}},
   }};
-  for (const auto& eye : eyes) {
-    for (std::size_t a = 0; a < plot_colors.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) {
-        CAPTURE(plot_colors[a]);
-        CAPTURE(plot_colors[b]);
-        CHECK(color_distance(lab(seen_by(eye, linear_light(plot_colors[a]))), lab(seen_by(eye, linear_light(plot_colors[b])))) >
-              clearly_apart);
+  for (const std::vector<std::string>& colors :
+       {std::vector<std::string>(plot_colors.begin(), plot_colors.end()), page_colors()}) {
+    REQUIRE(colors.size() == 8);
+    for (const auto& eye : eyes) {
+      for (std::size_t a = 0; a < colors.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          CAPTURE(colors[a]);
+          CAPTURE(colors[b]);
+          CHECK(color_distance(lab(seen_by(eye, linear_light(colors[a]))), lab(seen_by(eye, linear_light(colors[b])))) >
+                clearly_apart);
+        }
       }
     }
   }

@@ -142,7 +142,7 @@ TEST_CASE("pictures and a page of a study are made of regions whose names have c
   options.table.report = folder / "page.html";
   output_of(options);
   CHECK(contains(file_text(*options.table.plots / "balance_load.gnuplot"), "'scattered, 16 a node, achieved'"));
-  CHECK(contains(file_text(folder / "page.html"), "alt=\"Plot: Average load of the nodes\""));
+  CHECK(contains(file_text(folder / "page.html"), "Plot: Average load of the nodes. "));
 }
 
 TEST_CASE("a page of a study has its table and pictures, and no place where another output goes") {
@@ -152,7 +152,7 @@ TEST_CASE("a page of a study has its table and pictures, and no place where anot
   output_of(options);
   const std::string page = file_text(folder / "page.html");
   CHECK(contains(page, "Study traffic of balls-1"));
-  CHECK(contains(page, "alt=\"Plot: Bytes that travel\""));
+  CHECK(contains(page, "Plot: Bytes that travel. "));
   CHECK(contains(page, "<li>Film of every run, 6 in all"));
   options.table.file = options.table.report;
   CHECK_THROWS_AS(output_of(options), core::UsageError);

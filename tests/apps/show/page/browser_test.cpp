@@ -18,8 +18,7 @@ namespace {
 
 /// A page of a modelled machine with all that a page can have but heat maps.
 std::string page_text() {
-  std::ostringstream complaints;
-  return render_page(Watched(starved(modelled())).record(), {.command = "dmpc render " + std::string(300, 'x')}, complaints);
+  return render_page(Watched(starved(modelled())).record(), {.command = "dmpc render " + std::string(300, 'x')});
 }
 
 /// Mean light of a column of pixels, 0 to 1.

@@ -26,9 +26,8 @@ using nlohmann::json;
 using tests::reported;
 
 ComparedPage page_of(const Watched& watched, const std::string& file) {
-  std::ostringstream complaints;
   const std::string word = command_text(std::vector<std::string>{"x", file}).substr(2);  // as a shell takes it
-  const std::string page = render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", word}}, complaints);
+  const std::string page = render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", word}});
   ComparedPage compared{file, played_run(page, file), {}};
   compared.picture = Image(compared.run.data["width"], compared.run.data["height"]);
   std::fill(compared.picture.rgb.begin(), compared.picture.rgb.end(), 0.5F);
@@ -49,8 +48,7 @@ Comparison four_and_eight(const std::string& second = "b.html") {
 }
 
 std::string text_of(const Comparison& comparison) {
-  std::ostringstream complaints;
-  return comparison_page(comparison, {.command = "dmpc compare a.html b.html"}, complaints);
+  return comparison_page(comparison, {.command = "dmpc compare a.html b.html"});
 }
 
 const json& run_of(const Comparison& comparison, std::size_t side) { return comparison.pages[side].run.data; }
@@ -108,6 +106,10 @@ TEST_CASE("without script the page has both pictures, commands and tables, and s
     CHECK_MESSAGE(tests::contains(page, part), part);
   }
   CHECK_FALSE(tests::contains(page, " style="));
+  // The difference in words is before all else.
+  CHECK(page.find("A was run with <code>a.html</code>, B with <code>b.html</code>.") < page.find("A took "));
+  CHECK(page.find("A took ") < page.find("The pictures are the same."));
+  CHECK(page.find("2 of 3 counters differ.") < page.find("<nav"));
 }
 
 TEST_CASE("on one clock the pixels of either run are lit that it had done by then" * doctest::test_suite("slow")) {

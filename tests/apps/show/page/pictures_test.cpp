@@ -15,8 +15,7 @@ namespace {
 
 /// A page with a picture.
 std::string page_of(const Image& image, const std::string& description, const std::string& caption) {
-  std::ostringstream complaints;
-  Page page("Picture", complaints);
+  Page page("Picture");
   add_picture(page, image, description, caption);
   return page.text();
 }

@@ -32,7 +32,7 @@ std::uint64_t sum_of(const json& array) {
   return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
 }
 
-const json& named(const json& list, const std::string& name) {
+const json& named(const json& list, std::string_view name) {
   return *std::find_if(list.begin(), list.end(), [&](const json& entry) { return entry.at("name") == name; });
 }
 
@@ -86,6 +86,12 @@ TEST_CASE("in virtual time the steps of all nodes add up to what they did, to ha
   }
   CHECK(work_ns(data) - named(data["works"], "messages")["ns"].get<double>() ==
         doctest::Approx(computed_ns + served_ns).epsilon(1e-9));
+  // Each part is that of the closing lines: one figure for one thing.
+  const Account account = account_of(*watched.report);
+  const nodes::VirtualTimes times = sum_of_nodes(*account.virtual_time);
+  CHECK(named(data["works"], "messages")["ns"] == times.sending_ns + times.receiving_ns);
+  CHECK(named(data["works"], service_busy_words)["ns"] == times.service_busy_ns);
+  CHECK(named(data["works"], service_idle_words)["ns"] == times.service_idle_ns);
   const double slack_ns = data["step_ns"].get<double>() / 255 * data["nodes"].get<double>();
   for (const json& work : data["works"]) {
     CHECK(std::abs(shares_ns(data, work["name"]) - work["ns"].get<double>()) <= slack_ns);

@@ -28,10 +28,7 @@ using tests::contains;
 
 Origin origin() { return {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}; }
 
-std::string page_of(const Watched& watched) {
-  std::ostringstream complaints;
-  return render_page(watched.record(), origin(), complaints);
-}
+std::string page_of(const Watched& watched) { return render_page(watched.record(), origin()); }
 
 /// A page with such data alone.
 std::string page_with(std::string data) {

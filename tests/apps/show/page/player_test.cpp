@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/line/number_text.h"
+#include "apps/run/report.h"
 #include "apps/show/page/render_page.h"
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/page/played.h"
@@ -22,8 +24,7 @@ namespace {
 std::string page_of(const std::string& scene = "balls-2") {
   Watched watched(starved(modelled()));
   watched.options.picture.scene = scene;
-  std::ostringstream complaints;
-  return render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}, complaints);
+  return render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}});
 }
 
 }  // namespace
@@ -88,6 +89,42 @@ TEST_CASE("a page opens with where the time of the whole run went, not with its 
   CHECK(contains(reported(page, "", text, "#t=0"), "Of all nodes, at 0"));
 }
 
+TEST_CASE("what the time of the whole run went to is said on a page as in the closing lines") {
+  const Watched watched(starved(modelled()));
+  const std::string page = render_page(watched.record(), {.command = "dmpc"});
+  const Account account = account_of(*watched.report);
+  const std::vector<double> percent = percent_parts(parts_of(account).ns);
+  const auto row = [&page](const std::string& name) {
+    return reported(page, "",
+                    "[...p.querySelectorAll('#names tr')].filter(r=>r.firstChild.textContent==='" + name +
+                        "').map(r=>r.children[1].textContent)[0]");
+  };
+  CHECK(row("computing") == fixed(percent[static_cast<std::size_t>(TimePart::computing)], 1) + " %");
+  CHECK(row("messages") == fixed(percent[static_cast<std::size_t>(TimePart::messages)], 1) + " %");
+}
+
+TEST_CASE("over the rows of time a page tells the pointer's moment, until the pointer leaves" * doctest::test_suite("slow")) {
+  const std::string over =
+      "const c=id('raster'),b=c.getBoundingClientRect();c.dispatchEvent(new w.PointerEvent('pointermove',"
+      "{clientX:b.left+b.width/2,clientY:b.top+1,bubbles:true}))";
+  const std::string page = page_of();
+  CHECK(contains(reported(page, over, "id('said').textContent"), "Node 0, at "));
+  CHECK(contains(reported(page, over, "id('names').parentElement.textContent"), "Of node 0, at "));
+  CHECK(contains(reported(page, over + ";c.dispatchEvent(new w.PointerEvent('pointerleave'))", "id('said').textContent"),
+                 "Point at a pixel"));
+}
+
+TEST_CASE("plots and maps are drawn by the page, and tell what is reached by keys" * doctest::test_suite("slow")) {
+  const std::string page = page_of();
+  CHECK(reported(page, "", "[...p.querySelectorAll('figure.plot')].filter(f=>!f.querySelector('svg')).length") == "0");
+  const auto at = [&page](const std::string& figure) {
+    const std::string found = "p.querySelector('" + figure + "')";
+    return reported(page, "key(" + found + ".querySelector('svg'),'ArrowRight')", found + ".querySelector('output').textContent");
+  };
+  CHECK(contains(at("#plot-losses"), "node 0: computing "));
+  CHECK(contains(at("figure.plot:not([id])"), "node 0, since the start 0 ms: "));
+}
+
 TEST_CASE("the view's command has its heat map and window") {
   CHECK(reported(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
         "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.pftrace --trace-window=1.000000,2.000000");
@@ -116,8 +153,7 @@ TEST_CASE("each part of the page has a name of its own, and words for those who 
 
 TEST_CASE("a page has the scripts of what it plays, and no others") {
   const auto scripts = [](const RenderOptions& options) {
-    std::ostringstream complaints;
-    const std::string page = render_page(Watched(options).record(), {.command = "dmpc"}, complaints);
+    const std::string page = render_page(Watched(options).record(), {.command = "dmpc"});
     std::string found;
     for (const char* const part : {"startWhatIf", "chainOf", "pairText", "pageText", "linkText", "levelColors"}) {
       found += tests::contains(page, std::string("const ") + part + " =") ? '1' : '0';
@@ -126,7 +162,7 @@ TEST_CASE("a page has the scripts of what it plays, and no others") {
   };
   CHECK(scripts(starved(modelled())) == "111111");
   CHECK(scripts(modelled(Strategy::dataflow)) == "011011");
-  CHECK(scripts(starved(small())) == "001100");
+  CHECK(scripts(starved(small())) == "101100");
 }
 
 TEST_CASE("an address that says nonsense is taken as far as it makes sense" * doctest::test_suite("slow")) {

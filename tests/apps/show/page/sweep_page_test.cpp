@@ -23,24 +23,20 @@ Table sweep_table() {
 }  // namespace
 
 TEST_CASE("a page of a sweep has its texts, plots, tables and notes") {
-  std::ostringstream complaints;
   const Table table = sweep_table();
   const SweepPart part{"Growth", table, {curves("time", "Time", "nodes", node_axis(), {}, {{"time", "time"}})}, "It grows."};
-  const std::string text = sweep_page({"Sweep", {"A text."}, {part}, {{"film", "1daa"}}}, {.program = "dmpc 1"}, complaints);
-  for (const char* const word :
-       {"<h1>Sweep</h1>", "<p>A text.</p>", "Growth</h2>", "alt=\"Plot: Time\" src=\"data:image/svg+xml", "<td>8.0</td>",
-        "<li>A note.</li>", "<p class=\"conclusion\">It grows.</p>", "dmpc 1, , film 1daa."}) {
+  const std::string text = sweep_page({"Sweep", {"A text."}, {part}, {{"film", "1daa"}}}, {.program = "dmpc 1"});
+  for (const char* const word : {"<h1>Sweep</h1>", "<p>A text.</p>", "Growth</h2>", "Plot: Time. ", "<td>8.0</td>",
+                                 "<li>A note.</li>", "<p class=\"conclusion\">It grows.</p>", "dmpc 1, , film 1daa."}) {
     CHECK_MESSAGE(contains(text, word), word);
   }
-  CHECK(complaints.str().empty());
 }
 
 TEST_CASE("a part without a heading is no section, and no parts are a page all the same") {
-  std::ostringstream complaints;
   const Table table = sweep_table();
   const SweepPart part{"", table, {}};
-  CHECK_FALSE(contains(sweep_page({"Sweep", {}, {part}}, {}, complaints), "</h2>\n<div"));
-  CHECK(contains(sweep_page({"Sweep", {}, {}}, {}, complaints), "<h1>Sweep</h1>"));
+  CHECK_FALSE(contains(sweep_page({"Sweep", {}, {part}}, {}), "</h2>\n<div"));
+  CHECK(contains(sweep_page({"Sweep", {}, {}}, {}), "<h1>Sweep</h1>"));
 }
 
 }  // namespace dmpc::apps::html::sweep_page_test

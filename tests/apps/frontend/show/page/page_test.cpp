@@ -18,11 +18,15 @@ namespace {
 /// A page to which something was added.
 template <class Add>
 std::string page_with(const Add& add) {
-  std::ostringstream complaints;
-  Page page("A <title>", complaints);
+  Page page("A <title>");
   add(page);
-  CHECK(complaints.str().empty());
   return page.text();
+}
+
+/// The page without its script, which has names of its own.
+std::string without_script(std::string text) {
+  const std::string script = page_script.text;
+  return text.erase(text.find(script), script.size());
 }
 
 Table table_of(std::size_t rows) {
@@ -45,10 +49,10 @@ TEST_CASE("an empty page is a document with a title") {
 }
 
 TEST_CASE("a page asks for nothing from elsewhere") {
-  const std::string text = page_with([](Page& page) {
+  const std::string text = without_script(page_with([](Page& page) {
     page.add_figure("data:image/png;base64,", "", "black", "Black.", "");
     page.add_table(table_of(1));
-  });
+  }));
   CHECK_FALSE(contains(text, "http:"));
   CHECK_FALSE(contains(text, "https:"));
   CHECK_FALSE(contains(text, "<link"));
@@ -56,11 +60,11 @@ TEST_CASE("a page asks for nothing from elsewhere") {
 }
 
 TEST_CASE("a page's policy knows its own style and script by their digests, and has nothing else run") {
-  const std::string text = page_with([](Page& page) { page.add_script({"alert(1)", save_script.sha256}); });
-  const std::string policy = policy_of(std::array{page_style}, std::array{save_script, save_script});
+  const std::string text = page_with([](Page& page) { page.add_script({"alert(1)", page_script.sha256}); });
+  const std::string policy = policy_of(std::array{page_style}, std::array{page_script, page_script});
   CHECK(contains(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"" + policy + "\">\n<meta name=\"viewport\""));
   CHECK(contains(text, "<style>" + std::string(page_style.text) + "</style>"));
-  CHECK(contains(text, "<script>" + std::string(save_script.text) + "</script>\n<script>alert(1)</script>"));
+  CHECK(contains(text, "<script>" + std::string(page_script.text) + "</script>\n<script>alert(1)</script>"));
   CHECK_FALSE(contains(text, " style=\""));
   CHECK_FALSE(contains(text, " onclick=\""));
 }
@@ -79,6 +83,33 @@ TEST_CASE("the list of contents leads to each section") {
   CHECK(contains(text, "<a href=\"#s1\">One &amp; only</a>"));
   CHECK(contains(text, "<h2 id=\"s1\">One &amp; only</h2>"));
   CHECK(contains(text, "<h2 id=\"s2\">Two</h2>"));
+}
+
+TEST_CASE("a page opens with sentences that lead to their plots and sections, beside what was added before") {
+  const std::string text = page_with([](Page& page) {
+    page.add_text("First.");
+    page.end_opening({{"A < b.", "Two"}, {"", "One"}, {"A plot.", "plot-losses"}});
+    page.begin_section("One");
+    page.begin_section("Two");
+  });
+  CHECK(
+      contains(text,
+               "</h1>\n<div class=\"opening\">\n<p>First.</p>\n<ul class=\"findings\">\n<li><a href=\"#s2\">A &lt; b.</a></li>\n"
+               "<li><a href=\"#plot-losses\">A plot.</a></li>\n</ul>\n</div>\n<nav"));
+  CHECK_FALSE(contains(page_with([](Page&) {}), "class=\"opening\""));
+}
+
+TEST_CASE("a plot is data for the page's script, which end no element, and nothing without rows") {
+  const auto text_of_rows = [](std::size_t rows) {
+    return page_with([rows](Page& page) {
+      page.add_plot(curves("times", "</script>", "count", {}, {}, {{"time", "time"}}), table_of(rows), "A caption.");
+    });
+  };
+  const std::string text = text_of_rows(2);
+  CHECK(contains(text, "<figure class=\"plot\" id=\"plot-times\"><script type=\"application/json\" class=\"plot-data\">{"));
+  CHECK(contains(text, "\"title\":\"\\u003c/script>\""));
+  CHECK(contains(text, "A caption."));
+  CHECK_FALSE(contains(text_of_rows(0), "<figure"));
 }
 
 TEST_CASE("texts are shown as they are") {
@@ -137,13 +168,13 @@ TEST_CASE("elements that are opened are closed") {
 }
 
 TEST_CASE("what is between backticks is code, in paragraphs, cells and notes") {
-  const std::string text = page_with([](Page& page) {
+  const std::string text = without_script(page_with([](Page& page) {
     page.add_text("as `dmpc <b>` does");
     Table table("Table", {{"a"}});
     table.add_row({"`x`"});
     table.add_note("`y`");
     page.add_table(table);
-  });
+  }));
   CHECK(contains(text, "<p>as <code>dmpc &lt;b&gt;</code> does</p>"));
   CHECK(contains(text, "<td class=\"text\"><code>x</code></td>"));
   CHECK(contains(text, "<li><code>y</code></li>"));

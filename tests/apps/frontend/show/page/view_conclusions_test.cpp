@@ -42,16 +42,22 @@ TEST_CASE("a time is concluded with the name of what was waited for most, of nod
   nodes::ActivitySteps steps = steps_of({50, 50}, {50, 50});
   steps.waits = {{{10, 0}, {10, 0}}, {{0, 0}, {0, 5}}, {{0, 100}, {0, 100}}};
   const std::vector<std::string> names = {"page wait", "starvation", "", "", "", "", ""};
-  CHECK(time_conclusion(steps, names) ==
-        "On average 50 % of the nodes were busy. Most of what they waited was \"page wait\", 5.0 % of their time.");
+  CHECK(time_conclusion(steps, names) == "On average 50 % of the nodes were busy. Most of what they waited was \"page wait\".");
   CHECK(time_conclusion(steps) == "On average 50 % of the nodes were busy.");
 }
 
+TEST_CASE("shares are of the time that passed: the last step ends with the run") {
+  nodes::ActivitySteps steps = steps_of({100, 20}, {100, 0});
+  steps.end_ns = 120;
+  steps.waits = {{{}, {}}, {{}, {20}}, {{}, {}}};
+  const std::vector<std::string> names = {"page wait", "", "", "", "", "", ""};
+  CHECK(time_conclusion(steps, names) == "On average 75 % of the nodes were busy. Most of what they waited was \"page wait\".");
+}
+
 TEST_CASE("pages are concluded with faults, the hottest pages and the home that served most") {
-  CHECK(page_conclusion({.references = 100, .faults = 6}, six_fetches()) ==
-        "6 page faults in 100 look-ups (6.0 %); the tenth of the pages that was fetched most had 83 % of the fetches. Node 1 "
-        "served "
-        "1.33 times the mean.");
+  CHECK(page_conclusion({.references = 100, .misses = 9, .faults = 6}, six_fetches()) ==
+        "9 of 100 look-ups missed (9.00 %), with 6 page faults: one page is fetched for all that wait for it. The tenth of the "
+        "pages that was fetched most had 83 % of the fetches. Node 1 served 1.33 times the mean.");
   svm::Fetches at_host{.peer_count = 2, .by_pair = {0, 6, 0, 0}, .by_page = {1, 5, 0}};
   at_host.where = svm::PageHomes::host;
   CHECK(page_conclusion({.references = 100, .faults = 6}, at_host).find("The host, home to all pages, served all.") !=
@@ -72,11 +78,11 @@ TEST_CASE("a fetch is concluded with its length and its largest part") {
 TEST_CASE("a cache is concluded with what twice as many pages would do") {
   const std::vector<svm::PageId> pages = {svm::PageId{0}, svm::PageId{1}, svm::PageId{0}, svm::PageId{1}};
   const MissEstimate misses{.curve = svm::MissCurve(pages)};
-  CHECK(cache_conclusion(misses, 1, 100) ==
-        "Caches of twice as many pages would miss 0.50 times as often; 50 % of the misses are of pages that a node looks up for "
-        "the first time, which no cache avoids.");
-  CHECK(cache_conclusion(misses, 2, 100).starts_with("A larger cache would save almost nothing: 100 %"));
-  CHECK(cache_conclusion({}, 2, 100).empty());
+  CHECK(cache_conclusion(misses, 1) ==
+        "Twice the cache would fault 0.50 times as often. 50 % of the faults are of pages that a node looks up for the first "
+        "time, which no cache avoids.");
+  CHECK(cache_conclusion(misses, 2).starts_with("A larger cache would save almost nothing. 100 %"));
+  CHECK(cache_conclusion({}, 2).empty());
 }
 
 }  // namespace dmpc::apps::html::view_conclusions_test
