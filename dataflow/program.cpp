@@ -43,6 +43,7 @@ std::span<std::byte> keep_records(LocalMemory& memory, Category category, const 
 core::RenderSettings settings_for(const NodeAssignment& assign) {
   core::RenderSettings settings = assign.settings;
   settings.header = assign.header;
+  core::show(settings.shade.layer, settings.header);
   return settings;
 }
 
@@ -96,7 +97,7 @@ class RayProgram final : public NodeProgram {
         leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
         task_(make_task<RaysTask>(node, plan)),
         gather_(node, plan.gather()),
-        film_(node, plan.film(deposits_at_once<RaysTask>(assign.header))),
+        film_(node, plan.film(deposits_at_once<RaysTask>(constants_->settings.header))),
         queue_capacity_(plan.request.rays.without_backpressure ? 0 : plan.queue_packets),
         termination_(Termination::member(node.id(), {plan.node_count()})) {
     core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
@@ -493,7 +494,7 @@ class RayProgram final : public NodeProgram {
   core::FixedColor fixed(const core::Color& found) const { return core::to_fixed(found, constants_->settings.shade.film_scale); }
 
   void leave_light(const core::Ray& ray, const core::Color& found) {
-    const core::FixedColor light = fixed(found);
+    const core::FixedColor light = fixed(core::clamped(ray, found, constants_->settings.shade));
     if (light != core::FixedColor{}) {
       film_.add(ray.pixel, core::plane_of(ray.sample), light);
     }

@@ -126,8 +126,33 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
   return bytes;
 }
 
+/// Of each pixel the picture's three numbers, then those of its layers.
+void take_with_layers(const ImageRows& image, std::size_t channels, std::size_t first, std::span<float> numbers) {
+  std::vector<float> rgb(numbers.size() / channels * 3);
+  image.take(first, rgb);
+  auto to = numbers.begin();
+  for (std::size_t i = 0; i < rgb.size(); i += 3) {
+    to = std::copy_n(rgb.begin() + static_cast<std::ptrdiff_t>(i), 3, to);
+    for (const Channels* const layer : image.layers) {
+      const std::size_t count = layer->names.size();
+      to = std::copy_n(layer->values.begin() + static_cast<std::ptrdiff_t>((first + i / 3) * count), count, to);
+    }
+  }
+}
+
 std::string exr_of(const ImageRows& image) {
-  return exr_file({image.width, image.height, {"R", "G", "B"}, image.take, image.remarks});
+  ExrRows rows{image.width, image.height, {"R", "G", "B"}, image.take, image.remarks};
+  for (const Channels* const layer : image.layers) {
+    for (const std::string& name : layer->names) {
+      rows.channels.push_back(layer->layer + "." + name);
+    }
+  }
+  if (!image.layers.empty()) {
+    rows.take = [&image, count = rows.channels.size()](std::size_t first, std::span<float> numbers) {
+      take_with_layers(image, count, first, numbers);
+    };
+  }
+  return exr_file(rows);
 }
 
 constexpr std::size_t pixels_at_once = 256;
@@ -216,14 +241,16 @@ std::string encoded_picture(const fs::path& path, const ImageRows& image) {
   return extension == ".png" ? png_of(image) : encoded_picture(path, image_of(image));
 }
 
-std::string encoded_picture(const fs::path& path, const Channel& channel) {
+std::string encoded_picture(const fs::path& path, const Channels& channels) {
   core::expect(lower_extension(path) == ".exr", "numbers are kept in EXR files");
-  core::expect(channel.values.size() == static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height),
-               "a channel has a number for each pixel");
-  const auto take = [values = std::span<const float>(channel.values)](std::size_t first, std::span<float> some) {
-    std::ranges::copy(values.subspan(first, some.size()), some.begin());
+  const std::size_t count = channels.names.size();
+  core::expect(
+      channels.values.size() == count * static_cast<std::size_t>(channels.width) * static_cast<std::size_t>(channels.height),
+      "channels have numbers for each pixel");
+  const auto take = [count, values = std::span<const float>(channels.values)](std::size_t first, std::span<float> some) {
+    std::ranges::copy(values.subspan(first * count, some.size()), some.begin());
   };
-  return exr_file({channel.width, channel.height, {channel.name}, take, channel.remarks});
+  return exr_file({channels.width, channels.height, channels.names, take, channels.remarks});
 }
 
 void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }

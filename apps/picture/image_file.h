@@ -28,6 +28,15 @@ struct Image {
   std::vector<std::pair<std::string, std::string>> remarks = {};  ///< names and texts, kept if the format is EXR
 };
 
+/// Numbers of a pixel, row by row from the top left, with remarks for their reader.
+struct Channels {
+  int width = 0, height = 0;
+  std::string layer = {};          ///< what goes before their names, and a point, in a file with a picture
+  std::vector<std::string> names;  ///< of each number of a pixel
+  std::vector<float> values = {};
+  std::vector<std::pair<std::string, std::string>> remarks = {};  ///< names and texts, kept with the picture if the format can
+};
+
 /// A picture whose pixels are never all in memory.
 struct ImageRows {
   int width = 0, height = 0;
@@ -35,18 +44,11 @@ struct ImageRows {
   /// time.
   std::function<void(std::size_t first, std::span<float> rgb)> take;
   std::vector<std::pair<std::string, std::string>> remarks = {};  ///< as those of Image
+  std::vector<const Channels*> layers = {};                       ///< kept if the format is EXR
 };
 
 /// Returns the picture with all its pixels.
 Image image_of(const ImageRows& rows);
-
-/// One number a pixel, row by row from the top left, with remarks for its reader.
-struct Channel {
-  int width = 0, height = 0;
-  std::string name;
-  std::vector<float> values;
-  std::vector<std::pair<std::string, std::string>> remarks;  ///< names and texts, kept with the picture if the format can
-};
 
 /// Throws core::InputError unless a picture can be written at `path`: the extension is .exr, .png, or one that OpenImageIO
 /// writes, `path` is no pipe or device, check_output_path() accepts it, and the format holds a picture of one pixel. Throws
@@ -62,8 +64,8 @@ void write_image(const std::filesystem::path& path, const Image& image);
 std::string encoded_picture(const std::filesystem::path& path, const Image& image);
 std::string encoded_picture(const std::filesystem::path& path, const ImageRows& image);
 
-/// Returns the bytes of the channel alone, as 32-bit floats. Requires a path that ends in .exr, and a number for each pixel.
-std::string encoded_picture(const std::filesystem::path& path, const Channel& channel);
+/// Returns the bytes of the channels alone, as 32-bit floats. Requires a path that ends in .exr, and all numbers of each pixel.
+std::string encoded_picture(const std::filesystem::path& path, const Channels& channels);
 
 /// Reads the first three channels (a single channel is repeated). Floats are taken as linear radiance; integers as sRGB and made
 /// linear. Throws core::InputError if there is no such picture, or if its reader is less confined than `sandbox`.

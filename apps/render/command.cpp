@@ -60,6 +60,7 @@ int render_all(RenderCall& call, const DueFrames& frames, std::optional<DueFrame
   std::string closing;
   while (written.status == 0 && frame) {
     planned = call.apart([&] { return plan_picture(call, *frame, frames, std::move(planned)); });
+    call.apart([&] { render_layers(call, *planned); });
     RenderedPicture rendered = render_picture(call, *frame, *planned);
     written = call.apart([&] { return write_picture(call, *frame, *planned, std::move(rendered)); });
     closing += written.closing;

@@ -23,6 +23,11 @@ void visit_names(Options& options, const Visit& visit) {
   for (auto& request : options.heat_maps) {
     visit("--heatmap", request.path);
   }
+  for (auto& request : options.layers) {
+    if (request.path) {
+      visit("--aov", *request.path);
+    }
+  }
 }
 
 void check_names(const RenderOptions& asked) {

@@ -14,6 +14,7 @@
 #include "apps/show/stats/stats.h"
 #include "apps/show/trace/file.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 
@@ -59,6 +60,13 @@ OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
   for (const HeatRequest& request : options.heat_maps) {
     outputs.add("--heatmap", request.path, check_image_path,
                 [request](Record record, std::ostream& stream) { stream << heat_file(request, record); });
+  }
+  for (const LayerRequest& request : options.layers) {
+    if (request.path) {
+      outputs.add("--aov", *request.path, check_image_path, [request](Record record, std::ostream& stream) {
+        stream << layer_file(*request.path, *core::find_in(*record.layers, request.layer, &LayerImage::layer));
+      });
+    }
   }
   if (options.checkpoint.file) {
     outputs.add("--checkpoint", *options.checkpoint.file, check_output_path, nullptr);

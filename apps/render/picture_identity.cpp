@@ -219,6 +219,9 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   if (transport.sky) {
     facts.push_back({"sky", scene.sky.is_there() ? sky_text(scene) : sky_text(*transport.sky, scene)});
   }
+  if (transport.clamp > 0) {
+    facts.push_back({"clamp", shortest(transport.clamp)});
+  }
   if (transport.sky && zenith_of(scene) != normalize(scene.view.up)) {
     facts.push_back({"sky's zenith", zenith_text(scene)});  // before there was this fact, where the view's up points
   }

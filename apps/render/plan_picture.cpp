@@ -148,7 +148,7 @@ core::Continuation continuation_of(RenderCall& call) {
 
 void plan(RenderCall& call, PlannedPicture& picture) {
   nodes::Watching watching = picture.observers.watching();
-  if (!call.asked.frames.are_several()) {  // where each frame checks the database itself where it shows nothing
+  if (!call.asked.frames.are_several() && call.asked.layers.empty()) {                       // else it is needed once more
     watching.distributed = [&picture] { picture.built.subject.database.forget_records(); };  // the nodes have theirs
   }
   Stopwatch stopwatch;

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/formats/up_axis.h"
+#include "apps/picture/layer_image.h"
 #include "apps/render/call.h"
 #include "apps/render/observers.h"
 #include "apps/render/picture_identity.h"
@@ -53,7 +55,8 @@ struct PlannedPicture {
   RenderOptions options;  ///< the frame's, with what the scene decides and where references are recorded
   Observers observers;
   WarmNodes nodes;
-  std::optional<DoneFrame> done = {};  ///< of the same scene; after plan_picture() only if the frame equals it
+  std::vector<LayerImage> layers = {};  ///< of the frame
+  std::optional<DoneFrame> done = {};   ///< of the same scene; after plan_picture() only if the frame equals it
 };
 
 struct RenderedPicture {
@@ -73,6 +76,10 @@ struct WrittenPicture {
 /// an output is a file that the scene was read from.
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,
                                              std::unique_ptr<PlannedPicture> last);
+
+/// Renders the frame's layers, if any are asked for, by the strategy, on nodes of their own; with ranks on rank 0 alone. Nothing
+/// observes or counts that. Throws Interrupted, and what ReadyRun does.
+void render_layers(const RenderCall& call, PlannedPicture& planned);
 
 /// Processor time of all threads of this process so far, in seconds.
 struct ProcessorTime {

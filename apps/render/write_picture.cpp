@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <numeric>
@@ -61,9 +62,14 @@ void print_frame(std::ostream& output, std::uint64_t frame, const RenderRecord& 
          << virtual_text(account, record.film_hash()) << std::endl;  // seen at once, also in a file that somebody follows
 }
 
-/// With path tracing it says so, too.
-ImageRows rows_for(const RenderOptions& options, const core::Film& film) {
+/// With path tracing it says so, too. Has the layers that go into the picture's file.
+ImageRows rows_for(const RenderOptions& options, const core::Film& film, const std::vector<LayerImage>& layers) {
   ImageRows rows = rows_of(film);
+  for (const LayerImage& image : layers) {
+    if (std::ranges::any_of(options.layers, [&](const LayerRequest& one) { return one.layer == image.layer && !one.path; })) {
+      rows.layers.push_back(&image.channels);
+    }
+  }
   if (options.picture.transport.is_by_paths()) {
     rows.remarks.emplace_back("transport", text_of(options.picture.transport));
   }
@@ -71,12 +77,13 @@ ImageRows rows_for(const RenderOptions& options, const core::Film& film) {
 }
 
 /// Returns the seconds that it took.
-double write_film(const RenderCall& call, const RenderOptions& options, const core::Film& film) {
+double write_film(const RenderCall& call, const PlannedPicture& planned, const core::Film& film) {
+  const RenderOptions& options = planned.options;
   call.interrupt.set_consequence("the picture was not written");
   const Interrupt::EndAtOnce end_at_once(call.interrupt, Interrupt::EndAtOnce::Before::is_passed_over);
   Stopwatch stopwatch;
   OutputFile picture(options.image, {.option = "-o"}, call.files);
-  picture.write(encoded_picture(options.image, rows_for(options, film)));
+  picture.write(encoded_picture(options.image, rows_for(options, film, planned.layers)));
   call.interrupt.set_consequence("the picture was perhaps not written");
   picture.commit();
   call.interrupt.set_consequence("the picture was written, the other outputs are incomplete");
@@ -156,7 +163,7 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
   const Account account = account_of(rendered.report);
   const SceneFacts& scene = planned.built.facts;
   Attempts attempts(std::cerr);
-  const bool is_written = attempts.make([&] { rendered.seconds.write = write_film(call, planned.options, account.film); });
+  const bool is_written = attempts.make([&] { rendered.seconds.write = write_film(call, planned, account.film); });
   if (!rendered.copied_frame) {
     attempts.make([&] { call.say(film_notes(account.film, lit_in(planned.options, account))); });
     attempts.make([&] { call.say({small_text(call, scene, account)}); });
@@ -176,6 +183,7 @@ WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPic
                                .report = rendered.report,
                                .seconds = rendered.seconds,
                                .heat = planned.observers.heat(),
+                               .layers = &planned.layers,
                                .trace = run_profile.trace ? &*run_profile.trace : nullptr,
                                .view = run_profile.view ? &*run_profile.view : nullptr,
                                .references = run_profile.references.empty() ? nullptr : &run_profile.references,

@@ -57,6 +57,7 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters; stats.schema.json describes them");
   add_report_option(options, render.report, "with the picture, requested heat maps, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
+  add_layer_option(options, render.layers);
   add_options(options, render.trace);
   options.add_path(
       "--references", "FILE.csv", render.references,
@@ -95,6 +96,7 @@ void set_brief_help(OptionSet options) {
        {"What else is written",
         {{"--report FILE.html", "A page with picture, losses, traffic and memory"},
          {"--heatmap KIND:FILE", "What each pixel took: faults, rays, time, ..."},
+         {"--aov KIND:FILE", "What denoisers read: albedo, normal, depth, id"},
          {"--stats FILE.json", "All counters"}}}});
 }
 
@@ -202,6 +204,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
     throw UsageError("--rank-timeout goes with --runner=mpi");
   }
   check_heat(render.heat_maps, render.strategy);
+  check_layers(render.layers, render.image);
   check_trace(render.trace);
   check_references(render);
   check_frames(options, render);
@@ -271,6 +274,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
       "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
+      "  dmpc render rings-4-t1 --samples=16 --aov=albedo,normal,depth -o rings.exr\n"
       "  dmpc render rings-4-t1 --runner=virtual --machine=hdr --heatmap=done:when.png -o rings.png\n"
       "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.pftrace --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"

@@ -10,6 +10,7 @@
 #include "apps/run/checkpoint_options.h"
 #include "apps/run/frame_options.h"
 #include "apps/run/heat_options.h"
+#include "apps/run/layer_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "apps/run/trace_options.h"
@@ -28,6 +29,7 @@ struct RenderOptions : StrategyOptions {
   std::optional<std::filesystem::path> stats;   ///< JSON file of the counters
   std::optional<std::filesystem::path> report;  ///< HTML file of the report
   std::vector<HeatRequest> heat_maps;
+  std::vector<LayerRequest> layers;
   TraceOptions trace;
   std::optional<std::filesystem::path> references;  ///< CSV file of the nodes' page references
   CheckpointOptions checkpoint;                     ///< checkpoint of the unfinished picture

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/frontend/line/number_text.h"
+#include "apps/picture/layer_image.h"
 #include "apps/run/render_options.h"
 #include "apps/run/report.h"
 #include "core/database/database.h"
@@ -36,6 +37,7 @@ struct RenderRecord {
   const Report& report;
   Seconds seconds;
   const nodes::HeatMap* heat = nullptr;                        ///< for options.heat_maps and options.report
+  const std::vector<LayerImage>* layers = nullptr;             ///< for options.layers
   const nodes::Trace* trace = nullptr;                         ///< for options.trace
   const RunView* view = nullptr;                               ///< for options.report
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< for options.references

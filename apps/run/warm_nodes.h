@@ -29,6 +29,7 @@ class WarmNodes {
   WarmNodes& operator=(const WarmNodes&) = delete;
 
   const core::Camera& camera() const { return settings_.camera; }
+  const core::RenderSettings& settings() const { return settings_; }
   /// Sets the view of the next picture.
   void move_to(const core::View& view) { settings_ = seen_from(view, settings_, database_); }
 

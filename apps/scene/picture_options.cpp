@@ -269,6 +269,7 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                                       .camera = camera,
                                       .shade = {.convention = options.convention,
                                                 .depth_max = depth_of(options, scene),
+                                                .clamp = static_cast<float>(options.transport.clamp),
                                                 .cutoff = options.cutoff,
                                                 .radiance_bound = core::radiance_bound(scene, depth_of(options, scene)),
                                                 .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,

@@ -106,10 +106,12 @@ std::string text_of(const SkyChoice& sky) {
 
 std::string text_of(const TransportOptions& transport) {
   const std::string name = name_of(transport.kind);
-  return !transport.is_by_paths() ? name
-                                  : name + ", " + counted(static_cast<std::uint64_t>(transport.bounces), "bounce") +
-                                        (transport.sky ? ", sky " + text_of(*transport.sky) : "") +
-                                        (transport.light_radius ? ", lights of radius " + shortest(*transport.light_radius) : "");
+  return !transport.is_by_paths()
+             ? name
+             : name + ", " + counted(static_cast<std::uint64_t>(transport.bounces), "bounce") +
+                   (transport.sky ? ", sky " + text_of(*transport.sky) : "") +
+                   (transport.light_radius ? ", lights of radius " + shortest(*transport.light_radius) : "") +
+                   (transport.clamp > 0 ? ", indirect light clamped to " + shortest(transport.clamp) : "");
 }
 
 const char* name_of(TransportKind kind) { return kind == TransportKind::paths ? "paths" : "whitted"; }
@@ -137,6 +139,13 @@ void add_options(OptionSet options, TransportOptions& transport) {
       [&transport](const std::string& text) { transport.light_radius = parse_light_radius(text); },
       "Paths: turn point lights into spheres of this radius, in the scene's units, which are visible, fall off and cast soft "
       "shadows; in the middle of the scene they are as bright as the points were");
+  options.add_text(
+      "--clamp", "V [never]",
+      [&transport](const std::string& text) {
+        transport.clamp = parse_within(text, "--clamp", 1e-6, 1e30, "a radiance from 1e-6 to 1e30");
+      },
+      "Paths: scale down what a sample receives at once of light that more than one surface has sent on, such as a lamp's in a "
+      "mirror's caustic, to V in its brightest channel, where white is 1. Less noise, and a darker picture");
 }
 
 void check(const OptionSet& options, const TransportOptions& transport) {
@@ -146,7 +155,7 @@ void check(const OptionSet& options, const TransportOptions& transport) {
   if (transport.sky) {
     refuse_each(options, {"--background"}, beside_sky);
   }
-  refuse_each(options, {"--bounces", "--sky", "--emitters", "--light-radius"}, " goes with --transport=paths");
+  refuse_each(options, {"--bounces", "--sky", "--emitters", "--light-radius", "--clamp"}, " goes with --transport=paths");
 }
 
 core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith) {

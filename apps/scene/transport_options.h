@@ -33,6 +33,7 @@ struct TransportOptions {
   std::optional<SkyChoice> sky;     ///< with path tracing; its horizon is also the scene's background
   /// Path tracing: the number of emitters, the most powerful ones, that are light-sampled; 0 to emitters_limit.
   std::uint32_t emitters = 1024;
+  double clamp = 0;                    ///< with path tracing: core::ShadeOptions::clamp
   std::optional<double> light_radius;  ///< with path tracing, point lights are spheres of this radius, in scene units; above 0
 
   bool is_by_paths() const { return kind == core::TransportKind::paths; }
@@ -43,7 +44,7 @@ struct TransportOptions {
 };
 inline constexpr std::uint32_t emitters_limit = 1'000'000;
 
-/// Declares --transport, --bounces, --sky, --emitters and --light-radius.
+/// Declares --transport, --bounces, --sky, --emitters, --light-radius and --clamp.
 void add_options(OptionSet options, TransportOptions& transport);
 /// Checks their combinations. Throws core::UsageError with advice.
 void check(const OptionSet& options, const TransportOptions& transport);

@@ -7,9 +7,11 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -185,13 +187,23 @@ class Viewing {
     return wish->camera;
   }
 
-  std::vector<std::string> words_with(const CameraChoice& camera) const {
-    return render_words(own_words(), text_of(camera), *options_.picture.resolution);
+  std::vector<std::string> words_with(const CameraChoice& camera, const std::string& picture) const {
+    return render_words(own_words(), text_of(camera), *options_.picture.resolution, picture);
+  }
+
+  /// "view.png", or "view-2.png", ... where that is there: a key of a browser replaces no file.
+  static std::string unused_name() {
+    std::string name = "view.png";
+    std::error_code none;
+    for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name, none)); ++number) {
+      name = "view-" + std::to_string(number) + ".png";
+    }
+    return name;
   }
 
   /// Says the command, and becomes it.
   int render(const CameraChoice& camera) {
-    std::vector<std::string> words = words_with(camera);
+    std::vector<std::string> words = words_with(camera, unused_name());
     const std::string command = command_text(words);
     server_->end(json_of_end("dmpc renders this picture now, in its own window.", command), {}, interrupt_.token());
     std::cerr << "dmpc: " << command << std::endl;
@@ -244,7 +256,7 @@ class Viewing {
                   .ms = seconds * 1000};
     if (!wish.is_moving) {
       shot.film = hash_text(film.hash());
-      shot.command = command_text(words_with(wish.camera));
+      shot.command = command_text(words_with(wish.camera, "view.png"));
     }
     server_->feed().put(picture_place, "picture", json_of(shot));
     const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
@@ -301,7 +313,8 @@ void add_options(OptionSet options, ViewOptions& view) {
       "The address is printed on stderr; everyone who knows it can move the camera. While the camera moves, a picture has half\n"
       "the pixels across and down, and 4 samples per pixel by paths, otherwise one. When it rests, the picture has all that was\n"
       "asked for, and the page shows the dmpc render command that makes the same picture, to the last bit. The key R, or the\n"
-      "button Render, ends the view and runs that command, which writes view.png. Ctrl-C ends it with status 130.");
+      "button Render, ends the view and runs that command, which writes view.png, or view-2.png\n"
+      "and so on where that is there. Ctrl-C ends it with status 130.");
 }
 
 int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& /*output*/) {

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 3> left_out = {"--camera", "--resolution"
 }  // namespace
 
 std::vector<std::string> render_words(std::span<const std::string> view_words, const std::string& camera,
-                                      const Resolution& size) {
+                                      const Resolution& size, const std::string& picture) {
   const auto end = std::find(view_words.begin(), view_words.end(), "--");
   std::vector<std::string> words = {"dmpc", "render"};
   bool is_value = false;
@@ -28,7 +28,7 @@ std::vector<std::string> render_words(std::span<const std::string> view_words, c
   }
   words.push_back("--camera=" + camera);
   words.push_back("--resolution=" + std::to_string(size.width) + "x" + std::to_string(size.height));
-  words.insert(words.end(), {"-o", "view.png"});
+  words.insert(words.end(), {"-o", picture});
   words.insert(words.end(), end, view_words.end());
   return words;
 }

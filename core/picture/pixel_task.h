@@ -109,7 +109,8 @@ struct RenderSettings {
 
 /// Adds what the ray's sample finds to its pixel's sums.
 inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const RenderSettings& settings, Operations& operations) {
-  if (add(sums.plane[plane_of(ray.sample)], to_fixed(light, settings.shade.film_scale))) {
+  const Color counted = clamped(ray, light, settings.shade);
+  if (add(sums.plane[plane_of(ray.sample)], to_fixed(counted, settings.shade.film_scale))) {
     ++operations.deposits_saturated;
   }
 }

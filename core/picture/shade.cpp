@@ -131,7 +131,7 @@ bool is_bsdf_sampled(const DatabaseHeader& header) { return header.has_emission 
 
 int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header, const Skips& skips) {
   if (!options.transport.is_by_paths()) {
-    return waiting_hits_max(options, skips);
+    return options.layer == Layer::light ? waiting_hits_max(options, skips) : options.depth_max;
   }
   const bool looks_for_light = is_bsdf_sampled(header);
   return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
@@ -425,9 +425,25 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
   state.set_gloss({});
   if (material.has_extension()) {
     state.stage = Stage::finish;
-  } else {
+  } else if (!shows_layer(state, 0)) {
     come_to_lights(state, {});
   }
+}
+
+/// In a layer the surface becomes a matt one in its colour, of which alpha, if it counts here, leaves a share; where the layer is
+/// no mean, all or nothing.
+bool Shader::shows_layer(HitState& state, float metallic, std::optional<std::uint16_t> cutoff) const {
+  constexpr std::uint16_t half = MaterialExtensionRecord::share_max / 2 + 1;
+  if (options_.layer == Layer::light) {
+    return false;
+  }
+  const Color color = layer_color(options_.layer, state, metallic, camera_->eye(), header_.frame.scale);
+  state.surface.material = {.color = color, .diffuse = 1};
+  if (cutoff) {
+    cover_by_alpha(state, is_mean(options_.layer) ? *cutoff : std::max(*cutoff, half), 1.0F);
+  }
+  come_to_lights(state, {});
+  return true;
 }
 
 /// The emission is scaled by the surface's coverage.
@@ -437,6 +453,9 @@ void Shader::read_extension(HitState& state, const std::byte* record) const {
   }
   const auto finish = read<MaterialExtensionRecord>(record);
   state.set_gloss(gloss_of(state.surface.material, finish));
+  if (shows_layer(state, 0, finish.alpha_cutoff)) {
+    return;
+  }
   const float share = cover_by_alpha(state, finish.alpha_cutoff, finish.refraction_index);
   come_to_lights(state, finish.emission * (share * mis_weight(state, finish.emission)));
 }
@@ -446,6 +465,9 @@ void Shader::read_microfacets(HitState& state, const std::byte* record) const {
   auto facets = read<MicrofacetRecord>(record);
   if (facets.has_texture != 0) {
     multiply(state.facet_shares(), facets, state.surface.material);
+  }
+  if (shows_layer(state, facets.metallic, facets.alpha_cutoff)) {
+    return;
   }
   const float share = cover_by_alpha(state, facets.alpha_cutoff, facets.refraction_index);
   state.set_microfacets({.metallic = facets.metallic,

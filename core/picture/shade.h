@@ -4,13 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/vec.h"
 #include "core/picture/camera/camera.h"
 #include "core/picture/film/film.h"
 #include "core/picture/hits/hit_state.h"
 #include "core/picture/lights/light_fall.h"
+#include "core/picture/surfaces/layer.h"
 #include "core/picture/surfaces/path_step.h"
+#include "core/picture/surfaces/surface_response.h"
 #include "core/picture/surfaces/transport.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
@@ -37,6 +40,10 @@ struct ShadeOptions {
   int depth_max = 5;
   /// Whether a material of the scene may reflect or transmit rays.
   bool has_reflection_or_transmission = true;
+  /// What hits show. A layer is rendered by Whitted's transport, and a ray goes on only where alpha leaves something out.
+  Layer layer = Layer::light;
+  /// The most that a deposit of indirect light has in any channel: more is scaled down. 0: no limit.
+  float clamp = 0;
   /// A ray that can add only less light than this to its sample, in every channel, is not shot: this is the largest error of each
   /// omitted ray. 0: all are shot (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
@@ -51,10 +58,11 @@ struct ShadeOptions {
 
 /// How many hits of a ray's path wait at once, while rays below them are traced. With paths one: it has sent its shadow rays when
 /// it sends the path on, and does not wait for it.
-/// 1, too, where no material reflects or transmits, unless rays of weight 0 are sent.
+/// 1, too, where no material reflects or transmits, unless rays of weight 0 are sent; and in layers, whose hits send one ray.
 constexpr int waiting_hits_max(const ShadeOptions& options, const Skips& skips) {
   const bool sends_rays_on = options.has_reflection_or_transmission || !skips.zero_terms;
-  return options.transport.is_by_paths() || !sends_rays_on ? 1 : options.depth_max;
+  const bool waits = sends_rays_on && !options.transport.is_by_paths() && options.layer == Layer::light;
+  return waits ? options.depth_max : 1;
 }
 /// The depth of the deepest ray in a database's picture, at most 255: with paths one more than depth_max if a hit at depth_max
 /// looks for emitters.
@@ -80,6 +88,17 @@ bool may_find_light(const DatabaseHeader& header, const Transport& transport, Ra
 
 /// The sky's radiance that a ray that hits nothing finds (its record is `tile`), weighted against light sampling.
 Color sky_met(const Ray& ray, const DatabaseHeader& header, const Transport& transport, const std::byte* tile);
+
+/// Whether the light that ends the ray was sent on by more than one surface: what a hit's shadow rays bring to the eye is direct.
+inline bool is_indirect(const Ray& ray) { return ray.depth + (ray.kind == RayKind::shadow ? 1 : 0) > 2; }
+/// The ray's light, limited by the options.
+inline Color clamped(const Ray& ray, const Color& light, const ShadeOptions& options) {
+  if (!(options.clamp > 0) || !is_indirect(ray)) {
+    return light;
+  }
+  const float most = brightest(light);
+  return most > options.clamp ? light * (options.clamp / most) : light;
+}
 
 /// Shades hits, one record per step. The constructor's arguments outlive it.
 class Shader {
@@ -123,6 +142,7 @@ class Shader {
   void read_extension(HitState& state, const std::byte* record) const;
   void read_microfacets(HitState& state, const std::byte* record) const;
   void come_to_lights(HitState& state, const Color& emission) const;
+  bool shows_layer(HitState& state, float metallic, std::optional<std::uint16_t> cutoff = std::nullopt) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   // In core/picture/lights/shade_emitters.cpp:

@@ -48,9 +48,9 @@ struct UnderWay {
   bool is_folder;
 };
 
-/// A render has the most files in progress: a picture, counters, a trace, a page, a strip, a checkpoint, its lock, and 32 heat
-/// maps.
-constexpr std::size_t slot_count = 40;
+/// A render has the most files in progress: a picture, counters, a trace, a page, a strip, a checkpoint, its lock, 32 heat
+/// maps, and 8 layers.
+constexpr std::size_t slot_count = 48;
 
 /// The thread that takes a path out of its slot owns it.
 std::array<std::atomic<UnderWay*>, slot_count> to_remove{};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 2> pythons = {"/usr/bin/python3", "python3"};
 
-/// Its arguments: the module, what needs it, and the words for it.
+/// Imports nothing from the current folder (-P). Its arguments: the module, what needs it, and the words for it.
 constexpr const char* driver = R"(import importlib, sys
 packages = {"dmpc": "python3-dmpc", "numpy": "python3-numpy", "pandas": "python3-pandas", "OpenImageIO": "python3-openimageio",
             "matplotlib": "python3-matplotlib"}
@@ -32,7 +32,7 @@ sys.exit(module.main(words))
 }  // namespace
 
 void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words) {
-  std::vector<std::string> line = {"python3", "-X", "utf8", "-c", driver, name, what};
+  std::vector<std::string> line = {"python3", "-P", "-X", "utf8", "-c", driver, name, what};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> values;
   for (std::string& word : line) {

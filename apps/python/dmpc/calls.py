@@ -23,22 +23,22 @@ def render(
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
     Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
     "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int
-    | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int |
-    None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated",
-    "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size",
-    "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order:
-    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
-    "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual",
-    "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None
-    = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None,
-    replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor:
-    Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages:
-    bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side",
-    "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int |
-    None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid",
-    "embree"] | None = None, report: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None,
-    references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
-    resume: bool = False, time: Text | None = None, passes: int | None = None
+    | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text |
+    None = None, nodes: int | None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None, system:
+    Literal["replicated", "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest",
+    "forest-static", "equal-size", "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None = None, page_size: Text |
+    None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None,
+    voxels: Literal["usual", "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner:
+    Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None, machine:
+    Text | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None,
+    resident: int | None = None, replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None
+    = None, work_donor: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None
+    = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None =
+    None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False,
+    tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, aov: Text | Sequence[Text] | None = None, trace: Text |
+    None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint:
+    Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int | None = None
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -57,24 +57,24 @@ def sweep(
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | Sequence[Text] | None = None, bounces: int | Sequence[int] | None
     = None, sky: Text | Sequence[Text] | None = None, emitters: int | Sequence[int] | None = None, light_radius: Text | Sequence[Text] |
-    None = None, nodes: int | Sequence[int] | None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | Sequence[Text] |
-    None = None, system: Literal["replicated", "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon",
-    "forest", "forest-static", "equal-size", "scattered", "subsampled", "moving"] | Sequence[Text] | None = None, node_memory: Text |
-    Sequence[Text] | None = None, page_size: Text | Sequence[Text] | None = None, record_order: Literal["spatial", "scattered"] |
-    Sequence[Text] | None = None, structure: Literal["grid", "extents", "voxels"] | Sequence[Text] | None = None, voxels: Literal["usual",
-    "article"] | Sequence[Text] | None = None, instances: Literal["expand", "keep", "auto"] | Sequence[Text] | None = None, runner:
-    Literal["threads", "pool", "virtual", "mpi"] | Sequence[Text] | None = None, pool_threads: int | Sequence[int] | None = None,
-    rank_timeout: int | Sequence[int] | None = None, machine: Text | Sequence[Text] | None = None, chaos: Text | Sequence[Text] | None =
-    None, cache_pages: int | Sequence[int] | None = None, homes: Literal["spread", "host", "tree"] | Sequence[Text] | None = None, resident:
-    int | Sequence[int] | None = None, replacement: Text | Sequence[Text] | None = None, in_flight: int | Sequence[int] | None = None,
-    bundles: bool | Sequence[bool] = False, work_item: int | Sequence[int] | None = None, work_donor: Literal["ring", "host"] |
-    Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] | None = None, workers: int | Sequence[int] |
-    None = None, count_pages: bool | Sequence[bool] = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] |
-    Sequence[Text] | None = None, cuts: Literal["longer-side", "alternating"] | Sequence[Text] | None = None, regions: int | Sequence[int] |
-    None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] | None = None, ray_slots: int |
-    Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int | Sequence[int] | None = None,
-    no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None, time: Text |
-    Sequence[Text] | None = None, passes: int | Sequence[int] | None = None
+    None = None, clamp: Text | Sequence[Text] | None = None, nodes: int | Sequence[int] | None = None, strategy: Literal["svm",
+    "replicated", "dataflow", "forest"] | Sequence[Text] | None = None, system: Literal["replicated", "replicated-extents", "svm",
+    "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled",
+    "moving"] | Sequence[Text] | None = None, node_memory: Text | Sequence[Text] | None = None, page_size: Text | Sequence[Text] | None =
+    None, record_order: Literal["spatial", "scattered"] | Sequence[Text] | None = None, structure: Literal["grid", "extents", "voxels"] |
+    Sequence[Text] | None = None, voxels: Literal["usual", "article"] | Sequence[Text] | None = None, instances: Literal["expand", "keep",
+    "auto"] | Sequence[Text] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | Sequence[Text] | None = None,
+    pool_threads: int | Sequence[int] | None = None, rank_timeout: int | Sequence[int] | None = None, machine: Text | Sequence[Text] | None
+    = None, chaos: Text | Sequence[Text] | None = None, cache_pages: int | Sequence[int] | None = None, homes: Literal["spread", "host",
+    "tree"] | Sequence[Text] | None = None, resident: int | Sequence[int] | None = None, replacement: Text | Sequence[Text] | None = None,
+    in_flight: int | Sequence[int] | None = None, bundles: bool | Sequence[bool] = False, work_item: int | Sequence[int] | None = None,
+    work_donor: Literal["ring", "host"] | Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] | None =
+    None, workers: int | Sequence[int] | None = None, count_pages: bool | Sequence[bool] = False, balance: Literal["subsampled",
+    "equal-size", "scattered", "moving"] | Sequence[Text] | None = None, cuts: Literal["longer-side", "alternating"] | Sequence[Text] | None
+    = None, regions: int | Sequence[int] | None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] |
+    None = None, ray_slots: int | Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int |
+    Sequence[int] | None = None, no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid", "embree"] | Sequence[Text] | None =
+    None, time: Text | Sequence[Text] | None = None, passes: int | Sequence[int] | None = None
 ) -> pandas.DataFrame:
     """Render all combinations of chosen options, and print chosen counters."""
     return sweeping.sweep(locals())
@@ -89,22 +89,23 @@ def references(
     None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip:
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int | None = None, strategy:
-    Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated", "replicated-extents", "svm",
-    "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled",
-    "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] |
-    None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None,
-    instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | None = None,
-    pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None = None, cache_pages:
-    int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None, replacement: Text | None = None,
-    in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
-    pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False, balance:
-    Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None,
-    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int |
-    None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
-    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace: Text | None = None, trace_window:
-    Text | Sequence[Text] | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
-    resume: bool = False, time: Text | None = None, passes: int | None = None
+    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text | None = None, nodes: int |
+    None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated",
+    "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size",
+    "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order:
+    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
+    "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual",
+    "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None
+    = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None,
+    replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor:
+    Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages:
+    bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side",
+    "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int |
+    None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid",
+    "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, aov: Text
+    | Sequence[Text] | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, serve: bool | Text =
+    False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int
+    | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -119,22 +120,23 @@ def trace(
     None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip:
     Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, nodes: int | None = None, strategy:
-    Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated", "replicated-extents", "svm",
-    "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled",
-    "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] |
-    None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None,
-    instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | None = None,
-    pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None = None, cache_pages:
-    int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None, replacement: Text | None = None,
-    in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
-    pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False, balance:
-    Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None,
-    regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int |
-    None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, stats:
-    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None
-    = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None =
-    None, resume: bool = False, time: Text | None = None, passes: int | None = None
+    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text | None = None, nodes: int |
+    None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None, system: Literal["replicated",
+    "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size",
+    "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order:
+    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
+    "article"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual",
+    "mpi"] | None = None, pool_threads: int | None = None, rank_timeout: int | None = None, machine: Text | None = None, chaos: Text | None
+    = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None,
+    replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor:
+    Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages:
+    bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side",
+    "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int |
+    None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid",
+    "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, aov: Text
+    | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text =
+    False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int
+    | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())

@@ -13,8 +13,8 @@
 namespace dmpc::apps {
 namespace {
 
-Channel channel_of(const HeatField& field, const RenderRecord& record) {
-  Channel channel{.width = field.width, .height = field.height, .name = std::string(core::name_of(field.kind))};
+Channels channel_of(const HeatField& field, const RenderRecord& record) {
+  Channels channel{.width = field.width, .height = field.height, .names = {std::string(core::name_of(field.kind))}};
   channel.values.assign(field.values.begin(), field.values.end());
   channel.remarks = {{"dmpc:meaning", field.meaning},
                      {"dmpc:unit", field.unit},

@@ -225,6 +225,7 @@ Json options_json(const RenderRecord& record, const Account& account) {
       {"sky", options.picture.transport.sky ? Json(text_of(*options.picture.transport.sky)) : Json()},
       {"emitters", by_paths ? Json(options.picture.transport.emitters) : Json()},
       {"light_radius", options.picture.transport.light_radius ? Json(*options.picture.transport.light_radius) : Json()},
+      {"clamp", options.picture.transport.clamp > 0 ? Json(options.picture.transport.clamp) : Json()},
       {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
       {"record_order", name_of(options.database.build.record_order)},
       {"structure", name_of(options.database.build.structure)},

@@ -34,6 +34,12 @@ class Camera {
   int height() const { return height_; }
   std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(width_) * static_cast<std::uint32_t>(height_); }
   int samples() const { return samples_; }
+  /// The same with this number of samples.
+  Camera with_samples(int samples) const {
+    Camera camera = *this;
+    camera.samples_ = samples;
+    return camera;
+  }
 
  private:
   /// In pixels from the middle of the picture.

@@ -109,6 +109,32 @@ TEST_CASE("heat maps stand beside the picture, or nothing does") {
   CHECK(apps::read_image(folder / "f.exr").width == 16);
 }
 
+TEST_CASE("layers stand beside the picture or in its file, frame by frame, and the picture and its run stay as they are") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr", stats = folder / "a.json";
+  const auto render = [&](const std::vector<std::string>& more) {
+    return run_dmpc(together(
+        {{"render", "teapot-2", "--resolution=16x12", "--nodes=3", "--samples=2", "--stats=" + stats, "-o", image}, more}));
+  };
+  for (const std::string strategy : {"svm", "dataflow"}) {
+    const std::vector<std::string> modelled = {"--strategy=" + strategy, "--runner=virtual"};
+    REQUIRE(render(modelled).status == 0);
+    const std::string hash = film_hash(stats), run = word_after(file_text(stats), "\"run_hash\": ");
+    const std::vector<float> light = apps::read_image(image).rgb;
+    REQUIRE(render(together({modelled, {"--aov=albedo,normal,id", "--aov=depth:" + (folder / "d.png").string()}})).status == 0);
+    CHECK(film_hash(stats) == hash);
+    CHECK(word_after(file_text(stats), "\"run_hash\": ") == run);
+    CHECK(apps::read_image(image).rgb == light);
+    CHECK(contains(file_text(image), "normal.X"));
+  }
+  CHECK(apps::read_image(folder / "d.png").width == 16);
+  CHECK(render({"--aov=albedo:" + image}).status == 2);
+  REQUIRE(run_dmpc({"render", "teapot-2", "--resolution=16x12", "--nodes=3", "--frames=2", "--turntable=90", "-o",
+                    folder / "#.exr", "--aov=id:" + (folder / "id#.exr").string()})
+              .status == 0);
+  CHECK(file_text(folder / "id1.exr") != file_text(folder / "id2.exr"));
+}
+
 TEST_CASE("a trace stands beside the picture, or nothing does, and says that it lost nothing") {
   const TemporaryFolder folder;
   const std::string image = folder / "a.png", trace = folder / "a.pftrace";

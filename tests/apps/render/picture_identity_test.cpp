@@ -82,6 +82,11 @@ TEST_CASE("a picture that is refined has an error and a bound more") {
                    options.picture.refinement.kind = core::ErrorKind::noise;
                  }),
                  "estimate of noise is by former changes, too, here there is none"));
+  CHECK(contains(difference_by_options([](RenderOptions& options) {
+                   options.picture.transport.kind = core::TransportKind::paths;
+                   options.picture.transport.clamp = 0.5;
+                 }),
+                 "clamp is 0.5, here there is none"));
 }
 
 TEST_CASE("a scene with meshes in several places is told from one in which all that was judged where it stands") {

@@ -133,20 +133,24 @@ TEST_CASE("a mesh with a camera of its own, and no light, is lit as the command 
   CHECK(film_by(Viewed::value(turned, "command")) == Viewed::value(turned, "film"));
 }
 
-TEST_CASE("a final wish ends the view, and its process renders the picture that was seen, as view.png") {
+TEST_CASE("a final wish ends the view, and its process renders the picture that was seen, and replaces no file") {
   const TemporaryFolder folder;
+  write_text(folder / "view.png", "of another day");
   Viewed viewed("balls-2", {"--resolution=32x24"}, {"/usr/bin/env", "-C", folder.path().string()});
   viewed.resting_picture();
   viewed.wish("3,2,2/0,0,0/0,0,1/40", false);
   const std::string command = Viewed::value(viewed.resting_picture(), "command");
+  const std::string final =
+      command.substr(0, command.find("view.png")) + "view-2.png" + command.substr(command.find("view.png") + 8);
   CHECK(contains(viewed.page.sent("camera", R"({"camera": "3,2,2/0,0,0/0,0,1/40", "moving": false, "render": true})"), "200 OK"));
-  CHECK(contains(viewed.viewer.heard_all(), "event: end\ndata: {\"figures\":\"" + command + "\""));
+  CHECK(contains(viewed.viewer.heard_all(), "event: end\ndata: {\"figures\":\"" + final + "\""));
   CHECK(viewed.page.process.status() == 0);
-  CHECK(contains(viewed.page.process.errors(), "dmpc: " + command + "\n"));
+  CHECK(contains(viewed.page.process.errors(), "dmpc: " + final + "\n"));
+  CHECK(file_text(folder / "view.png") == "of another day");
   const TemporaryFolder other;
   const Said said = run({"sh", "-c", "cd " + other.path().string() + " && " + DMPC_PROGRAM + command.substr(4)});
   REQUIRE(said.status == 0);
-  CHECK(file_text(folder / "view.png") == file_text(other / "view.png"));
+  CHECK(file_text(folder / "view-2.png") == file_text(other / "view.png"));
 }
 
 TEST_CASE("of a picture that takes long nothing is waited for when the camera moves on") {

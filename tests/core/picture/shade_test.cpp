@@ -269,4 +269,22 @@ TEST_CASE("a ray off a sphere leads to where it would from the very point, whate
   }
 }
 
+TEST_CASE("light is clamped in its brightest channel once two surfaces have sent it on, and never unasked") {
+  const Color light{4, 2, 1};
+  const auto left = [&light](RayKind kind, std::uint8_t depth, float clamp) {
+    Ray ray;
+    ray.kind = kind;
+    ray.depth = depth;
+    return clamped(ray, light, {.clamp = clamp});
+  };
+  CHECK(left(RayKind::scattered, 3, 0) == light);
+  CHECK(left(RayKind::primary, 1, 2) == light);
+  CHECK(left(RayKind::scattered, 2, 2) == light);
+  CHECK(left(RayKind::shadow, 1, 2) == light);
+  CHECK(left(RayKind::scattered, 3, 8) == light);
+  CHECK(left(RayKind::scattered, 3, 2) == Color{2, 1, 0.5F});
+  CHECK(left(RayKind::reflected, 3, 2) == Color{2, 1, 0.5F});
+  CHECK(left(RayKind::shadow, 2, 2) == Color{2, 1, 0.5F});
+}
+
 }  // namespace shade_test

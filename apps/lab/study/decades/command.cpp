@@ -13,7 +13,7 @@ void add_options(OptionSet set, DecadesOptions& options) {
       "--part", "plan|run|hold [run]", pass("--part"),
       "plan: measure what a run of each kind costs, and print how many there are. run: make what the folder lacks, and the page. "
       "hold: time some renders over MPI on this computer beside their prediction, for the page");
-  set.add_flag("--quick", options.is_quick, "Fewer cells, scenes and draws: 4 minutes on two cores, where all take 90");
+  set.add_flag("--quick", options.is_quick, "Fewer cells, scenes and draws: minutes, where all take an hour or two on two cores");
   set.add_text("--jobs", "1..256 [all cores]", pass("--jobs"), "Runs at a time");
   set.add_quiet(options.quiet);
   set.set_examples(

@@ -19,24 +19,10 @@ namespace {
 constexpr std::size_t runs_max = 10'000;
 
 /// Options of outputs, of continuing earlier ones, and of messages.
-constexpr const char* unsweepable[] = {"--help",
-                                       "--output",
-                                       "--stats",
-                                       "--report",
-                                       "--heatmap",
-                                       "--trace",
-                                       "--trace-window",
-                                       "--serve",
-                                       "--quiet",
-                                       "--references",
-                                       "--checkpoint",
-                                       "--resume",
-                                       "--checkpoint-every",
-                                       "--frames",
-                                       "--turntable",
-                                       "--camera-path",
-                                       "--animation",
-                                       "--fps"};
+constexpr const char* unsweepable[] = {
+    "--help",         "--output",    "--stats",       "--report",     "--heatmap",    "--aov",    "--trace",
+    "--trace-window", "--serve",     "--quiet",       "--references", "--checkpoint", "--resume", "--checkpoint-every",
+    "--frames",       "--turntable", "--camera-path", "--animation",  "--fps"};
 
 /// Parses one line of `render` alone.
 class RenderLine {

@@ -41,7 +41,7 @@ struct Traced {
   /// What is written to a file.
   std::string text() const {
     std::ostringstream stream;
-    write_trace({options, database, report, {}, nullptr, &trace}, stream);
+    write_trace({.options = options, .database = database, .report = report, .seconds = {}, .trace = &trace}, stream);
     return stream.str();
   }
 
