@@ -73,11 +73,12 @@ Texts all_options() {
 
 /// Whether it is an option of our scripts, of CMake or of another program in the documents.
 bool is_foreign(const std::string& option) {
-  static const Texts foreign = {
-      "--preset",   "--prefix",        "--install",  "--component", "--build",  "--test-case", "--format", "--tidy", "--only",
-      "--seeds",    "--calls",         "--minutes",  "--replay",    "--shrink", "--keep",      "--clang",  "--mpi",  "--lanes",
-      "--places",   "--faults",        "--mca",      "--program",   "--mpirun", "--heat",      "--size",   "--all",  "--part",
-      "--excerpts", "--oversubscribe", "--children", "--pieces",    "--bytes",  "--check"};
+  static const Texts foreign = {"--preset",   "--prefix", "--install", "--component", "--build",         "--test-case",
+                                "--format",   "--tidy",   "--only",    "--seeds",     "--calls",         "--minutes",
+                                "--replay",   "--shrink", "--keep",    "--clang",     "--mpi",           "--lanes",
+                                "--places",   "--faults", "--mca",     "--program",   "--mpirun",        "--heat",
+                                "--size",     "--all",    "--part",    "--excerpts",  "--oversubscribe", "--allow-run-as-root",
+                                "--children", "--pieces", "--bytes",   "--check"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 
