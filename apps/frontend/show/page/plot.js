@@ -162,7 +162,7 @@
 
   const levelsOf = ({levels}) => Uint8Array.from(atob(levels), (letter) => letter.charCodeAt(0));
   const valuesOf = (map) => map.values || [...levelsOf(map)].map((level) => level / 255 * map.most);
-  /// Colours of shares, row by row, as a picture of a pixel each.
+  /// Colours of shares, row by row, as an image of a dot each.
   const pictureOf = (shares, columns) => {
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [columns, shares.length / columns];
