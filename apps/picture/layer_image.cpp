@@ -58,11 +58,10 @@ Image shown(const LayerImage& layer) {
   const auto [nearest, range] = range_of(channels.values);
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
     const float value = channels.values[count == 3 ? i : i / 3];
-    image.rgb[i] = layer.layer == Layer::normal ? displayed((double{value} + 1) / 2)
-                   : layer.layer == Layer::depth
-                       ? displayed(value > 0 ? 1 - 0.9 * (double{value} - nearest) / range : 0)
-                   : layer.layer == Layer::id ? color_of_id(value)[i % 3]
-                                              : value;
+    image.rgb[i] = layer.layer == Layer::normal  ? displayed((double{value} + 1) / 2)
+                   : layer.layer == Layer::depth ? displayed(value > 0 ? 1 - 0.9 * (double{value} - nearest) / range : 0)
+                   : layer.layer == Layer::id    ? color_of_id(value)[i % 3]
+                                                 : value;
   }
   return image;
 }

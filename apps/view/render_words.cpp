@@ -13,8 +13,8 @@ constexpr std::array<std::string_view, 3> left_out = {"--camera", "--resolution"
 
 }  // namespace
 
-std::vector<std::string> render_words(std::span<const std::string> view_words, const std::string& camera,
-                                      const Resolution& size, const std::string& picture) {
+std::vector<std::string> render_words(std::span<const std::string> view_words, const std::string& camera, const Resolution& size,
+                                      const std::string& picture) {
   const auto end = std::find(view_words.begin(), view_words.end(), "--");
   std::vector<std::string> words = {"dmpc", "render"};
   bool is_value = false;

@@ -15,8 +15,7 @@ namespace dmpc::apps::gltf {
 struct MaterialTraits {
   std::optional<std::uint64_t> coordinates;  ///< set of texture coordinates of the colour texture, if there is one
   std::set<std::uint64_t> other_textures;    ///< pictures for other properties than its colour
-  bool has_light_texture = false, colors_what_shines_through = false, has_clear_coat = false,
-       has_factor_beyond = false;
+  bool has_light_texture = false, colors_what_shines_through = false, has_clear_coat = false, has_factor_beyond = false;
 };
 
 /// Adds the materials to the file, the last one for primitives without a material, and the embedded pictures that they need.

@@ -63,7 +63,8 @@ constexpr Gone gone[] = {
     {"bench error --references", "each run makes its own references"},
     {"bench speed --plots", "-o FILE.csv --format=csv has all comparisons, to be drawn"},
     {"bench stability --resume", "a long run may be made of several with another --seed each, whose counts add up"},
-    {"study scale", "examples/scale.py of the Python module has costs and their growth over scenes, dmpc study sweep those of one"},
+    {"study scale",
+     "examples/scale.py of the Python module has costs and their growth over scenes, dmpc study sweep those of one"},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

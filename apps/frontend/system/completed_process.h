@@ -14,8 +14,8 @@ struct CompletedProcess {
   std::string complaint;  ///< its output to stderr
 };
 
-/// Runs `program` with `arguments` and without input to its end. It does not get the terminal's Ctrl-C. Throws core::InputError if
-/// it cannot be started, and Interrupted after a signal, once the program has ended, too.
+/// Runs `program` with `arguments` and without input to its end. It does not get the terminal's Ctrl-C. Throws core::InputError
+/// if it cannot be started, and Interrupted after a signal, once the program has ended, too.
 CompletedProcess run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                              const Interrupt& interrupt);
 

@@ -97,7 +97,8 @@ TEST_CASE("options that decide a database agree with it or are refused, with wha
   }
   CHECK(contains(usage_complaint({file, "--strategy=forest"}),
                  "--structure=grid does not go with --strategy=forest: its nodes share one tree of boxes; nobody typed "
-                 "--structure=grid, but " + file + " was built with it"));
+                 "--structure=grid, but " +
+                     file + " was built with it"));
   CHECK(contains(complaint_of<core::UsageError>([&] { build_database_file(folder, {file}, "b.pages"); }), "is built already"));
   CHECK(contains(complaint_of<core::UsageError>([&] { build_database_file(folder, {"rings-1"}, "b.db"); }), "ends in .pages"));
 }

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/system/completed_process.h"
 #include "apps/frontend/system/progress.h"
 #include "apps/frontend/system/scratch_folder.h"
 #include "apps/frontend/system/stopwatch.h"
-#include "apps/frontend/system/completed_process.h"
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
@@ -209,13 +209,13 @@ class PlainBench {
   Times times_of_command(const PlainContender& contender, const Resolution& size) const {
     const double before = children_seconds();
     Stopwatch stopwatch;
-    const CompletedProcess ended = run_process(
-        settings_.program,
-        {"render", scene_, "--quiet", "--samples=1", std::string("--strategy=") + apps::name_of(*contender.strategy),
-         std::string("--runner=") + apps::name_of(contender.runner), "--nodes=" + std::to_string(contender.count),
-         "--resolution=" + std::to_string(size.width) + "x" + std::to_string(size.height), "-o",
-         (folder_ / "picture.exr").string()},
-        interrupt_);
+    const CompletedProcess ended =
+        run_process(settings_.program,
+                    {"render", scene_, "--quiet", "--samples=1", std::string("--strategy=") + apps::name_of(*contender.strategy),
+                     std::string("--runner=") + apps::name_of(contender.runner), "--nodes=" + std::to_string(contender.count),
+                     "--resolution=" + std::to_string(size.width) + "x" + std::to_string(size.height), "-o",
+                     (folder_ / "picture.exr").string()},
+                    interrupt_);
     if (ended.status != 0) {
       throw core::InputError(settings_.program.string() + " was to be timed and ended with status " +
                              std::to_string(ended.status) + (ended.complaint.empty() ? "" : ", saying: " + ended.complaint));

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "apps/frontend/line/exit_status.h"
-#include "apps/frontend/system/text_input.h"
 #include "apps/frontend/system/completed_process.h"
+#include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -125,8 +125,10 @@ TEST_CASE("of an option that nobody has typed it is said what stands for it") {
     OptionSet paint = line.add_command("paint", "Paints");
     bool is_wet = false;
     std::string colour;
-    paint.add_argument("WALL", [](const std::string&) {}, "What");
-    paint.add_text("--colour", "COLOUR", [&](const std::string& text) { colour = text; }, "Which");
+    paint.add_argument(
+        "WALL", [](const std::string&) {}, "What");
+    paint.add_text(
+        "--colour", "COLOUR", [&](const std::string& text) { colour = text; }, "Which");
     paint.add_flag("--wet", is_wet, "On wet ground");
     paint.check_in_the_end([&] {
       if (is_wet && !colour.empty()) {

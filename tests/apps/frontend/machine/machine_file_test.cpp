@@ -251,8 +251,9 @@ TEST_CASE("what is neither a machine nor a file that can be read is named with t
   for (const std::string& name :
        {std::string(), std::string("ipsc3"), (folder / "missing.json").string(), folder.path().string()}) {
     CAPTURE(name);
-    const std::string message =
-        name + ": this is neither a machine (ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, gigabit, hdr, ndr) nor a file ";
+    const std::string message = name +
+                                ": this is neither a machine (ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, "
+                                "gigabit, hdr, ndr) nor a file ";
     CHECK_THROWS_WITH_AS(load_machine(name), doctest::Contains(message.c_str()), core::InputError);
   }
   write_text(folder / "large", std::string((1U << 20U) + 1, ' '));
