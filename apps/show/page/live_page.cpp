@@ -21,7 +21,8 @@ constexpr const char* body =
 <button type="button" id="farther">Farther</button> <button type="button" id="home">Back to the start</button>
 <button type="button" id="render">Render</button></div>
 <p>Drag to go round, with Shift or the right button to shift, turn the wheel to go nearer. Or by keys, once the picture is chosen:
-arrows, Shift with arrows, + and -, Home. Render, or the key R, ends the view: dmpc then renders this picture as view.png.</p></div></section>
+arrows, Shift with arrows, + and -, Home. Render, or the key R, ends the view: dmpc then renders this
+picture as view.png, or view-2.png and so on.</p></div></section>
 <section><div id="nodes" class="for-run"><h2>What each node does, a row a node</h2>
 <canvas id="raster" role="img" aria-label="What each node did over time, a row a node. Below is what all of them do now." width="1"
 height="1"></canvas>
