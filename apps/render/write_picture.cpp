@@ -19,6 +19,7 @@
 #include "apps/render/picture_notes.h"
 #include "apps/render/stages.h"
 #include "apps/run/render_record.h"
+#include "apps/scene/load_scene.h"
 #include "apps/show/page/render_page.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"

@@ -210,8 +210,8 @@ void FramesStudy::add_options(StudyLine line) {
     check_line(line, *this);
     line.machine_name = machine_name;
     machines.clear();
-    for (const std::string& name : machine_names.empty() ? std::vector{machine_name} : machine_names) {
-      machines.push_back(load_machine(name).machine);
+    for (const std::string& machine : machine_names.empty() ? std::vector{machine_name} : machine_names) {
+      machines.push_back(load_machine(machine).machine);
     }
   });
   line.set.set_examples(
@@ -228,11 +228,11 @@ std::vector<Plot> FramesStudy::plots() const {
   std::vector<PlotSeries> faults, times;
   for (const nodes::Machine& machine : machines) {
     for (const std::uint32_t count : node_counts) {
-      const std::string name = name_with_links(machine), nodes = std::to_string(count);
+      const std::string shown = name_with_links(machine), nodes = std::to_string(count);
       const auto add = [&](std::vector<PlotSeries>& series, const std::string& what, const std::string& column, PlotMark mark) {
-        series.push_back({what + ", " + nodes + " nodes of " + name,
+        series.push_back({what + ", " + nodes + " nodes of " + shown,
                           column,
-                          {{"machine", name}, {"nodes", nodes}, {"frames", means}},
+                          {{"machine", shown}, {"nodes", nodes}, {"frames", means}},
                           mark,
                           series.size() % plot_color_count});
       };

@@ -105,7 +105,7 @@ const Json& rows_called(const std::string& name) {
       {"backlog", counters(counters_of<dataflow::ProgramCounts>)},
       {"movement", counters(counters_of<dataflow::MovementCounters>)},
       {"prices", named(
-                     core::charge_names, [](std::string_view name) { return std::string(name); }, "count")},
+                     core::charge_names, [](std::string_view charge) { return std::string(charge); }, "count")},
       {"skips", named(
                     core::all_skips, [](const core::Skip& skip) { return skip.name; }, "skip")},
       {"memory", named(

@@ -1,4 +1,5 @@
 #include "apps/frontend/show/stats/counters_json.h"
+#include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
 #include "svm/forest/strategy.h"
 

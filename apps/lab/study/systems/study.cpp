@@ -138,10 +138,10 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
   std::vector<std::string> notes = {machine_text(machine.machine) +
                                     ". Voxels on ipsc2 have the prices of ipsc2-1994, which were "
                                     "fitted to voxels."};
-  for (const SystemDescription& description : systems()) {
-    if (std::find(chosen.begin(), chosen.end(), description.system) != chosen.end()) {
-      notes.push_back(std::string(description.name) + ": " + description.meaning + ". Its structure: " + description.had_what +
-                      " (" + name_of(description.had) + ").");
+  for (const SystemDescription& system : systems()) {
+    if (std::find(chosen.begin(), chosen.end(), system.system) != chosen.end()) {
+      notes.push_back(std::string(system.name) + ": " + system.meaning + ". Its structure: " + system.had_what + " (" +
+                      name_of(system.had) + ").");
     }
   }
   const std::vector<std::string> more = {
