@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
+#include "tests/apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/apps/manual/written.h"
 #include "tests/support/shell.h"
@@ -114,7 +114,7 @@ TEST_CASE("bash knows all of dmpc's commands and options") {
   const Desk desk(tests::written(dmpc, "dmpc.bash"));
   for (const char* const path : {"render", "study balance", "bench speed"}) {
     const std::string offered = " " + desk.by_bash("dmpc " + std::string(path) + " -") + " ";
-    for (const Leaf& leaf : leaves_of(dmpc)) {
+    for (const tests::Leaf& leaf : tests::leaves_of(dmpc)) {
       for (const OptionDescription& option : leaf.command->options) {
         const std::string word = " " + option.names.back() + (option.value.empty() ? " " : "= ");
         CHECK_MESSAGE((leaf.path != path || offered.find(word) != std::string::npos), word);

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
+#include "tests/apps/manual/leaves.h"
 #include "tests/support/complaint.h"
 #include "tests/support/documents.h"
 
@@ -63,7 +63,7 @@ std::string complaint_about(const std::string& line) {
 Texts all_options() {
   const CommandDescription program = describe_command_line();
   Texts options = {"--help", "--version"};
-  for (const Leaf& leaf : leaves_of(program)) {
+  for (const tests::Leaf& leaf : tests::leaves_of(program)) {
     for (const OptionDescription& option : leaf.command->options) {
       options.insert(options.end(), option.names.begin(), option.names.end());
     }

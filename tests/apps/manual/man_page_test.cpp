@@ -5,8 +5,8 @@
 #include <regex>
 #include <string>
 
-#include "apps/frontend/line/leaves.h"
 #include "apps/main/commands.h"
+#include "tests/apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/apps/manual/written.h"
 #include "tests/support/shell.h"
@@ -93,7 +93,7 @@ TEST_CASE("dmpc's page has all its sections, commands and options") {
        {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "EXAMPLES", "EXIT STATUS", "ENVIRONMENT", "SEE ALSO"}) {
     CHECK_MESSAGE(count(page, ".SH \"" + std::string(title) + "\"\n") == 1, title);
   }
-  for (const Leaf& leaf : leaves_of(program)) {
+  for (const tests::Leaf& leaf : tests::leaves_of(program)) {
     const std::string part = part_of(page, leaf.path);
     for (const OptionDescription& option : leaf.command->options) {
       const std::string name = option.names.back();

@@ -6,19 +6,19 @@
 
 #include "apps/frontend/line/command_description.h"
 
-namespace dmpc::apps {
+namespace dmpc::tests {
 
 /// A command with the words that the user types for it.
 struct Leaf {
   std::string path;  ///< "study balance"
-  const CommandDescription* command = nullptr;
+  const apps::CommandDescription* command = nullptr;
 };
 
 /// The commands in `outer` that have no subcommands, in the order of their declaration; `outer` outlives them. `path` is put
 /// before each name.
-inline std::vector<Leaf> leaves_of(const CommandDescription& outer, const std::string& path = "") {
+inline std::vector<Leaf> leaves_of(const apps::CommandDescription& outer, const std::string& path = "") {
   std::vector<Leaf> leaves;
-  for (const CommandDescription& command : outer.commands) {
+  for (const apps::CommandDescription& command : outer.commands) {
     const std::string inner_path = path + command.name;
     const std::vector<Leaf> inner = leaves_of(command, inner_path + " ");
     if (inner.empty()) {
@@ -29,4 +29,4 @@ inline std::vector<Leaf> leaves_of(const CommandDescription& outer, const std::s
   return leaves;
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::tests
