@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/formats/landscape/names.h"
+#include "apps/formats/landscape/scene.h"
 #include "apps/formats/nff_writer.h"
 #include "apps/frontend/system/output_file.h"
 #include "core/base/expect.h"
@@ -48,7 +49,7 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
 
 /// NFF has neither textures nor instances.
 void check_has_nff(const std::string& scene) {
-  if (landscape_size(scene) || grove_size(scene)) {
+  if (is_landscape_name(scene)) {
     throw core::UsageError(scene + " is no NFF scene, as it has textures: dmpc render " + scene +
                            " renders it by its name, and dmpc build " + scene + " -o FILE.pages keeps it as a file");
   }
