@@ -16,15 +16,12 @@ constexpr std::array<const char*, 2> pythons = {"/usr/bin/python3", "python3"};
 
 /// Imports nothing from the current folder (-P). Its arguments: the module, what needs it, and the words for it.
 constexpr const char* driver = R"(import importlib, sys
-packages = {"dmpc": "python3-dmpc", "numpy": "python3-numpy", "pandas": "python3-pandas", "OpenImageIO": "python3-openimageio",
-            "matplotlib": "python3-matplotlib"}
 name, what, *words = sys.argv[1:]
 try:
     module = importlib.import_module("dmpc." + name)
 except ModuleNotFoundError as error:
     missing = error.name.split(".")[0]
-    package = packages.get(missing, missing)
-    sys.exit(f"dmpc: {what} needs Python's module {missing}: apt-get install {package}"
+    sys.exit(f"dmpc: {what} needs Python's module {missing}: apt-get install python3-{missing.lower()}"
              + (", or set PYTHONPATH to apps/python of the sources" if missing == "dmpc" else ""))
 sys.exit(module.main(words))
 )";
