@@ -14,11 +14,10 @@ Every option of the program's command is a keyword, with underscores for dashes.
 
 import importlib.util
 
-_PACKAGES = {"numpy": "python3-numpy", "pandas": "python3-pandas", "OpenImageIO": "python3-openimageio"}
-_missing = [module for module in _PACKAGES if importlib.util.find_spec(module) is None]
+_missing = [module for module in ("numpy", "pandas", "OpenImageIO") if importlib.util.find_spec(module) is None]
 if _missing:
     raise ModuleNotFoundError(f"dmpc needs {' and '.join(_missing)}, which this Python does not have: on Debian, apt install "
-                              f"{' '.join(_PACKAGES[module] for module in _missing)}, for /usr/bin/python3", name=_missing[0])
+                              f"{' '.join(f'python3-{module.lower()}' for module in _missing)}, for /usr/bin/python3", name=_missing[0])
 
 from . import study
 from .calls import compare, references, render, sweep, trace
