@@ -1,10 +1,13 @@
 """The program dmpc: found, called, and what it says when it fails."""
 
 import ctypes
+import json
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
+import tempfile
 
 from .commas import WITH_COMMAS
 
@@ -133,6 +136,14 @@ def run(line, passing=()):
         said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
         raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")
     return output.decode()
+
+
+def counters(line):
+    """The counters of a render by this line, whose picture nobody wants. Raises as run() does."""
+    with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
+        stats = pathlib.Path(folder, "stats.json")
+        run([*line, "--quiet", f"--stats={stats}", "-o", str(pathlib.Path(folder, "film.png"))])
+        return json.loads(stats.read_bytes())
 
 
 def check_format(json, what):

@@ -58,14 +58,9 @@ def _computing():
     """How many times as long as on the core that prices were measured on: real over virtual seconds of single nodes."""
     factors = []
     for scene in ("rings-4-t1", "mount-6-t6", "tetra-9"):
-        words = [scene, "--strategy=replicated", "--structure=extents", "--nodes=1", "--resolution=192x192", "--no-skip=bundles", "--quiet"]
-        with tempfile.TemporaryDirectory() as scratch:
-            stats, film = os.path.join(scratch, "stats.json"), os.path.join(scratch, "film.png")
-            program.run(["render", *words, "--runner=virtual", "--machine=hdr", f"--stats={stats}", "-o", film])
-            modelled = json.loads(pathlib.Path(stats).read_text())["virtual_seconds"]["computing"]
-            for _ in range(REPEATS):
-                program.run(["render", *words, f"--stats={stats}", "-o", film])
-                factors.append(json.loads(pathlib.Path(stats).read_text())["nodes"][0]["seconds"]["busy"] / modelled)
+        words = [scene, "--strategy=replicated", "--structure=extents", "--nodes=1", "--resolution=192x192", "--no-skip=bundles"]
+        modelled = program.counters(["render", *words, "--runner=virtual", "--machine=hdr"])["virtual_seconds"]["computing"]
+        factors += [program.counters(["render", *words])["nodes"][0]["seconds"]["busy"] / modelled for _ in range(REPEATS)]
     return factors
 
 
@@ -117,11 +112,7 @@ def hold(folder):
     rows = []
     for name, words in HELD.items():
         seconds = sorted(over_mpi(words).seconds for _ in range(REPEATS))
-        with tempfile.TemporaryDirectory() as scratch:
-            stats = os.path.join(scratch, "stats.json")
-            program.run(["render", *words, "--runner=virtual", f"--machine={path}", "--quiet", f"--stats={stats}", "-o",
-                         os.path.join(scratch, "film.png")])
-            predicted = json.loads(pathlib.Path(stats).read_text())["virtual_seconds"]["total"]
+        predicted = program.counters(["render", *words, "--runner=virtual", f"--machine={path}"])["virtual_seconds"]["total"]
         rows.append({"cell": name, "line": " ".join(words), "predicted": predicted, "timed": statistics.median(seconds),
                      "least": seconds[0], "most": seconds[-1]})
     (pathlib.Path(folder) / "reality.json").write_text(json.dumps({"processors": processors, "rows": rows}, indent=1))
