@@ -59,7 +59,7 @@ std::uint64_t digest_of_program() {
 
 FileKind database_kind() {
   return {.magic = 0x6567617063706d64U,  // "dmpcpage" in the order of the file
-          .format = 1,
+          .format = 2,                   // 2: trees select emitters and tiles of a sky, of which those small databases have none
           .program = digest_of_program(),
           .what = "a database that dmpc build has written",
           .advice = "build it again: dmpc build SCENE -o FILE.pages"};

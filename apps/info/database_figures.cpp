@@ -4,6 +4,7 @@
 
 #include "core/base/ranges.h"
 #include "core/database/address_map.h"
+#include "core/record/choice_node.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
 #include "core/record/instance.h"
@@ -127,10 +128,11 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
   records.push_back(figures_for<core::LightRecord>("lights", header.light_count));
   if (has_emitters(header)) {
     records.push_back(figures_for<core::EmitterRecord>("emitters", header.emitter_count));
-    records.push_back(figures_for<core::EmitterChoice>("choices of emitters", header.emitter_count));
+    records.push_back(figures_for<core::ChoiceNode>("choices of emitters", core::choice_node_count(header.emitter_count)));
   }
   if (has_sky_picture(header)) {
-    records.push_back(figures_for<core::EmitterChoice>("choices of tiles of the sky", counts.sky_tiles));
+    records.push_back(figures_for<core::ChoiceNode>("choices of tiles of the sky",
+                                                    core::choice_node_count(static_cast<std::uint32_t>(counts.sky_tiles))));
     records.push_back(figures_for<core::TextureTile>("tiles of the sky", counts.sky_tiles));
   }
   return records;

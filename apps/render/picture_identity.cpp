@@ -225,8 +225,12 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   if (transport.sky && zenith_of(scene) != normalize(scene.view.up)) {
     facts.push_back({"sky's zenith", zenith_text(scene)});  // before there was this fact, where the view's up points
   }
-  if (std::ranges::any_of(scene.materials, &core::Material::shines)) {
+  const bool has_emitters = std::ranges::any_of(scene.materials, &core::Material::shines);
+  if (has_emitters) {
     facts.push_back({"emitters", std::to_string(transport.emitters)});
+  }
+  if (has_emitters || scene.sky.is_there()) {
+    facts.push_back({"light sampling", "by inversion"});  // by alias tables before there was this fact
   }
 }
 

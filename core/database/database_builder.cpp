@@ -11,6 +11,7 @@
 #include "core/database/shading/material_records.h"
 #include "core/database/shading/texture_records.h"
 #include "core/database/structure.h"
+#include "core/record/choice_node.h"
 #include "core/record/directory.h"
 #include "core/record/texture_layout.h"
 #include "core/scene/detail.h"
@@ -219,7 +220,7 @@ void DatabaseBuilder::write_emitters() {
   header().drawn_materials = static_cast<std::uint32_t>(scene_.materials.size());
   header().emitter_density = emitters_.density;
   header().emitters = writer_.allocate_array<EmitterRecord>(emitters_.records.size());
-  const Address choices = writer_.allocate_array<EmitterChoice>(emitters_.choices.size());
+  const Address choices = writer_.allocate_array<ChoiceNode>(emitters_.choices.size());
   expect(choices == choice_address(header(), 0), "choices stand behind all emitters");
   writer_.write(header().emitters, 0, std::as_bytes(std::span(emitters_.records)));
   writer_.write(choices, 0, std::as_bytes(std::span(emitters_.choices)));
@@ -236,7 +237,7 @@ void DatabaseBuilder::write_sky_table() {
   }
   const Vec3d up = zenith_of(scene_);
   sky_ = sky_records(scene_.sky, sky_middle(up), up);
-  sky_.reference.choices = writer_.allocate_array<EmitterChoice>(sky_.choices.size());
+  sky_.reference.choices = writer_.allocate_array<ChoiceNode>(sky_.choices.size());
   writer_.write(sky_.reference.choices, 0, std::as_bytes(std::span(sky_.choices)));
   counts().sky_tiles = sky_.tiles.size();
   if (expendable_ != nullptr) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/record/choice_node.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
 #include "core/record/records.h"
@@ -73,12 +74,13 @@ void check_tables(const DatabaseSummary& all) {
   check(header.materials, header.material_count, sizeof(MaterialRecord), "table of materials");
   check(header.lights, header.light_count, sizeof(LightRecord), "table of lights");
   if (has_emitters(header)) {
-    check(header.emitters, header.emitter_count, sizeof(EmitterRecord) + sizeof(EmitterChoice), "table of emitters");
+    check(header.emitters, header.emitter_count, sizeof(EmitterRecord), "table of emitters");
+    check(choice_address(header, 0), choice_node_count(header.emitter_count), sizeof(ChoiceNode), "choices of emitters");
   }
   if (has_sky_picture(header)) {
     require(header.sky.width > 0 && header.sky.height > 0 && are_finite(header.sky.middle) && are_finite(header.sky.up), "sky");
     check(header.sky.tiles, sky_tile_count(header.sky), sizeof(TextureTile), "sky");
-    check(header.sky.choices, sky_tile_count(header.sky), sizeof(EmitterChoice), "sky");
+    check(header.sky.choices, choice_node_count(sky_tile_count(header.sky)), sizeof(ChoiceNode), "choices of the sky");
   }
 }
 

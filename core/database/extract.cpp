@@ -17,6 +17,7 @@
 #include "core/database/region_records.h"
 #include "core/database/shading/texture_records.h"
 #include "core/database/tree/leaf_values.h"
+#include "core/record/choice_node.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
 #include "core/record/sky.h"
@@ -64,13 +65,13 @@ class Extractor {
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
     if (has_emitters(whole_)) {
       header.emitters = copy_array<EmitterRecord>(whole_.emitters, whole_.emitter_count);
-      copy_array<EmitterChoice>(choice_address(whole_, 0), whole_.emitter_count);
+      copy_array<ChoiceNode>(choice_address(whole_, 0), choice_node_count(whole_.emitter_count));
     }
     if (needs_) {
       next_instance_ = writer_.allocate_array<InstanceRecord>(needs_->place_count());
     }
     if (has_sky_picture(whole_)) {
-      header.sky.choices = copy_array<EmitterChoice>(whole_.sky.choices, sky_tile_count(whole_.sky));
+      header.sky.choices = copy_array<ChoiceNode>(whole_.sky.choices, choice_node_count(sky_tile_count(whole_.sky)));
       header.sky.tiles = copy_array<TextureTile>(whole_.sky.tiles, sky_tile_count(whole_.sky));
     }
     if (whole_.has_voxels()) {

@@ -676,12 +676,12 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
     case Stage::light:
       return read_light(state, record, child);
     case Stage::emitter_choice:
-      read_choice(state, record);
+      read_choice(state, record, header_.emitter_count, Stage::emitter);
       return false;
     case Stage::emitter:
       return read_emitter(state, record, child);
     case Stage::sky_choice:
-      read_sky_choice(state, record);
+      read_choice(state, record, sky_tile_count(header_.sky), Stage::sky_aim);
       return false;
     case Stage::sky_aim:
       return read_sky_aim(state, record, child);

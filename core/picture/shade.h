@@ -148,16 +148,15 @@ class Shader {
   // In core/picture/lights/shade_emitters.cpp:
   bool aims_at_emitter(const HitState& state) const;
   void begin_choice(HitState& state, std::uint32_t count) const;
-  static void draw(HitState& state, const std::byte* choice);
   void begin_emitter(HitState& state) const;
-  void read_choice(HitState& state, const std::byte* record) const;
+  /// One step down a tree of `count` choices; `next`: the stage after the last.
+  static void read_choice(HitState& state, const std::byte* record, std::uint32_t count, HitState::Stage next);
   bool read_emitter(HitState& state, const std::byte* record, Ray& child) const;
   /// The weight of emission that the state's ray has hit: the rest is added by light sampling at the previous hit.
   float mis_weight(const HitState& state, const Color& radiance) const;
   // In core/picture/lights/shade_sky.cpp:
   void read_sky(HitState& state, const std::byte* record) const;
   bool aims_at_sky(const HitState& state) const;
-  void read_sky_choice(HitState& state, const std::byte* record) const;
   bool read_sky_aim(HitState& state, const std::byte* record, Ray& child) const;
   void end_emitters(HitState& state) const;
 

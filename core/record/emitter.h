@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/base/vec.h"
+#include "core/record/choice_node.h"
 #include "core/record/record.h"
 
 namespace dmpc::core {
@@ -23,25 +24,16 @@ struct EmitterRecord {
   Vec3d center() const { return Vec3d(corner[0]); }
   double radius() const { return double{corner[1].x}; }
 };
-static_assert(sizeof(EmitterRecord) == 64 && std::is_trivially_copyable_v<EmitterRecord>);
-
-/// One entry of an alias table (A. J. Walker, "An Efficient Method for Generating Discrete Random Variables with General
-/// Distributions", ACM TOMS 3 (3), 1977): there are as many as emitters, all equally likely. The fractional position of a number
-/// within the entry, from 0 to 1, decides: before `threshold` it selects the emitter of this entry, after it the other one.
-struct EmitterChoice {
-  float threshold = 1;
-  std::uint32_t other = 0;
-};
-static_assert(sizeof(EmitterChoice) == record_alignment);
+static_assert(sizeof(EmitterRecord) == sizeof(ChoiceNode) && std::is_trivially_copyable_v<EmitterRecord>);
 
 inline bool has_emitters(const DatabaseHeader& header) { return header.emitter_count > 0; }
 
 inline Address emitter_address(const DatabaseHeader& header, std::uint32_t emitter) {
   return advance(header.emitters, std::uint64_t{emitter} * sizeof(EmitterRecord));
 }
-/// The choices follow all emitters.
-inline Address choice_address(const DatabaseHeader& header, std::uint32_t place) {
-  return advance(emitter_address(header, header.emitter_count), std::uint64_t{place} * sizeof(EmitterChoice));
+/// The tree by which one is selected follows all emitters.
+inline Address choice_address(const DatabaseHeader& header, std::uint32_t node) {
+  return advance(emitter_address(header, header.emitter_count), std::uint64_t{node} * sizeof(ChoiceNode));
 }
 
 /// Power per area up to a constant factor.

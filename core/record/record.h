@@ -366,7 +366,7 @@ constexpr std::array<std::int32_t, 3> macro_cells(const GridFrame& frame) {
 /// A sky's picture as its users know it (core/record/sky.h).
 struct SkyReference {
   Address tiles = no_address;             ///< TextureTile, row by row; no_address: there is no picture
-  Address choices = no_address;           ///< an EmitterChoice for each tile
+  Address choices = no_address;           ///< the tree by which a tile is selected
   std::uint16_t width = 0, height = 0;    ///< texels
   float scale = 1;                        ///< what texels are multiplied by, a power of two
   float density = 0, least_strength = 0;  ///< for SkyCells: the density of light sampling

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/base/units.h"
-#include "core/record/emitter.h"
+#include "core/record/choice_node.h"
 #include "core/record/record.h"
 
 namespace dmpc::core {
@@ -27,8 +27,8 @@ constexpr std::uint32_t sky_tile_count(const SkyReference& sky) { return sky_til
 constexpr Address sky_tile_address(const SkyReference& sky, std::uint32_t tile) {
   return advance(sky.tiles, std::uint64_t{tile} * sizeof(TextureTile));
 }
-constexpr Address sky_choice_address(const SkyReference& sky, std::uint32_t tile) {
-  return advance(sky.choices, std::uint64_t{tile} * sizeof(EmitterChoice));
+constexpr Address sky_choice_address(const SkyReference& sky, std::uint32_t node) {
+  return advance(sky.choices, std::uint64_t{node} * sizeof(ChoiceNode));
 }
 
 }  // namespace dmpc::core

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/elementary.h"
+#include "core/record/emitter.h"
 #include "core/scene/texel.h"
 
 namespace dmpc::core {
@@ -21,6 +22,14 @@ Vec3d left_of(const SkyReference& sky) { return cross(sky.up, sky.middle); }
 /// The mean of the cell's corners.
 double mean_of(double top_left, double top_right, double bottom_left, double bottom_right) {
   return ((top_left + top_right) + (bottom_left + bottom_right)) * 0.25;
+}
+
+double between(double first, double second, double place) { return first * (1 - place) + second * place; }
+
+/// Inverts the distribution whose density grows or falls linearly from `first` to `second`, relative to each other, on [0, 1].
+double linear_place(double number, double first, double second) {
+  const double place = number * (first + second) / (first + std::sqrt(between(first * first, second * second, number)));
+  return std::clamp(place, 0.0, 1.0);
 }
 
 /// The angle from the upper pole at which a row of cells begins.
@@ -45,8 +54,12 @@ SkyPlace sky_place(const SkyReference& sky, const Vec3d& direction) {
   const Split column(across < 0 ? across + sky.width : across, sky.width);
   const double from_pole = angle_of(std::sqrt(ahead * ahead + left * left), up);
   const Split row(from_pole / pi * sky.height + 0.5, std::uint32_t{sky.height} + 1);
-  return {row.cell / sky_tile_cells * sky_tile_columns(sky) + column.cell / sky_tile_cells, column.cell % sky_tile_cells,
-          row.cell % sky_tile_cells, column.rest, row.rest};
+  return {row.cell / sky_tile_cells * sky_tile_columns(sky) + column.cell / sky_tile_cells,
+          column.cell % sky_tile_cells,
+          row.cell % sky_tile_cells,
+          column.rest,
+          row.rest,
+          up};
 }
 
 SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlace& place) {
@@ -56,14 +69,18 @@ SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlac
   const std::array<Color, 4> corners{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
   const Vec3d above = Vec3d(corners[0]) * (1 - place.across) + Vec3d(corners[1]) * place.across;
   const Vec3d below = Vec3d(corners[2]) * (1 - place.across) + Vec3d(corners[3]) * place.across;
-  const double mean = mean_of(strength_of(corners[0]), strength_of(corners[1]), strength_of(corners[2]), strength_of(corners[3]));
+  const std::uint32_t row = place.tile / sky_tile_columns(sky) * sky_tile_cells + place.row;
+  const double top = cos_radians(angle_above(sky, row)), bottom = cos_radians(angle_above(sky, row + 1));
+  const double lowered = std::clamp((top - place.height) / (top - bottom), 0.0, 1.0);
+  const double strength = between(between(strength_of(corners[0]), strength_of(corners[1]), place.across),
+                                  between(strength_of(corners[2]), strength_of(corners[3]), place.across), lowered);
   return {Color((above * (1 - place.down) + below * place.down) * double{sky.scale}),
-          double{sky.density} * (mean + double{sky.least_strength})};
+          double{sky.density} * (strength + double{sky.least_strength})};
 }
 
 SkyCells::SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte* record)
     : sky_(sky), tile_(tile), least_(double{sky.least_strength}) {
-  std::array<std::array<double, tile_side>, tile_side> strength;
+  Strengths& strength = corner_;
   for (std::uint32_t row = 0; row < tile_side; ++row) {
     for (std::uint32_t column = 0; column < tile_side; ++column) {
       strength[row][column] = sum_of_channels(read<std::uint32_t>(record + (row * tile_side + column) * sizeof(std::uint32_t)));
@@ -104,12 +121,16 @@ SkyCells::Drawn SkyCells::draw(double x, double y) const {
   for (; cell + 1 < static_cast<std::uint32_t>(its.count) && left >= cell_[row][cell] + least_; ++cell) {
     left -= cell_[row][cell] + least_;
   }
-  const double across = std::clamp(left / (cell_[row][cell] + least_), 0.0, 1.0);
+  const auto corner = [&](std::uint32_t right, std::uint32_t below) { return corner_[row + below][cell + right] + least_; };
+  const double across = linear_place(std::clamp(left / (cell_[row][cell] + least_), 0.0, 1.0), corner(0, 0) + corner(0, 1),
+                                     corner(1, 0) + corner(1, 1));
+  const double lowered =
+      linear_place(y, between(corner(0, 0), corner(1, 0), across), between(corner(0, 1), corner(1, 1), across));
   const std::uint32_t columns = sky_tile_columns(sky_);
   const double turn = (tile_ % columns * sky_tile_cells + cell + across + 0.5) / sky_.width, angle = 2 * pi * (0.5 - turn);
-  const double height = its.top + y * (its.bottom - its.top), out = std::sqrt(std::max(0.0, 1 - height * height));
+  const double height = its.top + lowered * (its.bottom - its.top), out = std::sqrt(std::max(0.0, 1 - height * height));
   const double from_macro = angle_of(out, height) / pi * sky_.height + 0.5 - (tile_ / columns * sky_tile_cells + row);
-  return {{tile_, cell, row, across, std::clamp(from_macro, 0.0, 1.0)},
+  return {{tile_, cell, row, across, std::clamp(from_macro, 0.0, 1.0), height},
           sky_.up * height + (sky_.middle * cos_radians(angle) + left_of(sky_) * sin_radians(angle)) * out};
 }
 

@@ -16,6 +16,7 @@ struct SkyPlace {
   std::uint32_t tile = 0;
   std::uint32_t column = 0, row = 0;  ///< in the tile
   double across = 0, down = 0;
+  double height = 1;  ///< cosine of the angle from the upper pole
 };
 
 /// The place that a unit direction sees: looking at the picture's middle, with its upper edge above, its left half is on the
@@ -27,12 +28,15 @@ struct SkyLight {
   Color radiance;
   double density = 0;
 };
-/// Bilinear interpolation of the texels around it. `tile` is the record of the place's tile.
+/// Bilinear interpolation of the texels around it; the density interpolates across and by height. `tile` is the record of the
+/// place's tile.
 SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlace& place);
 
 /// Sampling of the cells of a tile: in proportion to the solid angle times the mean strength_of() of the corners, plus a minimum,
-/// so that no cell is never drawn. Within a cell it is uniform by solid angle: so the density of a direction follows from the
-/// texels around it, on any node. The host weights tiles by all(), shading samples one.
+/// so that no cell is never drawn. Within a cell the density is bilinear between its corners, across and by height, as solid
+/// angles are (M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th edition, 2023, A.5): so the density of a
+/// direction follows from the texels around it, on any node, and a sun of a few texels is sampled as it shines. The host weights
+/// tiles by all(), shading samples one.
 class SkyCells {
  public:
   SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte* record);
@@ -60,9 +64,12 @@ class SkyCells {
     double count = 0;     ///< number of its cells
   };
 
+  using Strengths = std::array<std::array<double, tile_side>, tile_side>;
+
   const SkyReference& sky_;
   std::uint32_t tile_;
   double least_, strength_ = 0, solid_angle_ = 0;
+  Strengths corner_;
   std::array<std::array<double, sky_tile_cells>, sky_tile_cells> cell_{};  ///< mean strengths
   std::array<Row, sky_tile_cells> row_{};
 };

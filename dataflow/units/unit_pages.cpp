@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/record/sky.h"
 
@@ -26,10 +27,10 @@ std::vector<std::uint32_t> pages_of(const core::Database& database, std::span<co
   need_all(header.materials, header.material_count, sizeof(core::MaterialRecord));
   if (core::has_emitters(header)) {
     need_all(header.emitters, header.emitter_count, sizeof(core::EmitterRecord));
-    need_all(core::choice_address(header, 0), header.emitter_count, sizeof(core::EmitterChoice));
+    need_all(core::choice_address(header, 0), core::choice_node_count(header.emitter_count), sizeof(core::ChoiceNode));
   }
   if (core::has_sky_picture(header)) {
-    need_all(header.sky.choices, core::sky_tile_count(header.sky), sizeof(core::EmitterChoice));
+    need_all(header.sky.choices, core::choice_node_count(core::sky_tile_count(header.sky)), sizeof(core::ChoiceNode));
     need_all(header.sky.tiles, core::sky_tile_count(header.sky), sizeof(core::TextureTile));
   }
   std::vector<std::uint32_t> pages;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "core/database/shading/alias_table.h"
+#include "core/database/shading/choice_tree.h"
 
 namespace dmpc::core {
 namespace {
@@ -105,13 +105,13 @@ class Chooser {
     for (const Candidate& candidate : drawn_) {
       powers.push_back(candidate.power);
     }
-    result_.choices = alias_table(powers);
-    const std::vector<double> chances = chances_of(result_.choices);
-    for (std::size_t i = 0; i < drawn_.size(); ++i) {
-      result_.records.push_back(record_of(drawn_[i].primitive, chances[i]));
+    result_.choices = choice_tree(powers);
+    const double all = sum();
+    for (const Candidate& candidate : drawn_) {
+      result_.records.push_back(record_of(candidate.primitive, candidate.power / all));
     }
     using Limits = std::numeric_limits<float>;
-    result_.density = static_cast<float>(std::clamp(1.0 / sum(), double{Limits::min()}, double{Limits::max()}));
+    result_.density = static_cast<float>(std::clamp(1.0 / all, double{Limits::min()}, double{Limits::max()}));
   }
 
   EmitterRecord record_of(std::uint32_t primitive, double chance) const {

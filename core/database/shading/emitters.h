@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/database/conversion.h"
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/scene/scene.h"
 
@@ -12,7 +13,7 @@ namespace dmpc::core {
 
 struct Emitters {
   std::vector<EmitterRecord> records;  ///< by primitive
-  std::vector<EmitterChoice> choices;  ///< as many as `records`
+  std::vector<ChoiceNode> choices;     ///< by which one of `records` is selected
   std::vector<Material> materials;     ///< for these primitives, after the scene's
   float density = 0;                   ///< DatabaseHeader::emitter_density
   std::uint64_t others = 0;            ///< emitting primitives that are found by BSDF sampling alone

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/expect.h"
-#include "core/database/shading/alias_table.h"
+#include "core/database/shading/choice_tree.h"
 #include "core/record/sky.h"
 #include "core/scene/sky_cells.h"
 
@@ -65,7 +65,7 @@ SkyRecords sky_records(const SkyTexels& sky, const Vec3d& middle, const Vec3d& u
   for (std::uint32_t tile = 0; tile < records.tiles.size(); ++tile) {
     weights.push_back(cells_of(records, tile).all());
   }
-  records.choices = alias_table(weights);
+  records.choices = choice_tree(weights);
   return records;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/record/record.h"
 #include "core/scene/sky_texels.h"
@@ -11,9 +12,9 @@
 namespace dmpc::core {
 
 struct SkyRecords {
-  SkyReference reference;              ///< without addresses
-  std::vector<TextureTile> tiles;      ///< as many as `tiles`
-  std::vector<EmitterChoice> choices;  ///< as many
+  SkyReference reference;           ///< without addresses
+  std::vector<TextureTile> tiles;   ///< as many as `tiles`
+  std::vector<ChoiceNode> choices;  ///< by which one of `tiles` is selected
 };
 
 /// For a sky that has a picture, in a grid with `middle` and `up` as in SkyReference.

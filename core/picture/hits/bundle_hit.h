@@ -95,10 +95,10 @@ class BundleShader {
   bool step(Address& absent, const Shoot& shoot, const Shine& shine) {
     if ((hits_.phase == Phase::surface && !read_surfaces(absent)) ||
         (hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) ||
-        (hits_.phase == Phase::emitter &&
-         !(read_stage(HitState::Stage::emitter_choice, absent, shoot) && read_stage(HitState::Stage::emitter, absent, shoot))) ||
+        (hits_.phase == Phase::emitter && !(read_choices(HitState::Stage::emitter_choice, absent, shoot) &&
+                                            read_stage(HitState::Stage::emitter, absent, shoot))) ||
         (hits_.phase == Phase::sky &&
-         !(read_stage(HitState::Stage::sky_choice, absent, shoot) && read_stage(HitState::Stage::sky_aim, absent, shoot)))) {
+         !(read_choices(HitState::Stage::sky_choice, absent, shoot) && read_stage(HitState::Stage::sky_aim, absent, shoot)))) {
       return false;
     }
     if (hits_.phase == Phase::surface && shader_.hits_glow()) {
@@ -125,6 +125,16 @@ class BundleShader {
   bool shoot_at_light(Address& absent, const Shoot& shoot);
   template <class Shoot>
   bool read_stage(HitState::Stage stage, Address& absent, const Shoot& shoot);
+  /// Goes down a tree of choices with all hits at once, node by node.
+  template <class Shoot>
+  bool read_choices(HitState::Stage stage, Address& absent, const Shoot& shoot) {
+    while (hits_.has_any_at(stage)) {
+      if (!read_stage(stage, absent, shoot)) {
+        return false;
+      }
+    }
+    return true;
+  }
   template <class Shoot>
   void shoot_children(HitState::Stage stage, const Shoot& shoot);
   template <class Shoot>

@@ -57,13 +57,13 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
     case HitState::Stage::light:
       return advance(header.lights, state.surface.next_light * sizeof(LightRecord));
     case HitState::Stage::emitter_choice:
-      return choice_address(header, state.surface.next_light);
+      return choice_address(header, state.choosing().node);
     case HitState::Stage::emitter:
       return emitter_address(header, state.surface.next_light);
     case HitState::Stage::sky:
       return sky_record(state.ray, header);
     case HitState::Stage::sky_choice:
-      return sky_choice_address(header.sky, state.surface.next_light);
+      return sky_choice_address(header.sky, state.choosing().node);
     case HitState::Stage::sky_aim:
       return sky_tile_address(header.sky, state.surface.next_light);
     default:

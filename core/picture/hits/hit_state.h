@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/base/vec.h"
+#include "core/picture/lights/choosing.h"
 #include "core/picture/surfaces/texture_footprint.h"
 #include "core/picture/surfaces/texture_lookup.h"
 #include "core/record/hit.h"
@@ -55,8 +56,8 @@ struct HitState {
   /// The surface that lights illuminate.
   struct Surface {
     MaterialRecord material;
-    std::uint32_t next_light = 0;  ///< after the lights: the choice of an emitter or of a tile of the sky, or the chosen one
-    float place = 0;               ///< the first of two numbers for a point on it: DrawnEmitter::place
+    std::uint32_t next_light = 0;  ///< after the lights: DrawnEmitter::index, of an emitter or of a tile of the sky
+    float place = 0;               ///< DrawnEmitter::place; while they are selected, both are a Choosing
   };
 
   /// Factors of highlight and mirror, relative to the material's `specular`, which is their brightest channel.
@@ -84,6 +85,12 @@ struct HitState {
   };
 
   HitState() : surface() {}
+
+  Choosing choosing() const { return Choosing::from({surface.next_light, surface.place}); }
+  void keep(const DrawnEmitter& drawn) {
+    surface.next_light = drawn.index;
+    surface.place = drawn.place;
+  }
 
   /// The instance of the mesh whose triangle was hit, until point, normals and clearance are known: stored in their place.
   void set_place(const InstanceRecord& instance) {

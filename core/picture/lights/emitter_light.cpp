@@ -54,21 +54,7 @@ std::optional<LightSample> aim_at_sphere(const EmitterRecord& emitter, const Vec
   return LightSample{towards, distance * (1.0 - off) - radius * cosine, cosine, double{emitter.chance} / (two_pi * less)};
 }
 
-float below_one(double number) { return std::min(static_cast<float>(number), 0x1.fffffep-1F); }
-
 }  // namespace
-
-DrawnEmitter choice_of(double number, std::uint32_t count) {
-  const double place = number * count;
-  const std::uint32_t index = std::min(static_cast<std::uint32_t>(place), count - 1);
-  return {index, below_one(place - index)};
-}
-
-DrawnEmitter drawn_by(const EmitterChoice& choice, const DrawnEmitter& at) {
-  const double threshold{choice.threshold}, place{at.place};
-  return place < threshold ? DrawnEmitter{at.index, below_one(place / threshold)}
-                           : DrawnEmitter{choice.other, below_one((place - threshold) / (1.0 - threshold))};
-}
 
 std::optional<LightSample> aim_at(const EmitterRecord& emitter, const Vec3d& from, const SamplePair& pair) {
   return emitter.kind == PrimitiveKind::sphere ? aim_at_sphere(emitter, from, pair) : aim_at_triangle(emitter, from, pair);

@@ -10,19 +10,6 @@
 
 namespace dmpc::core {
 
-/// An emitter, or its entry in the table of choices, and a number for the point on it.
-struct DrawnEmitter {
-  std::uint32_t index = 0;
-  float place = 0;  ///< below 1: uniform, whichever emitter was drawn
-};
-
-/// The entry of a table of `count` choices, 1 or more, that a number in [0, 1) selects; with one it is the emitter. If numbers
-/// are evenly spread, so is the place within each entry and on each drawn emitter: samples are well distributed both over
-/// emitters and on each.
-DrawnEmitter choice_of(double number, std::uint32_t count);
-/// The emitter that is drawn at this choice.
-DrawnEmitter drawn_by(const EmitterChoice& choice, const DrawnEmitter& at);
-
 struct LightSample {
   Vec3d towards;       ///< unit direction to the point
   double distance;     ///< grid-local

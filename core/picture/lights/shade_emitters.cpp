@@ -8,6 +8,7 @@
 #include "core/picture/lights/emitter_light.h"
 #include "core/picture/shade.h"
 #include "core/picture/surfaces/surface_response.h"
+#include "core/record/choice_node.h"
 
 namespace dmpc::core {
 namespace {
@@ -46,13 +47,9 @@ bool Shader::aims_at_emitter(const HitState& state) const {
   return !is_needless;
 }
 
-/// The index needs more digits than one number of a pair has, since a table may have many entries.
 void Shader::begin_choice(HitState& state, std::uint32_t count) const {
-  const double number =
-      pair_of(state.ray, Purpose::place).x + (count > 1 ? pair_of(state.ray, Purpose::emitter).x * 0x1p-32 : 0.0);
-  const DrawnEmitter drawn = choice_of(number, count);
-  state.surface.next_light = drawn.index;
-  state.surface.place = drawn.place;
+  const SamplePair place = pair_of(state.ray, Purpose::place);
+  state.keep(count > 1 ? Choosing::of(place.x, pair_of(state.ray, Purpose::emitter).x).stored() : DrawnEmitter::at(0, place.x));
 }
 
 void Shader::begin_emitter(HitState& state) const {
@@ -60,15 +57,11 @@ void Shader::begin_emitter(HitState& state) const {
   state.stage = header_.emitter_count > 1 ? Stage::emitter_choice : Stage::emitter;
 }
 
-void Shader::draw(HitState& state, const std::byte* choice) {
-  const DrawnEmitter drawn = drawn_by(read<EmitterChoice>(choice), {state.surface.next_light, state.surface.place});
-  state.surface.next_light = drawn.index;
-  state.surface.place = drawn.place;
-}
-
-void Shader::read_choice(HitState& state, const std::byte* record) const {
-  draw(state, record);
-  state.stage = Stage::emitter;
+void Shader::read_choice(HitState& state, const std::byte* record, std::uint32_t count, Stage next) {
+  Choosing at = state.choosing();
+  const std::optional<DrawnEmitter> drawn = at.step(read<ChoiceNode>(record), count);
+  state.keep(drawn ? *drawn : at.stored());
+  state.stage = drawn ? next : state.stage;
 }
 
 bool Shader::read_emitter(HitState& state, const std::byte* record, Ray& child) const {

@@ -47,16 +47,12 @@ bool Shader::aims_at_sky(const HitState& state) const {
 /// Goes on to the sky tile that is sampled, if there is one, else to the stage after all lights.
 void Shader::end_emitters(HitState& state) const {
   if (aims_at_sky(state)) {
-    begin_choice(state, sky_tile_count(header_.sky));
-    state.stage = Stage::sky_choice;
+    const std::uint32_t tiles = sky_tile_count(header_.sky);
+    begin_choice(state, tiles);
+    state.stage = tiles > 1 ? Stage::sky_choice : Stage::sky_aim;
   } else {
     state.stage = after_lights(state);
   }
-}
-
-void Shader::read_sky_choice(HitState& state, const std::byte* record) const {
-  draw(state, record);
-  state.stage = Stage::sky_aim;
 }
 
 bool Shader::read_sky_aim(HitState& state, const std::byte* record, Ray& child) const {

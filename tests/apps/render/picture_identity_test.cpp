@@ -147,6 +147,7 @@ TEST_CASE("how many emitters paths aim at is a fact of a scene in which somethin
   const auto shine = [](core::Scene& scene) { scene.materials[0].emission = {1, 1, 1}; };
   const auto by_paths = [](RenderOptions& options) { options.picture.transport.kind = core::TransportKind::paths; };
   CHECK(contains(difference(shine, by_paths), "emitters is 1024, here there is none"));
+  CHECK(contains(difference(shine, by_paths), "light sampling is by inversion, here there is none"));
   CHECK(!contains(difference({}, by_paths), "emitters"));
   CHECK(!contains(difference(shine), "emitters"));
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/picture/lights/choosing.h"
 #include "core/picture/lights/emitter_light.h"
 #include "core/picture/sampling/sample_pair.h"
 
@@ -12,10 +13,7 @@ using core::Vec3f;
 std::optional<PlainAim> plain_aim(const PlainStage& stage, const Vec3f& from, const core::SamplePair& emitter,
                                   const core::SamplePair& place) {
   const auto count = static_cast<std::uint32_t>(stage.emitters().size());
-  core::DrawnEmitter drawn = core::choice_of(place.x + (count > 1 ? emitter.x * 0x1p-32 : 0.0), count);
-  if (count > 1) {
-    drawn = core::drawn_by(stage.choices()[drawn.index], drawn);
-  }
+  const core::DrawnEmitter drawn = core::drawn_from(stage.choices(), count, place.x, emitter.x);
   const core::EmitterRecord& record = stage.emitters()[drawn.index];
   const auto aim = record.kind == core::PrimitiveKind::sphere
                        ? aim_at_sphere(record.corner[0], record.corner[1].x, record.chance, from, {double{drawn.place}, place.y})

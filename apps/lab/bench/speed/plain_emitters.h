@@ -14,7 +14,7 @@ struct PlainAim : EmitterAim<float> {
   core::Color radiance;
 };
 
-/// Samples a point from `from` with our records, alias table and formulas (core/picture/lights/emitter_light.h). Returns nothing
+/// Samples a point from `from` with our records, tree of choices and formulas (core/picture/lights). Returns nothing
 /// from within a sphere, or where a triangle is seen edge-on. Requires emitters.
 std::optional<PlainAim> plain_aim(const PlainStage& stage, const core::Vec3f& from, const core::SamplePair& emitter,
                                   const core::SamplePair& place);

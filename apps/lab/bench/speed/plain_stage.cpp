@@ -84,8 +84,8 @@ PlainStage::PlainStage(const Subject& subject)
       materials_(materials_in(records_, settings_.header)),
       lights_(records_at<core::LightRecord>(records_, settings_.header.lights, settings_.header.light_count)),
       emitters_(records_at<core::EmitterRecord>(records_, settings_.header.emitters, settings_.header.emitter_count)),
-      choices_(records_at<core::EmitterChoice>(records_, core::choice_address(settings_.header, 0),
-                                               static_cast<std::uint32_t>(emitters_.size()))) {
+      choices_(records_at<core::ChoiceNode>(records_, core::choice_address(settings_.header, 0),
+                                            core::choice_node_count(settings_.header.emitter_count))) {
   const PlainShapes& shapes = tree_.shapes();
   const std::vector<core::Database::Place> places = subject.database.find_places();
   shading_.reserve(shapes.triangles.size() + shapes.curved.size());

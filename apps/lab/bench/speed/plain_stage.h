@@ -7,6 +7,7 @@
 #include "apps/lab/bench/speed/embree_tree.h"
 #include "apps/scene/subject.h"
 #include "core/base/vec.h"
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/record/record.h"
 
@@ -73,9 +74,9 @@ class PlainStage {
   const core::RenderSettings& settings() const { return settings_; }
   const std::vector<PlainMaterial>& materials() const { return materials_; }
   const std::vector<core::LightRecord>& lights() const { return lights_; }
-  /// The emitters that paths sample, and the alias table from which they are drawn.
+  /// The emitters that paths sample, and the tree by which one is selected.
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
-  const std::vector<core::EmitterChoice>& choices() const { return choices_; }
+  const std::vector<core::ChoiceNode>& choices() const { return choices_; }
   /// Whether there are spheres or cones.
   bool is_curved() const { return !tree_.shapes().quadrics.empty(); }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !tree_.shapes().triangles.empty(); }
@@ -97,7 +98,7 @@ class PlainStage {
   std::vector<PlainMaterial> materials_;
   std::vector<core::LightRecord> lights_;
   std::vector<core::EmitterRecord> emitters_;
-  std::vector<core::EmitterChoice> choices_;
+  std::vector<core::ChoiceNode> choices_;
   std::vector<core::ShadingReference> shading_;  ///< per triangle, then per curved surface
 };
 

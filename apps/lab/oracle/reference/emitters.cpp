@@ -4,7 +4,8 @@
 
 #include "apps/lab/oracle/reference/ray_log.h"
 #include "core/base/expect.h"
-#include "core/picture/lights/emitter_light.h"
+#include "core/picture/lights/choosing.h"
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/record/records.h"
 
@@ -27,7 +28,9 @@ void aim_as_product(ReferenceScene& scene, const core::Database& database) {
     core::expect(body != core::no_primitive, "what the product aims at has a body");
     scene.emitters.push_back({body, double{record.chance}});
     scene.bodies[body].is_light_sampled = true;
-    scene.choices.push_back(core::read<core::EmitterChoice>(records.find(core::choice_address(header, i))));
+  }
+  for (std::uint32_t i = 0; i < core::choice_node_count(header.emitter_count); ++i) {
+    scene.choices.push_back(core::read<core::ChoiceNode>(records.find(core::choice_address(header, i))));
   }
   scene.emitter_density = double{header.emitter_density} * header.frame.scale * header.frame.scale;
 }
@@ -35,10 +38,7 @@ void aim_as_product(ReferenceScene& scene, const core::Database& database) {
 std::optional<ReferenceTarget> aim_from(const ReferenceScene& scene, const Vec3d& from, const core::SamplePair& place,
                                         const core::SamplePair& digits) {
   const auto count = static_cast<std::uint32_t>(scene.emitters.size());
-  core::DrawnEmitter drawn = core::choice_of(count > 1 ? place.x + digits.x * 0x1p-32 : place.x, count);
-  if (count > 1) {
-    drawn = core::drawn_by(scene.choices[drawn.index], drawn);
-  }
+  const core::DrawnEmitter drawn = core::drawn_from(scene.choices, count, place.x, digits.x);
   const ReferenceEmitter& emitter = scene.emitters[drawn.index];
   const ReferenceBody& body = scene.bodies[emitter.body];
   const auto& [a, b, c] = body.place;

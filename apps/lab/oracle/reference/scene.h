@@ -7,6 +7,7 @@
 #include "apps/lab/oracle/reference/body.h"
 #include "apps/lab/oracle/reference/texture.h"
 #include "core/base/box.h"
+#include "core/record/choice_node.h"
 #include "core/record/emitter.h"
 #include "core/scene/scene.h"
 
@@ -40,8 +41,8 @@ struct ReferenceScene {
   bool has_emission = false;  ///< some material emits
   // These are empty unless aim_as_product() was called:
   std::vector<ReferenceEmitter> emitters;
-  std::vector<core::EmitterChoice> choices;  ///< the product's choices, from which one is drawn
-  double emitter_density = 0;                ///< probability density of a point on an emitter, by area, over its emission
+  std::vector<core::ChoiceNode> choices;  ///< the product's tree, by which one is selected
+  double emitter_density = 0;             ///< probability density of a point on an emitter, by area, over its emission
 
   /// Returns whether hits send light by themselves.
   bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }

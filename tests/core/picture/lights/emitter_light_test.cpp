@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/base/sampling.h"
-#include "core/database/shading/alias_table.h"
+#include "core/database/shading/choice_tree.h"
+#include "core/picture/lights/choosing.h"
+#include "core/record/choice_node.h"
 #include "core/record/ray.h"
 
 namespace emitter_light_test {
@@ -149,31 +151,46 @@ TEST_CASE("a density travels in 16 bits, rounded to 1 in 256, and none of them i
   CHECK(density_of(0) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("an alias table draws each as often as its weight says, by one look-up") {
-  const std::vector<double> weights{5, 1e-4, 0.3, 2, 0.3, 7, 0.001};
-  double sum = 0;
-  for (const double weight : weights) {
-    sum += weight;
+TEST_CASE("a tree selects each choice as often as its weight says, from any number of choices, and so do its numbers at random") {
+  for (const std::size_t count : {1U, 2U, 7U, 8U, 13U, 14U, 100U}) {
+    CAPTURE(count);
+    std::vector<double> weights;
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      weights.push_back(i % 7 == 3 ? 1e-5 : i % 5 == 1 ? 7 : 0.3);
+      sum += weights.back();
+    }
+    const std::vector<ChoiceNode> tree = choice_tree(weights);
+    REQUIRE(tree.size() == choice_node_count(static_cast<std::uint32_t>(count)));
+    std::vector<int> found(count);
+    std::vector<double> places(count);
+    constexpr int many = 1 << 18;
+    for (int i = 0; i < many; ++i) {
+      const DrawnEmitter drawn = drawn_from(tree, static_cast<std::uint32_t>(count), (i + 0.5) / many, 0.5);
+      REQUIRE(drawn.place >= 0);
+      REQUIRE(drawn.place < 1);
+      REQUIRE(drawn.index < count);
+      ++found[drawn.index];
+      places[drawn.index] += double{drawn.place};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      CHECK(std::fabs(found[i] - many * weights[i] / sum) <= 1);
+      CHECK(places[i] / std::max(found[i], 1) ==
+            doctest::Approx(found[i] > 0 ? 0.5 : 0).epsilon(found[i] > 1000 ? 0.01 : 0.5).scale(0));
+    }
   }
-  const std::vector<EmitterChoice> table = alias_table(weights);
-  const std::vector<double> chances = chances_of(table);
-  std::vector<int> found(weights.size());
-  std::vector<double> places(weights.size());
-  constexpr int many = 1 << 20;
-  for (int i = 0; i < many; ++i) {
-    const DrawnEmitter at = choice_of((i + 0.5) / many, static_cast<std::uint32_t>(table.size()));
-    const DrawnEmitter drawn = drawn_by(table[at.index], at);
-    REQUIRE(drawn.place >= 0);
-    REQUIRE(drawn.place < 1);
-    ++found[drawn.index];
-    places[drawn.index] += double{drawn.place};
-  }
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    CHECK(chances[i] == doctest::Approx(weights[i] / sum).epsilon(1e-6).scale(0));
-    CHECK(std::fabs(found[i] - many * weights[i] / sum) < 8);
-    CHECK(places[i] / found[i] == doctest::Approx(0.5).epsilon(found[i] > 1000 ? 0.01 : 0.1).scale(0));
-  }
-  CHECK(alias_table(std::vector<double>{3.0})[0].threshold == 1);
+}
+
+TEST_CASE("the largest number selects the last choice, and the way there keeps node and number") {
+  const std::vector<double> weights(50, 1.0);
+  const std::vector<ChoiceNode> tree = choice_tree(weights);
+  const double last = 1 - 0x1p-32;
+  CHECK(step_of(tree[0], last).child == 6);
+  const DrawnEmitter drawn = drawn_from(tree, 50, last, last);
+  CHECK(drawn.place > 0.99F);
+  const Choosing at{0xabcdef, 1 - 0x1p-40}, kept = Choosing::from(at.stored());
+  CHECK(kept.node == at.node);
+  CHECK(kept.number == at.number);
 }
 
 }  // namespace emitter_light_test
