@@ -5,6 +5,7 @@
 
 #include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
+#include "core/base/nearest_word.h"
 
 namespace dmpc::apps {
 
@@ -19,9 +20,11 @@ constexpr std::span<const std::string_view> kinds = std::span(core::layer_names)
 Layer parse_layer(const std::string& word, const std::string& text) {
   const auto name = std::find(kinds.begin(), kinds.end(), word);
   if (name == kinds.end()) {
+    const std::string meant = core::did_you_mean(word, std::vector<std::string>(kinds.begin(), kinds.end()));
     throw UsageError("--aov=" + text + ": expected " + joined(kinds, "|") +
                      ", a colon and a file, such as albedo:albedo.exr, or some of them for the picture's own file, such as "
-                     "albedo,normal");
+                     "albedo,normal" +
+                     (meant.empty() ? "" : "." + meant));
   }
   return static_cast<Layer>(1 + (name - kinds.begin()));
 }
