@@ -133,9 +133,9 @@ def _interrupt(process):
             process.communicate()
 
 
-def run(line, passing=()):
-    """What dmpc prints. Raises an Error with what it says on stderr, unless it ends with a status of `passing`. An exception, such as
-    KeyboardInterrupt, ends dmpc before it goes on."""
+def run(line, passing=(), noted=lambda sentence: None):
+    """What dmpc prints. Raises an Error with what it says on stderr, unless it ends with a status of `passing`; `noted` is called with
+    each note that it makes there nevertheless. An exception, such as KeyboardInterrupt, ends dmpc before it goes on."""
     process = subprocess.Popen([path(), *line], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                start_new_session=True, preexec_fn=_end_with(os.getpid()))
     _running.add(process)
@@ -152,6 +152,8 @@ def run(line, passing=()):
     if process.returncode != 0 and process.returncode not in passing:
         said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
         raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")
+    for sentence in errors.decode(errors="replace").splitlines():
+        noted(sentence.removeprefix("dmpc: "))
     return output.decode()
 
 

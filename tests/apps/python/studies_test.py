@@ -57,6 +57,8 @@ class TableTest(unittest.TestCase):
         table.add(["x", "y"])
         self.assertIn("| row | " + "a" * 80 + " |\n", table.text("markdown"))
         self.assertIn("|   2 | y ", table.text("markdown"))
+        self.assertNotIn("| row |", Table("120 letters", [Column("a" * 57), Column("b" * 56)]).text("markdown"))
+        self.assertIn("| row |", Table("121 letters", [Column("a" * 57), Column("b" * 57)]).text("markdown"))
 
     def test_rows_below_a_heading_stand_in_a_table_of_their_own(self):
         table = Table("Title", [Column("on", is_heading=True), Column("who"), Column("seconds", "s", 1)])

@@ -1,5 +1,7 @@
 """The runs of the study: their command lines, and what is kept of each."""
 
+import functools
+
 from ..studies import runs
 from ..studies.judging import priced_for
 from . import design
@@ -9,11 +11,12 @@ _COLUMNS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait",
 
 
 def kept_in(folder, jobs, say):
-    return runs.Runs(folder, jobs, _figures, _database_words, say)
+    return runs.Runs(folder, jobs, _figures, functools.partial(_database_words, say), say)
 
 
-def _database_words(name):
+def _database_words(say, name):
     scene, structure, page, transport = name.split(".")
+    say(f"building {scene} for {transport}, {structure}, pages of {page}")
     light = ["--transport=paths", "--sky=1"] if transport == "paths" else []
     return [scene, *design.SCENES[scene][1], *light, f"--structure={structure}", f"--page-size={page}"]
 
@@ -21,8 +24,14 @@ def _database_words(name):
 def _figures(stats):
     return {"seconds": stats["virtual_seconds"]["total"], "film": stats["film_hash"], "run": stats["run_hash"],
             "processor": stats["seconds"]["user"] + stats["seconds"]["system"], "memory": stats["options"]["node_memory"],
-            "host": round(runs.host_busy(stats), 4), "rays": stats["rays"]["total"],
+            "host": _host_busy(stats), "rays": stats["rays"]["total"],
             "share": {name: round(stats["time_percent"][name], 3) for name in _COLUMNS}}
+
+
+def _host_busy(stats):
+    """The share of the run in which the host sends or receives; the pages that it serves belong to the systems that have it so."""
+    host, total = stats["host"]["virtual_seconds"], stats["virtual_seconds"]["total"]
+    return round((host["sending"] + host["receiving"]) / total, 4) if host and total else 0.0
 
 
 def line_of(cell, scene, memory, system, setting, draw=None):

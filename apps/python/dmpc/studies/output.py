@@ -23,7 +23,7 @@ class Messages:
     """On stderr. Progress and rows are for a user who waits at a terminal."""
 
     def __init__(self, options):
-        self._is_quiet, self._has_terminal = options.quiet, sys.stderr.isatty() and not options.quiet
+        self._has_terminal = sys.stderr.isatty() and not options.quiet
         self._shows_rows = self._has_terminal and not options.output and options.format == "markdown"
 
     def row(self, text):
@@ -35,10 +35,6 @@ class Messages:
             self._write(f"runs: {done} of {total}" if done < total else "")
 
     def say(self, text):
-        if not self._is_quiet:
-            self._write(f"dmpc: {text}\n")
-
-    def complain(self, text):
         self._write(f"dmpc: {text}\n")
 
     def _write(self, text):
@@ -46,25 +42,27 @@ class Messages:
         sys.stderr.flush()
 
 
-def run(measure, rows, options, messages, closing=lambda: ()):
-    """Calls measure(), which adds to the table `rows`, and writes that, whatever ended the measuring, with the closing notes; the exit
-    status."""
+def run(measure, rows, options, messages, closing=lambda: (), draw=None):
+    """Calls measure(), which adds to the table `rows`, and writes that, whatever ended the measuring, with the closing notes; draw() makes
+    what else there is of the rows. The exit status."""
     _take_signals()
     status = 0
     try:
         measure()
     except KeyboardInterrupt:
         rows.note("Interrupted: rows are missing.")
-        messages.complain("interrupted, " + ("the table has the rows finished before" if rows.rows else "nothing was written"))
+        messages.say("interrupted, " + ("the table has the rows finished before" if rows.rows else "nothing was written"))
         status = INTERRUPTED
     except program.Error as error:
         rows.note("Ended by an error: rows are missing.")
-        messages.complain(error)
+        messages.say(error)
         status = program.status_of(error)
     if rows.rows or status == 0:
         for note in closing():
             rows.note(note)
         status = write(rows.text(options.format), options.output, messages) or status
+        if draw:
+            draw()
     return status
 
 
@@ -97,6 +95,6 @@ def write(text, path, messages):
         os.replace(new, target)
     except OSError as error:
         where = f"-o {path}" if path else "the table could not be written to the standard output"
-        messages.complain(f"{where}: {error.strerror}")
+        messages.say(f"{where}: {error.strerror}")
         return program.status_of(program.InputError())
     return 0

@@ -15,13 +15,14 @@ class Runs:
     share, which lines name as databases/NAME.pages and machines/MACHINE.DRAW.json.
 
     `jobs` runs go side by side. `figures` returns what is kept of the counters of one, `database` the words by which dmpc builds the
-    database of a name. `say` is called with sentences, `progress` with the runs that have ended and all that were asked for together.
+    database of a name. `say` is called with what dmpc notes of a scene, `progress` with the runs that have ended and all that were asked for together.
+    `machines` has the files of machines that are no presets, by their names in lines.
     """
 
-    def __init__(self, folder, jobs, figures, database, say=lambda text: None, progress=lambda done, total: None):
+    def __init__(self, folder, jobs, figures, database, say=lambda text: None, progress=lambda done, total: None, machines={}):
         self.folder, self.jobs, self.say, self._progress = pathlib.Path(folder).absolute(), jobs, say, progress
-        self._figures, self._database = figures, database
-        self._kept, self._lock = {}, threading.Lock()
+        self._figures, self._database, self._machines = figures, database, machines
+        self._kept, self._lock, self._noted = {}, threading.Lock(), set()
         for name in ("machines", "databases"):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
         if self._file.exists():
@@ -68,15 +69,20 @@ class Runs:
         """The path of the database of this name, which is built if there is none."""
         path = self.folder / "databases" / f"{name}.pages"
         if not path.exists():
-            self.say(f"building {name}")
-            program.run(["build", *self._database(name), "-o", str(path)])
+            program.run(["build", *self._database(name), "--quiet", "-o", str(path)], noted=self._note)
         return path
+
+    def _note(self, sentence):
+        """Says what dmpc notes of a scene, once."""
+        if sentence not in self._noted:
+            self._noted.add(sentence)
+            self.say(sentence)
 
     def _prepare(self, line):
         if found := re.search(r"--machine=machines/(\S+)\.(\d+)\.json", line):
             path = self.folder / "machines" / f"{found[1]}.{found[2]}.json"
             if not path.exists():
-                path.write_text(program.run(["machine", found[1], f"--draw={found[2]}"]))
+                path.write_text(program.run(["machine", self._machines.get(found[1], found[1]), f"--draw={found[2]}"]))
         if found := re.match(r"render databases/(\S+)\.pages ", line):
             self.database(found[1])
 
@@ -96,12 +102,6 @@ class Runs:
 def line_of(words):
     """A command line as it is kept: words that have blanks or marks are quoted as a shell wants them."""
     return shlex.join(words)
-
-
-def host_busy(stats):
-    """The share of a run on a modelled machine in which the host sends or receives."""
-    host, total = stats["host"]["virtual_seconds"], stats["virtual_seconds"]["total"]
-    return (host["sending"] + host["receiving"]) / total if host and total else 0.0
 
 
 def seconds_of(result):
