@@ -50,7 +50,8 @@ ChoiceList strategies() {
 ChoiceList named_systems() {
   ChoiceList all{"systems", "--system=", {}};
   for (const SystemDescription& description : systems()) {
-    all.entries.push_back({description.name, std::string(description.meaning) + ": " + options_of(description.system)});
+    all.entries.push_back({description.name, std::string(description.meaning) + ": " + options_of(description.system) +
+                                                 "; it had " + description.had_what + " (" + name_of(description.had) + ")"});
   }
   return all;
 }

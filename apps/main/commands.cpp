@@ -7,8 +7,8 @@
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
 #include "apps/lab/study/command.h"
-#include "apps/lab/study/decades/command.h"
 #include "apps/lab/study/paper/command.h"
+#include "apps/lab/study/python/python_study.h"
 #include "apps/lab/study/references/command.h"
 #include "apps/lab/study/sweep/command.h"
 
@@ -27,11 +27,12 @@ void declare_all(Commands& commands) {
   commands.add(TrafficStudy::name, TrafficStudy::description, StudyOptions{.study = TrafficStudy()}, study_command);
   commands.add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
   commands.add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
-  commands.add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
+  commands.add("systems", "The systems that the 1994 article classifies, side by side on one machine", systems_study(),
+               python_study_command);
   commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
   commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
-  commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025", DecadesOptions(),
-               study_decades_command);
+  commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025", decades_study(),
+               python_study_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
   commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", StudySweepOptions(),

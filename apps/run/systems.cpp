@@ -161,44 +161,6 @@ std::string options_of(System system) {
   return text;
 }
 
-System find_system(const std::string& name) {
-  const auto* const found = std::find_if(descriptions.begin(), descriptions.end(),
-                                         [&](const SystemDescription& description) { return description.name == name; });
-  if (found == descriptions.end()) {
-    throw core::UsageError("there is no system \"" + name + "\": one of " + system_names());
-  }
-  return found->system;
-}
-
-std::string system_names() {
-  std::string names;
-  for (const SystemDescription& description : descriptions) {
-    names += (names.empty() ? "" : &description == &descriptions.back() ? " and " : ", ") + std::string(description.name);
-  }
-  return names;
-}
-
-StrategyOptions strategy_of(System system) {
-  StrategyOptions run;
-  DatabaseOptions database;
-  for_each_setting(system, run, database, [](const char*, auto& field, const auto& value) { field = value; });
-  return run;
-}
-
-DatabaseOptions database_of(System system) {
-  DatabaseOptions database = usual_database(strategy_of(system).strategy);
-  StrategyOptions run;
-  for_each_setting(system, run, database, [](const char*, auto& field, const auto& value) { field = value; });
-  return database;
-}
-
-DatabaseOptions original_database_of(System system) {
-  DatabaseOptions database = database_of(system);
-  database.build.structure = description_of(system).had;
-  database.build.voxels = core::article_voxels;
-  return database;
-}
-
 void add_system_option(OptionSet options, std::optional<System>& system) {
   OptionSet::Choices<System> choices;
   for (const SystemDescription& description : descriptions) {

@@ -41,16 +41,6 @@ const char* name_of(System system);
 /// Returns the options that the system stands for: "--strategy=svm --structure=extents".
 std::string options_of(System system);
 
-/// Returns the system of that name. Throws core::UsageError, which lists the names, if there is none.
-System find_system(const std::string& name);
-/// Returns "replicated, replicated-extents, ... and subsampled".
-std::string system_names();
-/// Returns the system's strategy, and its database.
-StrategyOptions strategy_of(System system);
-DatabaseOptions database_of(System system);
-/// Like database_of(), with the system's original structure; voxels by core::article_voxels.
-DatabaseOptions original_database_of(System system);
-
 void add_system_option(OptionSet options, std::optional<System>& system);
 /// For OptionSet::check_in_the_end(), before settle_database() and check_together(): sets the system's options in `run` and
 /// `database`. Throws core::UsageError for an option that contradicts the system.

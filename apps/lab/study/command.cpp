@@ -56,7 +56,7 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
   check_not_read(opened, files.names());
   const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
-  const bool is_kept = std::holds_alternative<SystemsStudy>(options.study) || std::holds_alternative<FramesStudy>(options.study);
+  const bool is_kept = std::holds_alternative<FramesStudy>(options.study);
   auto kept = is_kept ? std::optional(scene) : std::nullopt;
   const core::View view = scene.view;
   const core::Box bounds = core::bounds_of(scene, core::Parallel(0));
@@ -142,19 +142,7 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   }
 }
 
-/// A study that compares structures gets the scene from which to build them.
-void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
-  study.scene = options.picture.scene;
-  study.build = [&scene, &options](const core::BuildOptions& asked) {
-    DatabaseOptions other = options.database;
-    other.build.structure = asked.structure;
-    other.build.voxels = asked.voxels;
-    other.build.page_size_bytes = asked.page_size_bytes;
-    return build_subject_quietly(scene, options.picture, other);
-  };
-}
-
-/// One that also asks questions gets the scene from which to build their tree.
+/// A study that also asks questions gets the scene from which to build their tree.
 void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions& options) {
   study.build_tree = [&scene, &options] {
     const core::BuildOptions usual = usual_database(Strategy::forest).build;
@@ -174,9 +162,7 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
     study.load(check);
   }
   const auto [subject, digest, scene, view, bounds] = load(options, files, interrupt);
-  if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
-    give_scene(study, *scene, options);
-  } else if constexpr (std::is_same_v<OneStudy, FramesStudy>) {
+  if constexpr (std::is_same_v<OneStudy, FramesStudy>) {
     give_scene(study, *scene, options);
     study.own_view = view;
     study.bounds = bounds;
@@ -203,9 +189,6 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
 }  // namespace
 
 void add_options(OptionSet set, StudyOptions& options) {
-  if (std::holds_alternative<SystemsStudy>(options.study)) {
-    options.picture.resolution = SystemsStudy::resolution;
-  }
   std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
   add_options(set, options.picture);
   add_transport_options(set, options.picture);

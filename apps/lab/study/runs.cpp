@@ -80,12 +80,12 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
 
 /// Returns nothing if a signal prevented the run from finishing. Throws what the run throws. Only a plan that cannot be made is a
 /// misfit: later failures are errors.
-std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
+std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
                                                   const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
   StudyOutcome outcome;
   ReadyRun ready;
   try {
-    ready = make_ready(run.options, *run.database, *run.settings, interrupt_.token());
+    ready = make_ready(run, database_, settings_, interrupt_.token());
   } catch (const ComputerCapacityError&) {
     throw;
   } catch (const core::InputError& error) {
@@ -100,18 +100,11 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
 }
 
 void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Take& take) {
-  const std::vector<StudyRun> over_this = core::mapped<StudyRun>(runs, [&](const StrategyOptions& run) {
-    return StudyRun{run, &database_, &settings_};
-  });
-  run_side_by_side(over_this, take);
-}
-
-void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& take) {
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
-  for (const StudyRun& run : runs) {
-    core::expect(run.options.computer.machine.has_value(), "runs side by side have no threads");
-    note_prices(*run.options.computer.machine, *run.database);
+  for (const StrategyOptions& run : runs) {
+    core::expect(run.computer.machine.has_value(), "runs side by side have no threads");
+    note_prices(*run.computer.machine, database_);
   }
   std::vector<std::string> misfits;
   const auto measure = [&](std::size_t index) {

@@ -41,14 +41,6 @@ struct StudyOutcome {
 /// Adds notes about `who`, such as "8 nodes": what was reduced to fit, or why the scene does not.
 void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table);
 
-/// A run on a modelled machine, and the scene that it renders: the study's, maybe in another structure. The scene outlives the
-/// run.
-struct StudyRun {
-  StrategyOptions options;
-  const core::Database* database;
-  const core::RenderSettings* settings;
-};
-
 /// Returns the options with which studies that model a machine begin: the ipsc2, and defaults.
 StrategyOptions on_usual_machine();
 /// Returns "Machine ipsc2, ... (machine_digest 0123...)", for a note.
@@ -84,8 +76,6 @@ class StudyRuns {
   /// received a misfit for every run, if there are any; before that core::UsageError for options that their strategy does not
   /// take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has then received all
   /// runs before that one, and none after it.
-  void run_side_by_side(std::span<const StudyRun> runs, const Take& take);
-  /// Runs side by side over the study's database.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
   /// Takes down a note if the machine's prices are for other structures than the database's.
@@ -116,7 +106,7 @@ class StudyRuns {
   void compare_hash(std::uint64_t hash);
   template <class Options, class Render>
   auto run_shown(const std::string& computer, const core::RenderSettings& settings, Options options, const Render& render);
-  std::optional<StudyOutcome> outcome_of(const StudyRun& run,
+  std::optional<StudyOutcome> outcome_of(const StrategyOptions& run,
                                          const std::function<void(std::uint32_t, std::uint32_t)>& progress) const;
 
   const core::Database& database_;

@@ -9,14 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "apps/formats/resolution.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/table/plot.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/study_line.h"
-#include "apps/lab/study/memory_rule.h"
 #include "apps/lab/study/runs.h"
-#include "apps/run/systems.h"
 #include "apps/scene/subject.h"
 #include "core/scene/scene.h"
 #include "nodes/machine.h"
@@ -134,54 +131,11 @@ struct FramesStudy {
   std::string conclusion(const Table& table) const;
 };
 
-/// The tables in which systems are compared.
-enum class SystemTable : std::uint8_t {
-  described,  ///< each system as it had it when it was described
-  equal       ///< each on every structure at the best of one search, with equal memory
-};
-/// Returns the name on the command line.
-const char* name_of(SystemTable table);
-
-/// For each number of nodes a row for each system as it was described, and for each rule of memory a row for each system and
-/// structure: its options, its virtual time and its parts, the traffic, and the memory. The article could not make this
-/// comparison, since scenes and simulations of the systems that it classifies differ.
-struct SystemsStudy {
-  static constexpr const char* name = "systems";
-  static constexpr const char* description = "The systems that the 1994 article classifies, side by side on one machine";
-  static constexpr Resolution resolution{128, 128};  ///< by default
-
-  /// Builds the scene and its picture in the given structure, with the given rule for voxels and page size; the other options are
-  /// not used.
-  using Build = std::function<Subject(const core::BuildOptions&)>;
-
-  std::vector<System> chosen = all_systems();
-  std::vector<SystemTable> tables = {SystemTable::described, SystemTable::equal};
-  std::vector<std::uint32_t> node_counts = {64};
-  std::vector<MemoryRule> memories = {{}};
-  std::uint32_t draws = 100;  ///< of the machine's prices; 0: none
-  bool has_search = false;    ///< the steps of searches become notes
-  MachineDescription machine = *find_machine_preset("ipsc2");
-  std::string machine_name = "ipsc2";  ///< on the command line
-  std::string scene;                   ///< likewise, set by the caller
-  Build build;                         ///< required by measure()
-
-  static std::vector<System> all_systems();
-  void add_options(StudyLine line);
-  std::vector<Column> columns() const;
-  std::vector<Plot> plots() const;
-  /// Adds to `table`, which has columns(), the rows and notes: verdicts (apps/lab/study/systems/verdict.h), and why there are
-  /// none. Throws as StudyRuns does.
-  void measure(StudyRuns& runs, Table& table) const;
-  std::vector<std::string> notes(const std::string& scene) const;
-  /// The first verdict among the table's notes.
-  std::string conclusion(const Table& table) const;
-};
-
 /// One study; its file has all its code. Each has a `name` (the word on the command line) and a `description`. add_options()
 /// declares its own options; columns() are its table's, and plots() those of such a table. notes() explain the columns, and quote
 /// the 1994 article's result if the scene, as on the command line, is one of its own. conclusion() is a sentence or two computed
 /// from a table's rows, empty if there are too few. measure() adds row after row to a table that has columns(), as the runs end,
 /// and throws as StudyRuns does.
-using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, SystemsStudy, FramesStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, FramesStudy>;
 
 }  // namespace dmpc::apps

@@ -6,5 +6,5 @@ differ: cp build/release/apps/manual/*.py apps/python/dmpc/
 
 WITH_COMMAS = {
     "ambient", "background", "cache_pages", "columns", "knobs", "machines", "node_memory", "nodes", "parts", "reference_samples", "sky",
-    "systems", "tables", "tests", "threads", "trace_window"
+    "tests", "threads", "trace_window"
 }

@@ -38,6 +38,11 @@ class CapacityError(Error):
 _ERRORS = {1: InputError, 2: UsageError, 3: InternalError, 4: CapacityError}
 
 
+def status_of(error):
+    """The exit status by which dmpc tells such an error."""
+    return next((status for status, kind in _ERRORS.items() if isinstance(error, kind)), 1)
+
+
 def path():
     """The program: what the environment's DMPC names, or else the first dmpc of PATH."""
     found = shutil.which(os.environ.get("DMPC", "dmpc"))
@@ -108,6 +113,15 @@ def _end_with(parent):
 _TIMEOUT_SECONDS = 10  # for dmpc to end on an interruption; it cleans up what it has begun
 
 
+_running = set()  # dmpc's that this Python waits for
+
+
+def end_all():
+    """Interrupts those that other threads wait for, which get an Error."""
+    for process in list(_running):
+        process.send_signal(signal.SIGINT)
+
+
 def _interrupt(process):
     """Ends dmpc as Ctrl-C does, so that it takes its own children and scratch files with it; a second Ctrl-C ends it at once."""
     process.send_signal(signal.SIGINT)
@@ -119,11 +133,12 @@ def _interrupt(process):
             process.communicate()
 
 
-def run(line, passing=()):
-    """What dmpc prints. Raises an Error with what it says on stderr, unless it ends with a status of `passing`. An exception, such as KeyboardInterrupt, ends dmpc before it
-    goes on."""
+def run(line, passing=(), noted=lambda sentence: None):
+    """What dmpc prints. Raises an Error with what it says on stderr, unless it ends with a status of `passing`; `noted` is called with
+    each note that it makes there nevertheless. An exception, such as KeyboardInterrupt, ends dmpc before it goes on."""
     process = subprocess.Popen([path(), *line], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                start_new_session=True, preexec_fn=_end_with(os.getpid()))
+    _running.add(process)
     try:
         output, errors = process.communicate()
     except BaseException:
@@ -132,9 +147,13 @@ def run(line, passing=()):
         except subprocess.TimeoutExpired:
             pass
         raise
+    finally:
+        _running.discard(process)
     if process.returncode != 0 and process.returncode not in passing:
         said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
         raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")
+    for sentence in errors.decode(errors="replace").splitlines():
+        noted(sentence.removeprefix("dmpc: "))
     return output.decode()
 
 

@@ -96,19 +96,19 @@ def speedup(
 
 
 def systems(
-    scene: Text, *, nodes: Text | Sequence[Text] | None = None, systems: Text | Sequence[Text] | None = None, tables: Text | Sequence[Text]
-    | None = None, node_memory: Text | Sequence[Text] | None = None, search: bool = False, draws: int | None = None, machine: Text | None =
-    None, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] |
-    None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] |
-    None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below",
-    "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None,
-    depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None,
-    samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit",
-    "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None,
-    transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters:
-    int | None = None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text | None = None, record_order:
-    Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual",
-    "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    scene: Text, *, nodes: Text | Sequence[Text] | None = None, systems: Literal["replicated", "replicated-extents", "svm", "svm-extents",
+    "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled", "moving"] |
+    Sequence[Text] | None = None, tables: Literal["described", "equal"] | Sequence[Text] | None = None, node_memory: Text | Sequence[Text] |
+    None = None, search: bool = False, draws: int | None = None, machine: Text | None = None, camera: Text | None = None, light: Text |
+    Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text]
+    | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None,
+    missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None,
+    sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
+    Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
+    cutoff: Text | None = None, quality: Literal["draft", "good"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
+    "empty-regions", "background", "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport:
+    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None =
+    None, light_radius: Text | None = None, clamp: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())

@@ -19,7 +19,9 @@ os.environ["DMPC"] = PROGRAM
 os.environ["PYTHONPATH"] = MODULES
 sys.path.insert(0, MODULES)
 try:
-    from dmpc.decades import command, controls, design, memory, page, predictions, prices, runs, search, verdicts
+    from dmpc.decades import command, controls, design, memory, page, predictions, prices, runs, verdicts
+    from dmpc.studies import search
+    from dmpc.studies.runs import Runs
 except ModuleNotFoundError as error:
     print(f"skipped: {error}; tests/run installs what is missing")
     sys.exit(77)
@@ -128,16 +130,16 @@ class SearchTest(unittest.TestCase):
 
         kept = mock.Mock()
         kept.get.side_effect = answer
-        [(least, setting)] = search.in_step(kept, [search.descend(CELL, "rings-4-t1", 1 << 20, "svm")])
-        self.assertEqual(least, 2)
-        self.assertEqual(dict(setting), {"structure": "extents", "page-size": "4KiB", "in-flight": "1", "work-donor": "ring", "resident": "50"})
+        [found] = search.in_step(kept, [verdicts.search_of(CELL, "rings-4-t1", 1 << 20, "svm")])
+        self.assertEqual(found.seconds, 2)
+        self.assertEqual(found.setting, {"structure": "extents", "page-size": "4KiB", "in-flight": "1", "work-donor": "ring", "resident": "50"})
 
     def test_voxels_are_tried_only_on_machines_with_prices_for_them(self):
         tried = []
         kept = mock.Mock()
         kept.get.side_effect = lambda lines: tried.extend(lines) or [{"line": line, "seconds": 1} for line in lines]
         cells = [replace(CELL, machine=machine) for machine in ("ipsc2", "hdr")]
-        search.in_step(kept, [search.descend(cell, "rings-4-t1", 1 << 20, "svm") for cell in cells])
+        search.in_step(kept, [verdicts.search_of(cell, "rings-4-t1", 1 << 20, "svm") for cell in cells])
         voxels = [line for line in tried if "--structure=voxels" in line]
         self.assertEqual(len(voxels), 1)
         self.assertIn("--machine=ipsc2-1994", voxels[0])
@@ -191,7 +193,7 @@ class StudyTest(unittest.TestCase):
                           kept=1, draws=10, draws_least=10)
 
     def study(self, folder):
-        kept = runs.Runs(folder, 2, lambda text: None)
+        kept = runs.kept_in(folder, 2, lambda text: None)
         with mock.patch.dict(design.MACHINES, {"paragon": 1993}, clear=True), mock.patch.dict(design.RESOLUTIONS, {64: 32}), \
                 redirect_stderr(io.StringIO()):
             command.study(kept, self.SMALL, True)
@@ -208,7 +210,7 @@ class StudyTest(unittest.TestCase):
             lines = (pathlib.Path(folder) / "runs.jsonl").read_text().splitlines()
             self.assertEqual(len(lines), len(first))
             (pathlib.Path(folder) / "runs.jsonl").write_text("\n".join(lines[:-3]) + "\n" + lines[-1][:40])
-            with mock.patch.object(runs.Runs, "_run", autospec=True, side_effect=runs.Runs._run) as run:
+            with mock.patch.object(Runs, "_run", autospec=True, side_effect=Runs._run) as run:
                 again = self.study(folder)
             self.assertLessEqual(run.call_count, 3)
             self.assertGreater(run.call_count, 0)
@@ -217,7 +219,7 @@ class StudyTest(unittest.TestCase):
 
     def test_memories_grow_from_the_least_of_pages_to_that_of_copies(self):
         with tempfile.TemporaryDirectory() as folder:
-            steps = memory.steps_of(runs.Runs(folder, 2, print), "rings-4-t1", 64)
+            steps = memory.steps_of(runs.kept_in(folder, 2, print), "rings-4-t1", 64)
         self.assertEqual(len(steps), design.STEPS)
         self.assertEqual(steps, sorted(set(steps)))
 

@@ -270,8 +270,8 @@ class ImportTest(unittest.TestCase):
     def test_packages_that_are_missing_are_named(self):
         ended = subprocess.run([sys.executable, "-c", "import importlib.util as u; find = u.find_spec; import sys; hidden = sys.argv[2:]\n"
                                 "u.find_spec = lambda name, *more: None if name in hidden else find(name, *more)\n"
-                                "sys.path.insert(0, sys.argv[1])\nimport dmpc", MODULES, "pandas", "OpenImageIO"], capture_output=True, text=True)
-        self.assertIn("ModuleNotFoundError: dmpc needs pandas and OpenImageIO, which this Python does not have: on Debian, apt install "
+                                "sys.path.insert(0, sys.argv[1])\nimport dmpc\ndmpc.render", MODULES, "pandas", "OpenImageIO"], capture_output=True, text=True)
+        self.assertIn("ModuleNotFoundError: dmpc.render needs pandas and OpenImageIO, which this Python does not have: on Debian, apt install "
                       "python3-pandas python3-openimageio, for /usr/bin/python3", ended.stderr)
 
 

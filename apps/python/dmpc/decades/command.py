@@ -8,12 +8,13 @@ import sys
 import time
 
 from .. import program
-from . import controls, design, measuring, memory, page, predictions, prices, runs, search, verdicts
+from ..studies import search
+from . import controls, design, measuring, memory, page, predictions, prices, runs, verdicts
 
 
 def main(words):
     options = _parser().parse_args(words)
-    kept = runs.Runs(options.output, options.jobs, (lambda text: None) if options.quiet else _say)
+    kept = runs.kept_in(options.output, options.jobs, (lambda text: None) if options.quiet else _say)
     plan = design.QUICK_DESIGN if options.quick else design.WHOLE_DESIGN
     try:
         if options.part == "plan":

@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 
+from ..studies.search import Searched
+
 MACHINES = {"ipsc2": 1988, "paragon": 1993, "myrinet": 2005, "fdr": 2015, "hdr": 2022, "ndr": 2025}
-PRICED = {("ipsc2", "voxels"): "ipsc2-1994"}  # one computer, whose prices belong to a structure
 STEPS = 8  # of memory: from the least with which pages work to what whole copies need, in equal factors
 WHOLE = STEPS - 1
 
@@ -30,13 +31,6 @@ BUILT = ("landscape-8", "tetra-9", "tetra-10", "mount-11", "grove-5")
 FAMILIES = {"pages": "P", "questions": "Q", "rays": "R", "copies": "C"}
 
 
-@dataclass(frozen=True)
-class Searched:
-    """An option and its values, the system's default first."""
-    name: str
-    values: tuple
-
-
 PAGE = Searched("page-size", ("1KiB", "4KiB"))
 FLIGHT = Searched("in-flight", ("16", "1", "64"))
 DONOR = Searched("work-donor", ("ring", "host"))
@@ -51,7 +45,7 @@ class System:
     name: str
     family: str
     words: tuple  # that define it
-    searched: tuple
+    searched: tuple  # values from the system's default on
 
 
 SYSTEMS = {each.name: each for each in (

@@ -1,92 +1,24 @@
-"""Runs of dmpc on modelled machines, each kept by its command line: what was run once is never run again."""
+"""The runs of the study: their command lines, and what is kept of each."""
 
-import concurrent.futures
-import json
-import pathlib
-import re
-import threading
+import functools
 
-from .. import program
+from ..studies import runs
+from ..studies.judging import priced_for
 from . import design
 
 _COLUMNS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
             "messages", "idle_at_end")
 
 
-class Runs:
-    """The folder of a study: `runs.jsonl` has a line for each run, written when it ends."""
+def kept_in(folder, jobs, say):
+    return runs.Runs(folder, jobs, _figures, functools.partial(_database_words, say), say)
 
-    def __init__(self, folder, jobs, say):
-        self.folder, self.jobs, self.say = pathlib.Path(folder).absolute(), jobs, say
-        self._kept, self._lock = {}, threading.Lock()
-        for name in ("machines", "databases"):
-            (self.folder / name).mkdir(parents=True, exist_ok=True)
-        if self._file.exists():
-            for line in self._file.read_text().splitlines():
-                try:
-                    one = json.loads(line)
-                except json.JSONDecodeError:
-                    continue  # the line that was being written when the study was stopped
-                self._kept[one["line"]] = one
 
-    @property
-    def _file(self):
-        return self.folder / "runs.jsonl"
-
-    def __len__(self):
-        return len(self._kept)
-
-    def all(self):
-        return self._kept.values()
-
-    def kept(self, line):
-        return self._kept.get(line)
-
-    def get(self, lines):
-        """The results of these command lines, in their order; those that are missing are run side by side."""
-        missing = [line for line in dict.fromkeys(lines) if line not in self._kept]
-        if missing:
-            for line in missing:
-                self._prepare(line)
-            with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-                done = [pool.submit(self._run, line) for line in missing]
-                try:
-                    for one in concurrent.futures.as_completed(done):
-                        one.result()
-                except BaseException:
-                    pool.shutdown(cancel_futures=True)
-                    raise
-        return [self._kept[line] for line in lines]
-
-    def _prepare(self, line):
-        """Makes what several runs share: drawn machines, databases."""
-        drawn = re.search(r"--machine=machines/(\S+)\.(\d+)\.json", line)
-        if drawn:
-            self._write(f"machines/{drawn[1]}.{drawn[2]}.json", lambda: program.run(["machine", drawn[1], f"--draw={drawn[2]}"]))
-        database = re.match(r"render (databases/(\S+)\.(\S+)\.(\S+)\.(\S+)\.pages) ", line)
-        if database and not (self.folder / database[1]).exists():
-            _, scene, structure, page, transport = database.groups()
-            self.say(f"building {scene} for {transport}, {structure}, pages of {page}")
-            light = ["--transport=paths", "--sky=1"] if transport == "paths" else []
-            program.run(["build", scene, *design.SCENES[scene][1], *light, f"--structure={structure}", f"--page-size={page}",
-                         "-o", str(self.folder / database[1])])
-
-    def _write(self, name, text):
-        path = self.folder / name
-        if not path.exists():
-            path.write_text(text())
-
-    def _run(self, line):
-        words = [str(self.folder / word) if word.startswith("databases/") else
-                 word.replace("=machines/", f"={self.folder}/machines/") for word in line.split()]
-        try:
-            one = {"line": line, **_figures(program.counters(words))}
-        except program.CapacityError as error:
-            one = {"line": line, "misfit": str(error)}
-        with self._lock:
-            self._kept[line] = one
-            with open(self._file, "a") as file:
-                file.write(json.dumps(one) + "\n")
+def _database_words(say, name):
+    scene, structure, page, transport = name.split(".")
+    say(f"building {scene} for {transport}, {structure}, pages of {page}")
+    light = ["--transport=paths", "--sky=1"] if transport == "paths" else []
+    return [scene, *design.SCENES[scene][1], *light, f"--structure={structure}", f"--page-size={page}"]
 
 
 def _figures(stats):
@@ -97,7 +29,7 @@ def _figures(stats):
 
 
 def _host_busy(stats):
-    """The share of the run in which the host sends or receives."""
+    """The share of the run in which the host sends or receives; the pages that it serves belong to the systems that have it so."""
     host, total = stats["host"]["virtual_seconds"], stats["virtual_seconds"]["total"]
     return round((host["sending"] + host["receiving"]) / total, 4) if host and total else 0.0
 
@@ -108,7 +40,7 @@ def line_of(cell, scene, memory, system, setting, draw=None):
     structure = options.pop("structure", None) or "extents"
     structure = "extents" if "--instances=keep" in design.SCENES[scene][1] else structure  # which other structures do not have
     page = options.pop("page-size", None)
-    priced = design.PRICED.get((cell.machine, structure), cell.machine)
+    priced = priced_for(cell.machine, structure)
     machine = priced if draw is None else f"machines/{priced}.{draw}.json"
     side = design.RESOLUTIONS[cell.nodes]
     page = page or "1KiB"
@@ -123,9 +55,5 @@ def line_of(cell, scene, memory, system, setting, draw=None):
             words.append(f"--{name}")
         elif value not in (None, "off", "default"):
             words.append(f"--{name}={value}")
-    return " ".join(["render", *subject, *words, *design.LIGHTS[cell.light], f"--resolution={side}x{side}", f"--nodes={cell.nodes}",
-                     f"--node-memory={memory}B", "--runner=virtual", f"--machine={machine}"])
-
-
-def seconds_of(result):
-    return result.get("seconds", float("inf"))
+    return runs.line_of(["render", *subject, *words, *design.LIGHTS[cell.light], f"--resolution={side}x{side}", f"--nodes={cell.nodes}",
+                         f"--node-memory={memory}B", "--runner=virtual", f"--machine={machine}"])

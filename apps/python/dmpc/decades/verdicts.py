@@ -5,12 +5,11 @@ import math
 import random
 from dataclasses import dataclass, field, replace
 
-from . import design, runs, search
+from ..studies import judging, search
+from ..studies.runs import seconds_of
+from . import design, runs
 
-TIE = 1.01  # times that differ by less are equal, as in dmpc study systems
 RIVALS_WITHIN = 1.6  # of the winner's time: who is slower is not drawn, but for the runner-up
-DECIDED = 0.8  # of the draws
-SMALL = 0.5  # of the time: more in the host, or in film and end, and a picture is too small to tell
 BATCH = 10
 
 
@@ -21,7 +20,7 @@ class Row:
     best: dict = field(default_factory=dict)
 
     def seconds(self, scene):
-        return runs.seconds_of(self.best[scene][2]) if scene in self.best else float("inf")
+        return seconds_of(self.best[scene][2]) if scene in self.best else float("inf")
 
     def mean(self, scenes):
         """The geometric mean over the scenes, infinite if one has no room for it."""
@@ -41,16 +40,13 @@ class Verdict:
         self.rows = sorted(self.best.values(), key=lambda row: row.mean(self.scenes))  # the fastest first
 
     def _why_small(self, scene):
-        """Nothing, or that the host, the film's way or the end of the run take most of the time of the fastest, so that it says nothing of
-        others; where one family alone has room, there is nothing to tell."""
+        """Nothing, or what takes most of the time of the fastest in place of pages and rays; where one family alone has room, there is
+        nothing to tell."""
         ahead, *others = sorted(self.best.values(), key=lambda row: row.seconds(scene))
         if not others or math.isinf(others[0].seconds(scene)):
             return None
         result = ahead.best[scene][2]
-        ends = result["share"]["film_wait"] + result["share"]["idle_at_end"]
-        if result["host"] > SMALL:
-            return f"the host is busy for {100 * result['host']:.0f} % of the time"
-        return f"film and the end of the run take {ends:.0f} % of the time" if ends > 100 * SMALL else None
+        return judging.small_text(result) if judging.small(result) else None
 
     @property
     def winner(self):
@@ -77,7 +73,7 @@ class Verdict:
     @property
     def stays(self):
         """The share of draws in which it stays the winner; certain if there is no rival."""
-        return 1.0 if not self.rivals or not self.times else sum(factor > TIE for factor in self.factors) / len(self.times)
+        return 1.0 if not self.rivals or not self.times else sum(judging.is_faster(1, factor) for factor in self.factors) / len(self.times)
 
     @property
     def is_too_small(self):
@@ -85,14 +81,14 @@ class Verdict:
 
     @property
     def is_decided(self):
-        return not self.is_too_small and self.stays >= DECIDED and self.lead > TIE
+        return not self.is_too_small and self.stays >= judging.DECIDED and judging.is_faster(1, self.lead)
 
     def needs_draws(self, plan):
         """Until the share is known: as many draws as are wanted, or fewer if all of the first, or too few of all, stay."""
-        count, lost = len(self.times), sum(factor <= TIE for factor in self.factors)
+        count, lost = len(self.times), sum(not judging.is_faster(1, factor) for factor in self.factors)
         if not self.rivals or self.is_too_small or count >= plan.draws:
             return False
-        return not (count >= plan.draws_least and (lost == 0 or lost > plan.draws - DECIDED * plan.draws))
+        return not (count >= plan.draws_least and (lost == 0 or lost > plan.draws - judging.DECIDED * plan.draws))
 
 
 def found_settings(kept, plan, memories, cells):
@@ -100,13 +96,24 @@ def found_settings(kept, plan, memories, cells):
     places = list(dict.fromkeys((cell.machine, cell.step) for cell in cells))
     jobs = [(place, scene, name) for place in places for scene in plan.scouts for name in plan.systems]
     found = search.in_step(kept, [
-        search.descend(design.Cell("map", *place, 64, "whitted", (scene,)), scene, memories(scene, 64)[place[1]], name)
+        search_of(design.Cell("map", *place, 64, "whitted", (scene,)), scene, memories(scene, 64)[place[1]], name)
         for place, scene, name in jobs])
     tried = {}
-    for (place, _, name), (seconds, setting) in zip(jobs, found):
-        if math.isfinite(seconds):
-            tried.setdefault((*place, design.SYSTEMS[name].family), []).append((seconds, name, setting))
+    for (place, _, name), one in zip(jobs, found):
+        if math.isfinite(one.seconds):
+            tried.setdefault((*place, design.SYSTEMS[name].family), []).append((one.seconds, name, tuple(one.setting.items())))
     return {key: _distinct(sorted(several), plan.kept * len(plan.scouts)) for key, several in tried.items()}
+
+
+def search_of(cell, scene, memory, name):
+    """Generator for search.in_step: a system's best options in a cell."""
+    options = [search.Searched(each.name, tuple(value for value in each.values if _is_priced(cell.machine, each.name, value)))
+               for each in design.SYSTEMS[name].searched]
+    return search.descend(options, lambda setting: runs.line_of(cell, scene, memory, name, setting.items()))
+
+
+def _is_priced(machine, option, value):
+    return (option, value) != ("structure", "voxels") or machine in judging.ONE_COMPUTER
 
 
 def _distinct(several, count):
@@ -122,7 +129,7 @@ def verdict_on(kept, memories, settings, cell):
                      for _, scene, name, setting in trials]
     rows = {family: Row(family) for family in design.FAMILIES}
     for (family, scene, name, setting), result in zip(trials, results):
-        if runs.seconds_of(result) < rows[family].seconds(scene):
+        if seconds_of(result) < rows[family].seconds(scene):
             rows[family].best[scene] = (name, setting, result)
     return Verdict(cell, rows)
 
@@ -135,7 +142,7 @@ def draw(kept, plan, memories, verdicts):
                   for row in [each.winner, *each.rivals]} for each, number in asked]
         kept.get([line for rows in lines for row in rows.values() for line in row.values()])
         for (each, _), rows in zip(asked, lines):
-            each.times.append({family: {scene: runs.seconds_of(kept.kept(line)) for scene, line in row.items()}
+            each.times.append({family: {scene: seconds_of(kept.kept(line)) for scene, line in row.items()}
                                for family, row in rows.items()})
 
 

@@ -173,8 +173,8 @@ TEST_CASE("a table may lie in the folder of its pictures, but not in place of on
 
 TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
   const apps::CacheStudy timed{.machine = nodes::Machine()};
-  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed,
-                                            apps::SpeedupStudy(), apps::SystemsStudy(), apps::FramesStudy()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::SpeedupStudy(),
+                                            apps::FramesStudy()};
   std::set<std::string> names;
   for (const apps::Study& study : studies) {
     const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
@@ -193,7 +193,6 @@ TEST_CASE("every study draws its pictures and its page, of rows as they come") {
                                                                               {"traffic", "--nodes=1,2"},
                                                                               {"cache", "--nodes=2", "--cache-pages=2,8"},
                                                                               {"speedup", "--nodes=1,2"},
-                                                                              {"systems", "--nodes=4", "--draws=2"},
                                                                               {"frames", "--nodes=2,3", "--frames=2"}}) {
     CAPTURE(words[0]);
     const TemporaryFolder folder;

@@ -29,7 +29,6 @@ TEST_CASE("a table without rows has no conclusion") {
   CHECK(TrafficStudy{}.conclusion(table_with(TrafficStudy{}, {})).empty());
   CHECK(SpeedupStudy{}.conclusion(table_with(SpeedupStudy{}, {})).empty());
   CHECK(CacheStudy{}.conclusion(table_with(CacheStudy{}, {})).empty());
-  CHECK(SystemsStudy{}.conclusion(table_with(SystemsStudy{}, {})).empty());
 }
 
 TEST_CASE("traffic is concluded with what is cheaper on the most nodes") {
@@ -72,15 +71,6 @@ TEST_CASE("caches are concluded with the size from which lru is good") {
   CHECK(CacheStudy{}.conclusion(table_with(CacheStudy{}, {row(1, 1000, 1000), row(4, 500, 300), row(16, 105, 100)})) ==
         "From caches of 16 pages on (16.0 % of the database) lru is within 10 % of the best that any policy could do; it faults "
         "10.5 % as often as with 1 page.");
-}
-
-TEST_CASE("systems are concluded with their first verdict, if there is one") {
-  Table table = table_with(SystemsStudy{}, {});
-  table.add_note("Too small, 4 nodes.");
-  CHECK(SystemsStudy{}.conclusion(table).empty());
-  table.add_note("Best against best, 4 nodes of hdr.");
-  table.add_note("Best against best, 8 nodes of hdr.");
-  CHECK(SystemsStudy{}.conclusion(table) == "Best against best, 4 nodes of hdr.");
 }
 
 }  // namespace dmpc::apps::study_conclusions_test

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/frontend/line/command_line.h"
+#include "apps/lab/study/python/python_study.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 
@@ -58,7 +59,7 @@ TEST_CASE("options of a study are taken") {
 }
 
 TEST_CASE("every study goes along paths, too, with the options that render has") {
-  for (const std::string name : {"balance", "traffic", "cache", "speedup", "systems"}) {
+  for (const std::string name : {"balance", "traffic", "cache", "speedup"}) {
     CAPTURE(name);
     const PictureOptions picture = study(name, {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"}).picture;
     CHECK(text_of(picture.transport) == "paths, 3 bounces, sky 1,1,1/0,0,1");
@@ -138,28 +139,15 @@ TEST_CASE("the help of the study of speedup tells its own defaults") {
   CHECK(text.find("replicated 1") == std::string::npos);
 }
 
-TEST_CASE("systems, tables and rules of memory are chosen by name, and tables have their own databases") {
-  const auto chosen = [](std::initializer_list<std::string> more) {
-    return std::get<SystemsStudy>(study("systems", more).study);
+TEST_CASE("a study in Python gets the options of the line as words, and its scene") {
+  const auto words_of = [](std::initializer_list<std::string> words) {
+    return parse_command_line(std::vector<std::string>(words)).options<PythonStudy>().words;
   };
-  const SystemsStudy standard = chosen({});
-  CHECK(standard.chosen.size() == systems().size());
-  CHECK(standard.memories.size() == 1);
-  CHECK(standard.tables == std::vector{SystemTable::described, SystemTable::equal});
-  CHECK(standard.draws == 100);
-  CHECK(standard.machine.machine.name == "ipsc2");
-  CHECK(study("systems", {}).picture.resolution->width == 128);
-  const SystemsStudy taken = chosen({"--systems=forest,svm,forest", "--tables=equal", "--node-memory=rays,2%,1MiB",
-                                     "--nodes=8,64", "--machine=hdr", "--draws=0", "--search"});
-  CHECK(taken.chosen == std::vector{System::forest, System::svm});
-  CHECK(taken.tables == std::vector{SystemTable::equal});
-  CHECK(taken.memories.size() == 3);
-  CHECK(taken.node_counts.size() == 2);
-  CHECK(taken.machine.machine.name == "hdr");
-  CHECK(taken.draws == 0);
-  CHECK(taken.has_search);
-  CHECK_THROWS_AS(chosen({"--tables=papers"}), core::UsageError);
-  CHECK_THROWS_AS(chosen({"--page-size=4KiB"}), core::UsageError);
+  CHECK(words_of({"study", "systems", "balls-1"}) == std::vector<std::string>{"--resolution=128x128", "balls-1"});
+  CHECK(words_of({"study", "systems", "--search", "--node-memory", "rays,25%", "--resolution=8x8", "balls-1", "-o", "a.md"}) ==
+        std::vector<std::string>{"--node-memory=rays,25%", "--search", "--resolution=8x8", "--output=a.md", "balls-1"});
+  CHECK(words_of({"study", "decades", "--quick", "-o", "out"}) == std::vector<std::string>{"--output=out", "--quick"});
+  CHECK_THROWS_AS(words_of({"study", "systems", "balls-1", "--machine=abacus"}), core::InputError);
 }
 
 }  // namespace dmpc::apps::study_options_test

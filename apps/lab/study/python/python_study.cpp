@@ -1,0 +1,46 @@
+#include "apps/lab/study/python/python_study.h"
+
+#include <ostream>
+
+#include "apps/frontend/machine/machines.h"
+#include "apps/frontend/system/python_program.h"
+#include "apps/frontend/table/table_files.h"
+#include "apps/scene/load_scene.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Throws for a table or plots that cannot be written, or would replace what the study reads.
+void check_files(const TableOutput& table, const PythonStudy& study) {
+  std::vector<NamedFile> inputs;
+  add_scene_file(study.picture, inputs);
+  if (find_machine_preset(study.machine_name) == nullptr) {
+    inputs.push_back({"--machine", study.machine_name});
+  }
+  static_cast<void>(TableFiles(table, {}, {.inputs = std::move(inputs)}));
+}
+
+}  // namespace
+
+void add_options(OptionSet set, PythonStudy& study) {
+  study.declare(set, study);
+  set.check_in_the_end([set, &study] {
+    std::erase_if(study.words, [&](const std::string& word) { return set.is_given(word.substr(0, word.find('='))); });
+    const std::vector<std::string> given = set.given_words({});
+    study.words.insert(study.words.end(), given.begin(), given.end());
+    if (!study.picture.scene.empty()) {
+      study.words.push_back(study.picture.scene);
+    }
+  });
+}
+
+int python_study_command(const PythonStudy& study, std::ostream& output) {
+  if (study.table) {
+    check_files(*study.table, study);
+  }
+  output.flush();
+  const std::string module = study.module;
+  become_python(module, "study " + module.substr(0, module.find('.')), study.words);
+}
+
+}  // namespace dmpc::apps

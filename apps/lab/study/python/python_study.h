@@ -1,0 +1,38 @@
+// Studies that are programs in Python (apps/python/dmpc): their options are declared and checked here, and passed on.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/frontend/line/command_line.h"
+#include "apps/frontend/table/table_options.h"
+#include "apps/scene/picture_options.h"
+
+namespace dmpc::apps {
+
+/// A study as a command. It declares what it needs of the options below, by which dmpc checks them.
+struct PythonStudy {
+  const char* module;  ///< its main(words): "systems.command" of the package dmpc
+  void (*declare)(OptionSet set, PythonStudy& study);
+  PictureOptions picture = {};
+  std::optional<TableOutput> table = {};
+  std::string machine_name = "ipsc2";
+  std::vector<std::uint32_t> node_counts = {};
+  std::uint32_t draws = 0;
+  bool is_set = false;                  ///< of any flag that is passed on
+  bool quiet = false;                   ///< no progress
+  std::vector<std::string> words = {};  ///< defaults; once a line is read, with what it gives in their place
+};
+
+PythonStudy decades_study();
+PythonStudy systems_study();
+
+void add_options(OptionSet set, PythonStudy& study);
+
+/// Checks the outputs of a study with a table as TableFiles does, and becomes Python: does not return. Throws as both do.
+int python_study_command(const PythonStudy& study, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,100 @@
+"""The common part of studies that print a table: what is said meanwhile, where the table goes, and the exit status."""
+
+import os
+import pathlib
+import signal
+import sys
+
+from .. import program
+from . import table
+
+INTERRUPTED = 130
+_CLEAR = "\r\x1b[K"
+
+
+def add_options(parser):
+    """Those that dmpc has checked before it started this program."""
+    parser.add_argument("--format", choices=table.FORMATS, default="markdown")
+    parser.add_argument("-o", "--output")
+    parser.add_argument("--quiet", action="store_true")
+
+
+class Messages:
+    """On stderr. Progress and rows are for a user who waits at a terminal."""
+
+    def __init__(self, options):
+        self._has_terminal = sys.stderr.isatty() and not options.quiet
+        self._shows_rows = self._has_terminal and not options.output and options.format == "markdown"
+
+    def row(self, text):
+        if self._shows_rows:
+            self._write(text + "\n")
+
+    def progress(self, done, total):
+        if self._has_terminal:
+            self._write(f"runs: {done} of {total}" if done < total else "")
+
+    def say(self, text):
+        self._write(f"dmpc: {text}\n")
+
+    def _write(self, text):
+        sys.stderr.write((_CLEAR if self._has_terminal else "") + text)
+        sys.stderr.flush()
+
+
+def run(measure, rows, options, messages, closing=lambda: (), draw=None):
+    """Calls measure(), which adds to the table `rows`, and writes that, whatever ended the measuring, with the closing notes; draw() makes
+    what else there is of the rows. The exit status."""
+    _take_signals()
+    status = 0
+    try:
+        measure()
+    except KeyboardInterrupt:
+        rows.note("Interrupted: rows are missing.")
+        messages.say("interrupted, " + ("the table has the rows finished before" if rows.rows else "nothing was written"))
+        status = INTERRUPTED
+    except program.Error as error:
+        rows.note("Ended by an error: rows are missing.")
+        messages.say(error)
+        status = program.status_of(error)
+    if rows.rows or status == 0:
+        for note in closing():
+            rows.note(note)
+        status = write(rows.text(options.format), options.output, messages) or status
+        if draw:
+            draw()
+    return status
+
+
+def _take_signals():
+    """The first one stops the measuring, a second one ends this program at once. Nobody reads any more: that is its end, too."""
+    wanted = [each for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) != signal.SIG_IGN]
+
+    def stop(number, frame):
+        for each in wanted:
+            signal.signal(each, signal.SIG_DFL)
+        raise KeyboardInterrupt
+
+    for each in wanted:
+        signal.signal(each, stop)
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+
+
+def write(text, path, messages):
+    """To the file, which is replaced at once, or to the standard output; the exit status."""
+    try:
+        if path is None:
+            print(text, end="", flush=True)
+            return 0
+        target = pathlib.Path(path).resolve()
+        if target.exists() and not target.is_file():
+            target.write_text(text)
+            return 0
+        new = target.with_name(f".dmpc-next-{target.name}")
+        new.write_text(text)
+        os.replace(new, target)
+    except OSError as error:
+        where = f"-o {path}" if path else "the table could not be written to the standard output"
+        messages.say(f"{where}: {error.strerror}")
+        return program.status_of(program.InputError())
+    return 0
