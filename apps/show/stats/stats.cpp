@@ -285,6 +285,12 @@ Json sandbox_json() {
                      : Json();
 }
 
+/// Returns where the finest cells, in which regions are counted, lie in the scene.
+Json grid_json(const core::GridFrame& frame) {
+  const auto in_scene = [&](std::size_t axis) { return frame.origin[axis] + frame.low[axis] / frame.scale; };
+  return {{"low", {in_scene(0), in_scene(1), in_scene(2)}}, {"cell", double{frame.finest_cell} / frame.scale}};
+}
+
 Json database_json(const core::Database& database) {
   const core::RecordCounts& records = database.records();
   const auto leaf_count = [&](core::PrimitiveKind kind) { return records.leaves[static_cast<std::size_t>(kind)]; };
@@ -308,6 +314,7 @@ Json database_json(const core::Database& database) {
           {"lights", database.header().light_count},
           {"emitters", database.header().emitter_count},
           {"sky_tiles", records.sky_tiles},
+          {"grid", grid_json(database.header().frame)},
           {"instancing",
            {{"meshes", records.base_meshes},
             {"instances", records.instances},
