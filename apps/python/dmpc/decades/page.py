@@ -5,25 +5,9 @@ import json
 import math
 import statistics
 
+from ..studies import page
 from . import design, figures, predictions, prices, verdicts
 
-_HEAD = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>Thirty years later: what should travel?</title>
-<style>
-:root { color-scheme: light dark; --ink: #222; --paper: #fff; --faint: #777; --line: #ccc }
-@media (prefers-color-scheme: dark) { :root { --ink: #ddd; --paper: #17191c; --faint: #999; --line: #444 } }
-@media print { :root { --ink: #000; --paper: #fff } }
-body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
-h1 { font-size: 1.6rem } h2 { font-size: 1.15rem; margin-top: 2.2rem }
-p.first { font-size: 1.15rem }
-img { max-width: 100%; height: auto }
-pre { overflow-x: auto; font-size: .8rem; border-left: 3px solid var(--line); padding: .3rem .6rem; white-space: pre-wrap; overflow-wrap: anywhere }
-div.wide { overflow-x: auto } table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums }
-td, th { padding: .15rem .6rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top }
-.note { color: var(--faint); font-size: .85rem }
-</style></head><body>
-"""
 _FAMILY_TEXT = ("<b>P</b> pages travel to the node whose pixel needs them; <b>Q</b> questions travel to the node that owns a part of the "
                 "scene; <b>R</b> rays travel from region to region; <b>C</b> nothing travels, every node has the whole scene.")
 
@@ -50,7 +34,7 @@ def write(kept, plan, memories, found, checked, expected, priced, effort):
     drawn = figures.Figures(kept.folder)
     cells = [each for each in found if each.cell.set == "map"]
     lights = [each for each in found if each.cell.set == "light"] + [each for each in cells if each.cell.step in (1, 4, 6)]
-    parts = [_HEAD, "<h1>Thirty years later: what should travel?</h1>", f"<p class=first>{html.escape(sentence(found))}</p>",
+    parts = [page.paragraph(sentence(found), "first"),
              _picture(figures.map_of(drawn, "map", f"{len(plan.scenes)} scenes, 64 nodes, Whitted, 4 samples a pixel", cells),
                       "Winners by machine and memory"),
              f"<p>{_FAMILY_TEXT} The number is how many times as long the runner-up takes (geometric mean over {', '.join(plan.scenes)}); "
@@ -73,11 +57,11 @@ def write(kept, plan, memories, found, checked, expected, priced, effort):
     parts += ["<h2>Other numbers of nodes, other sizes</h2>", _table_of(found)] if any(each.cell.set != "map" for each in found) else []
     parts += ["<h2>Too small, or undecided</h2>", _undecided(found), "<h2>What was expected</h2>", _expected(expected, found),
               "<h2>Held against reality</h2>", _reality(kept.folder / "reality.json"), "<h2>Controls</h2>",
-              _rows(("control", ""), [(one.text, "as it must be" if one.is_right else "NOT as it must be") for one in checked]),
+              page.rows(("control", ""), [(one.text, "as it must be" if one.is_right else "NOT as it must be") for one in checked]),
               f"<p class=note>{html.escape(effort)}; all in runs.jsonl. Times are those of modelled machines (dmpc machine NAME prints each "
               "price with its source); memories are steps of equal factors from the least with which pages work to what whole copies "
-              "need.</p></body></html>"]
-    (kept.folder / "index.html").write_text("\n".join(parts))
+              "need.</p>"]
+    (kept.folder / "index.html").write_text(page.document("Thirty years later: what should travel?", parts))
 
 
 def _picture(names, text):
@@ -98,12 +82,6 @@ def place_of(cell):
     nodes = f", {cell.nodes} nodes" if cell.nodes != 64 else ""
     light = f", {cell.light.replace('-', ' of ')} bounces" if cell.light != "whitted" else ""
     return f"{cell.machine}, memory {figures.step_text(cell.step)}{nodes}{light}"
-
-
-def _rows(heads, rows):
-    head = "".join(f"<th>{html.escape(each)}" for each in heads)
-    body = "".join("<tr>" + "".join(f"<td>{html.escape(str(each))}" for each in row) for row in rows)
-    return f"<div class=wide><table><tr>{head}{body}</table></div>"
 
 
 def _scenes(drawn, plan, cells):
@@ -130,11 +108,11 @@ def _turning(priced, found):
     rows.sort(key=lambda row: float(row[2]))
     return ("<p>Least squares over the draws of each cell: the lead goes as the price to this power, and times this factor it is a tie. The "
             "price is the one whose doubt moves the lead most; cells with the smallest leads first.</p>"
-            + _rows(("cell", "winner", "lead", "price", "power", "tie at times"), rows[:20]))
+            + page.rows(("cell", "winner", "lead", "price", "power", "tie at times"), rows[:20]))
 
 
 def _table_of(found):
-    return _rows(("set", "cell", "scenes", "winner", "lead", "stays"),
+    return page.rows(("set", "cell", "scenes", "winner", "lead", "stays"),
                  [(each.cell.set, place_of(each.cell), ", ".join(each.cell.scenes), each.winner.family,
                    "alone" if math.isinf(each.lead) else f"{each.lead:.2f}", f"{100 * each.stays:.0f} % of {len(each.times)}")
                   for each in found if each.cell.set != "map"])
@@ -146,7 +124,7 @@ def _undecided(found):
     small = [(place_of(each.cell), scene, each.winner.family, "", "", why) for each in found for scene, why in each.small.items()]
     told = (f"<p>{sum(each.is_too_small for each in found)} cells are too small in every scene. In others, scenes that are too small are left "
             "out: more samples a pixel would do there, as the way of the film does not grow with them.</p>")
-    return told + (_rows(("cell", "scenes", "ahead", "next", "lead", "why"), rows + small) if rows or small else "")
+    return told + (page.rows(("cell", "scenes", "ahead", "next", "lead", "why"), rows + small) if rows or small else "")
 
 
 def _reality(path):
@@ -164,7 +142,7 @@ def _reality(path):
     if median > 0.25:
         text += (" What the model lacks here: a process that waits sleeps, and is woken by the system later than a message comes; several "
                  "packets travel in one frame of a rank; and processes that share a processor wait for each other.")
-    return f"<p>{text}</p>" + _rows(("render", "predicted (s)", "took (s)", "of which least and most", "error"),
+    return f"<p>{text}</p>" + page.rows(("render", "predicted (s)", "took (s)", "of which least and most", "error"),
                                     [(row["line"], f"{row['predicted']:.4g}", f"{row['timed']:.4g}",
                                       f"{row['least']:.4g} to {row['most']:.4g}", f"{100 * (row['predicted'] / row['timed'] - 1):+.0f} %")
                                      for row in held["rows"]])
@@ -186,5 +164,5 @@ def _expected(expected, found):
                              "" if verdict.is_decided else "undecided"))
         parts.append(f"<p>{html.escape(one.text)} File {one.name}, SHA-256 <code>{one.sha256}</code>. Of {len(rows)} predicted cells that "
                      f"were run, {winners} winners held, and {leads} also in their lead, within a factor of {predictions.NEAR}.</p>"
-                     + _rows(("cell", "expected", "lead", "came", "lead", "", ""), rows))
+                     + page.rows(("cell", "expected", "lead", "came", "lead", "", ""), rows))
     return "".join(parts) or "<p>Nothing was predicted.</p>"

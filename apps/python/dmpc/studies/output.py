@@ -45,7 +45,7 @@ class Messages:
 def run(measure, rows, options, messages, closing=lambda: (), draw=None):
     """Calls measure(), which adds to the table `rows`, and writes that, whatever ended the measuring, with the closing notes; draw() makes
     what else there is of the rows. The exit status."""
-    _take_signals()
+    take_signals()
     status = 0
     try:
         measure()
@@ -66,7 +66,7 @@ def run(measure, rows, options, messages, closing=lambda: (), draw=None):
     return status
 
 
-def _take_signals():
+def take_signals():
     """The first one stops the measuring, a second one ends this program at once. Nobody reads any more: that is its end, too."""
     wanted = [each for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) != signal.SIG_IGN]
 

@@ -9,7 +9,7 @@ from .. import program
 from .texts import folded
 
 FORMATS = ("markdown", "csv", "json", "jsonl")
-_WIDTH = 120  # of a line of Markdown
+WIDTH = 120  # of a line of Markdown
 _SHOWN = 79  # letters of a row that is shown by itself
 
 
@@ -52,6 +52,10 @@ class Table:
         """The cell in the column of this name."""
         return row[[column.name for column in self.columns].index(name)]
 
+    def texts(self, row):
+        """The row's cells for people."""
+        return [_text(*each) for each in zip(self.columns, row)]
+
     def text(self, form):
         return {"markdown": self._markdown, "csv": self._csv, "json": self._json, "jsonl": self._json_lines}[form]()
 
@@ -65,15 +69,15 @@ class Table:
         return text
 
     def _markdown(self):
-        parts = [folded(f"**{self.title}**", _WIDTH) + "\n"]
+        parts = [folded(f"**{self.title}**", WIDTH) + "\n"]
         if self.columns and self.columns[0].is_heading:
             for name in dict.fromkeys(row[0] for row in self.rows):
                 rows = [row[1:] for row in self.rows if row[0] == name]
-                parts += ["\n" + folded(f"**{self.columns[0].name} {name}**", _WIDTH) + "\n", _markdown_rows(self.columns[1:], rows)]
+                parts += ["\n" + folded(f"**{self.columns[0].name} {name}**", WIDTH) + "\n", _markdown_rows(self.columns[1:], rows)]
         else:
             parts.append(_markdown_rows(self.columns, self.rows))
         parts += ["\n"] if self.notes else []
-        return "".join(parts + [folded("- " + note, _WIDTH) + "\n" for note in self.notes])
+        return "".join(parts + [folded("- " + note, WIDTH) + "\n" for note in self.notes])
 
     def _csv(self):
         lines = [[_quoted(column.header) for column in self.columns], *([_csv_cell(cell) for cell in row] for row in self.rows)]
@@ -91,12 +95,14 @@ class Table:
         return "".join(json.dumps(row, separators=(",", ":"), ensure_ascii=False) + "\n" for row in self._objects())
 
 
-def _markdown_cell(column, cell):
-    if cell is None:
-        return ""
-    if isinstance(cell, str):
-        return re.sub(r"[\n\r]", " ", cell.replace("|", r"\|"))
+def _text(column, cell):
+    if cell is None or isinstance(cell, str):
+        return cell or ""
     return f"{cell:,}" if isinstance(cell, int) else f"{cell:.{column.digits}f}"
+
+
+def _markdown_cell(column, cell):
+    return re.sub(r"[\n\r]", " ", _text(column, cell).replace("|", r"\|"))
 
 
 def _markdown_rows(columns, rows):
@@ -105,7 +111,7 @@ def _markdown_rows(columns, rows):
              *([_markdown_cell(*each) for each in zip(columns, row)] for row in rows)]
     is_text = [any(isinstance(row[at], str) for row in rows) for at in range(len(columns))]
     key = _key_count(lines)
-    if _width(lines, range(len(columns))) > _WIDTH and _width(lines, range(key)) > _WIDTH / 2:
+    if _width(lines, range(len(columns))) > WIDTH and _width(lines, range(key)) > WIDTH / 2:
         lines = [[name, *line] for name, line in zip(["row", *map(str, range(1, len(lines)))], lines)]
         is_text.insert(0, False)
         key = 1
@@ -129,11 +135,11 @@ def _key_count(lines):
 
 def _parts(lines, key):
     columns = list(range(len(lines[0])))
-    if _width(lines, columns) <= _WIDTH:
+    if _width(lines, columns) <= WIDTH:
         return [columns]
     parts = [columns[:key]]
     for column in columns[key:]:
-        if len(parts[-1]) > key and _width(lines, [*parts[-1], column]) > _WIDTH:
+        if len(parts[-1]) > key and _width(lines, [*parts[-1], column]) > WIDTH:
             parts.append(columns[:key])
         parts[-1].append(column)
     return parts
