@@ -157,7 +157,7 @@ TEST_CASE("each reason to refuse a file is told, with how to build another") {
   CHECK(original.complaint(forged(original.text())).empty());
   told("", "is not a database");
   told("v 0 0 0\n" + std::string(1000, ' '), "is not a database");
-  told(with_head(original.text(), [](FileHead& head) { ++head.format; }), "it has format 2, and this program reads format 1");
+  told(with_head(original.text(), [](FileHead& head) { ++head.format; }), "it has format 3, and this program reads format 2");
   told(forged(with_head(original.text(), [](FileHead& head) { ++head.program; })), "written by another version of dmpc");
   told(original.text() + " ", "it should have");
   told(original.text().substr(0, original.text().size() - 1), "it should have");
