@@ -7,7 +7,6 @@
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
 #include "apps/lab/study/command.h"
-#include "apps/lab/study/paper/command.h"
 #include "apps/lab/study/python/python_study.h"
 #include "apps/lab/study/references/command.h"
 #include "apps/lab/study/sweep/command.h"
@@ -30,7 +29,7 @@ void declare_all(Commands& commands) {
   commands.add("systems", "The systems that the 1994 article classifies, side by side on one machine", systems_study(),
                python_study_command);
   commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
-  commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
+  commands.add("paper", "Regenerate the tables and claims of the 1994 article", paper_study(), python_study_command);
   commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025", decades_study(),
                python_study_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),

@@ -22,12 +22,4 @@ std::size_t Deflater::pack(std::span<const std::uint8_t> bytes, std::span<std::u
   return ::libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), room.data(), room.size());
 }
 
-std::size_t Deflater::pack_bare(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept {
-  return ::libdeflate_deflate_compress(compressor_.get(), bytes.data(), bytes.size(), room.data(), room.size());
-}
-
-std::uint32_t checksum_of(std::span<const std::uint8_t> bytes) noexcept {
-  return ::libdeflate_crc32(0, bytes.data(), bytes.size());
-}
-
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Compresses bytes as zlib streams, as in EXR and PNG, and as ZIP has them.
+// Compresses bytes as zlib streams, as in EXR and PNG.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,6 @@ class Deflater {
   std::size_t packed_bytes_max(std::size_t byte_count) const;
   /// Compresses `bytes` into `room`, and returns the size; 0 if `room` is too small, with some bytes to spare.
   std::size_t pack(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept;
-  /// As pack(), without a stream's head and checksum (RFC 1951).
-  std::size_t pack_bare(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> room) noexcept;
 
  private:
   struct Free {
@@ -30,8 +28,5 @@ class Deflater {
 
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
 };
-
-/// The CRC-32 of ZIP and gzip.
-std::uint32_t checksum_of(std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace dmpc::apps

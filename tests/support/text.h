@@ -16,12 +16,6 @@ inline std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// All lines as one.
-inline std::string joined_lines(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 inline std::size_t widest_line(const std::string& text) {
   std::size_t widest = 0;
   for (std::size_t begin = 0; begin < text.size();) {

@@ -15,8 +15,6 @@ struct VoxelPrices {
   double walk = 0;
   double rays = 0;           ///< of setting up a ray, and of shading a hit
   double cached_lookup = 0;  ///< extra cost of looking up a page whose home is another node
-
-  bool operator==(const VoxelPrices&) const = default;
 };
 
 /// Of the preset ipsc2-1994. Fitted to Mountain on 1 and 64 nodes and Rings4 on 2 and 64, their smallest and largest machines,

@@ -134,7 +134,8 @@ def frames(
 
 
 def paper(
-    *, resolution: int | None = None, sensitivity: bool = False, output: Text | None = None, report: Text | None = None
+    *, resolution: int | None = None, sensitivity: bool = False, output: Text | None = None, report: Text | None = None, jobs: int | None =
+    None
 ) -> str:
     """Regenerate the tables and claims of the 1994 article."""
     return studying.study("paper", [], locals())

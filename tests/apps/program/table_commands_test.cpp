@@ -11,7 +11,6 @@
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/stability/command.h"
 #include "apps/lab/study/command.h"
-#include "apps/lab/study/paper/command.h"
 #include "apps/lab/study/sweep/command.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
@@ -123,9 +122,6 @@ TEST_CASE("what is in the way of any output is said before a command begins") {
       CHECK_FALSE(std::filesystem::exists(folder / "a.md"));
     }
   }
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "paper" / "losses.svg");
-  CHECK_THROWS_AS(run_table({"study", "paper", "--resolution=8", "-o", folder / "paper"}), core::InputError);
 }
 
 TEST_CASE("no command's output replaces a file that its scene is read from") {

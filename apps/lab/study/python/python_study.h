@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -22,12 +23,15 @@ struct PythonStudy {
   std::string machine_name = "ipsc2";
   std::vector<std::uint32_t> node_counts = {};
   std::uint32_t draws = 0;
+  std::uint32_t side = 512;  ///< of square pictures, in pixels
+  std::optional<std::filesystem::path> report = {};
   bool is_set = false;                  ///< of any flag that is passed on
   bool quiet = false;                   ///< no progress
   std::vector<std::string> words = {};  ///< defaults; once a line is read, with what it gives in their place
 };
 
 PythonStudy decades_study();
+PythonStudy paper_study();
 PythonStudy systems_study();
 
 void add_options(OptionSet set, PythonStudy& study);
