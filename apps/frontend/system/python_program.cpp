@@ -15,7 +15,9 @@ namespace {
 constexpr std::array<const char*, 2> pythons = {"/usr/bin/python3", "python3"};
 
 /// Imports nothing from the current folder (-P). Its arguments: the module, what needs it, and the words for it.
-constexpr const char* driver = R"(import importlib, sys
+/// While it imports, Ctrl-C just ends it.
+constexpr const char* driver = R"(import importlib, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
 name, what, *words = sys.argv[1:]
 try:
     module = importlib.import_module("dmpc." + name)
@@ -23,6 +25,7 @@ except ModuleNotFoundError as error:
     missing = error.name.split(".")[0]
     sys.exit(f"dmpc: {what} needs Python's module {missing}: apt-get install python3-{missing.lower()}"
              + (", or set PYTHONPATH to apps/python of the sources" if missing == "dmpc" else ""))
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.exit(module.main(words))
 )";
 
