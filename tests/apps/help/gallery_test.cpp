@@ -2,13 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "apps/help/list_command.h"
@@ -94,10 +90,7 @@ TEST_CASE("what is in the folder is not written over, and then nothing is writte
 TEST_CASE("a gallery that is interrupted writes nothing") {
   const TemporaryFolder folder;
   Interrupt interrupt;
-  ::kill(::getpid(), SIGINT);
-  while (!interrupt.requested()) {
-    std::this_thread::yield();
-  }
+  interrupt.stop_once();
   CHECK_THROWS_AS(write_gallery(folder.path(), interrupt), Interrupted);
   CHECK(folder.entry_count() == 0);
 }

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -143,9 +142,7 @@ TEST_CASE("an interrupted bench speed writes nothing before anything is measured
   SpeedOptions options = tiny_speed();
   options.table.file = folder / "table.md";
   apps::Interrupt interrupt;
-  ::kill(::getpid(), SIGINT);
-  while (!interrupt.requested()) {
-  }
+  interrupt.stop_once();
   std::ostringstream output;
   CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), apps::Interrupted);
   CHECK_FALSE(std::filesystem::exists(folder / "table.md"));
