@@ -216,7 +216,7 @@ class OutputTest(unittest.TestCase):
     def run_with(self, measure, **more):
         options = SimpleNamespace(**{"format": "csv", "output": None, "quiet": False, **more})
         table, errors, printed = Table("t", [Column("a")]), io.StringIO(), io.StringIO()
-        with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(printed), mock.patch.object(output, "_take_signals"):
+        with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(printed), mock.patch.object(output, "take_signals"):
             status = output.run(lambda: measure(table), table, options, output.Messages(options), lambda: ["Closing."])
         return status, printed.getvalue(), errors.getvalue(), table.notes
 
