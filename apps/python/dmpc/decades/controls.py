@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from . import verdicts
+from . import design, verdicts
 
 
 @dataclass
@@ -24,10 +24,9 @@ def check(kept, memories, found):
         other = line.replace(samples, f"--samples={int(samples.split('=')[1]) + 1}")
         [drawn] = kept.get([other])
         controls.append(Control(f"{name}: other samples, another film", drawn.get("film") not in (None, result["film"]), other))
-        films = {each.winner.best[one][2]["film"]: one for each in found if each.cell.set == name and each.cell.light == verdict.cell.light
-                 for one in each.scenes}
-        scenes = {one for each in found if each.cell.set == name and each.cell.light == verdict.cell.light for one in each.scenes}
-        nodes = {each.cell.nodes for each in found if each.cell.set == name}
-        controls.append(Control(f"{name}: one film a scene, whatever machine, memory and system: {len(films)} of {len(scenes)}",
-                                len(films) == len(scenes) * (1 if 512 not in nodes else 2), line))
+        alike = [each for each in found if each.cell.set == name and each.cell.light == verdict.cell.light]
+        films = {each.winner.best[one][2]["film"] for each in alike for one in each.scenes}
+        pictures = {(one, design.RESOLUTIONS[each.cell.nodes]) for each in alike for one in each.scenes}
+        controls.append(Control(f"{name}: one film for each of {len(pictures)} scenes and sizes, whatever machine, memory and system: {len(films)}",
+                                len(films) == len(pictures), line))
     return controls
