@@ -40,11 +40,11 @@ void check_labs(const fs::path& folder) {
 /// Everything that is to be installed is below `root`.
 void check_installed(const fs::path& root) {
   const fs::path share = root / "share";
-  for (const fs::path& file :
-       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/copyright",
-        share / "doc/dmpc/apps/balls.png", share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/balls-heat.png",
-        share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/lab/study/paper/RESULTS.md", share / "doc/dmpc/apps/scenes.png",
-        share / "doc/dmpc/apps/labs/notebooks/latency.ipynb"}) {
+  for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/copyright",
+                               share / "doc/dmpc/apps/balls.png", share / "doc/dmpc/apps/decades.png",
+                               share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/balls-heat.png",
+                               share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/lab/study/paper/RESULTS.md",
+                               share / "doc/dmpc/apps/scenes.png", share / "doc/dmpc/apps/labs/notebooks/latency.ipynb"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
   check_labs(share / "doc/dmpc/labs");
