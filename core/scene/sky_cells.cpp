@@ -19,12 +19,15 @@ Color texel_of(const std::byte* tile, std::uint32_t column, std::uint32_t row) {
 
 Vec3d left_of(const SkyReference& sky) { return cross(sky.up, sky.middle); }
 
-/// The mean of the cell's corners.
-double mean_of(double top_left, double top_right, double bottom_left, double bottom_right) {
-  return ((top_left + top_right) + (bottom_left + bottom_right)) * 0.25;
+template <class T>
+T between(const T& first, const T& second, double place) {
+  return first * (1 - place) + second * place;
 }
-
-double between(double first, double second, double place) { return first * (1 - place) + second * place; }
+/// Bilinear, of the values at the left and right corner above, then below.
+template <class T>
+T between(const std::array<T, 4>& corners, double across, double down) {
+  return between(between(corners[0], corners[1], across), between(corners[2], corners[3], across), down);
+}
 
 /// Inverts the distribution whose density grows or falls linearly from `first` to `second`, relative to each other, on [0, 1].
 double linear_place(double number, double first, double second) {
@@ -67,23 +70,22 @@ SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlac
     return texel_of(tile, place.column + right, place.row + below);
   };
   const std::array<Color, 4> corners{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
-  const Vec3d above = Vec3d(corners[0]) * (1 - place.across) + Vec3d(corners[1]) * place.across;
-  const Vec3d below = Vec3d(corners[2]) * (1 - place.across) + Vec3d(corners[3]) * place.across;
+  std::array<Vec3d, 4> light;
+  std::array<double, 4> strength;
+  std::transform(corners.begin(), corners.end(), light.begin(), [](const Color& color) { return Vec3d(color); });
+  std::transform(corners.begin(), corners.end(), strength.begin(), [](const Color& color) { return strength_of(color); });
   const std::uint32_t row = place.tile / sky_tile_columns(sky) * sky_tile_cells + place.row;
   const double top = cos_radians(angle_above(sky, row)), bottom = cos_radians(angle_above(sky, row + 1));
   const double lowered = std::clamp((top - place.height) / (top - bottom), 0.0, 1.0);
-  const double strength = between(between(strength_of(corners[0]), strength_of(corners[1]), place.across),
-                                  between(strength_of(corners[2]), strength_of(corners[3]), place.across), lowered);
-  return {Color((above * (1 - place.down) + below * place.down) * double{sky.scale}),
-          double{sky.density} * (strength + double{sky.least_strength})};
+  return {Color(between(light, place.across, place.down) * double{sky.scale}),
+          double{sky.density} * (between(strength, place.across, lowered) + double{sky.least_strength})};
 }
 
 SkyCells::SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte* record)
     : sky_(sky), tile_(tile), least_(double{sky.least_strength}) {
-  Strengths& strength = corner_;
   for (std::uint32_t row = 0; row < tile_side; ++row) {
     for (std::uint32_t column = 0; column < tile_side; ++column) {
-      strength[row][column] = sum_of_channels(read<std::uint32_t>(record + (row * tile_side + column) * sizeof(std::uint32_t)));
+      corner_[row][column] = sum_of_channels(read<std::uint32_t>(record + (row * tile_side + column) * sizeof(std::uint32_t)));
     }
   }
   const std::uint32_t columns = sky_tile_columns(sky), first_row = tile / columns * sky_tile_cells,
@@ -99,14 +101,16 @@ SkyCells::SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte*
     its.angle = 2 * pi / sky.width * (above - below);
     its.count = cells;
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
-      cell_[row][cell] =
-          mean_of(strength[row][cell], strength[row][cell + 1], strength[row + 1][cell], strength[row + 1][cell + 1]);
-      its.strength += cell_[row][cell];
+      its.strength += mean_at(row, cell);
     }
     strength_ += its.strength * its.angle;
     solid_angle_ += its.count * its.angle;
     above = below;
   }
+}
+
+double SkyCells::mean_at(std::uint32_t row, std::uint32_t cell) const {
+  return ((corner_[row][cell] + corner_[row][cell + 1]) + (corner_[row + 1][cell] + corner_[row + 1][cell + 1])) * 0.25;
 }
 
 SkyCells::Drawn SkyCells::draw(double x, double y) const {
@@ -118,11 +122,11 @@ SkyCells::Drawn SkyCells::draw(double x, double y) const {
   const Row& its = row_[row];
   left /= its.angle;
   std::uint32_t cell = 0;
-  for (; cell + 1 < static_cast<std::uint32_t>(its.count) && left >= cell_[row][cell] + least_; ++cell) {
-    left -= cell_[row][cell] + least_;
+  for (; cell + 1 < static_cast<std::uint32_t>(its.count) && left >= mean_at(row, cell) + least_; ++cell) {
+    left -= mean_at(row, cell) + least_;
   }
   const auto corner = [&](std::uint32_t right, std::uint32_t below) { return corner_[row + below][cell + right] + least_; };
-  const double across = linear_place(std::clamp(left / (cell_[row][cell] + least_), 0.0, 1.0), corner(0, 0) + corner(0, 1),
+  const double across = linear_place(std::clamp(left / (mean_at(row, cell) + least_), 0.0, 1.0), corner(0, 0) + corner(0, 1),
                                      corner(1, 0) + corner(1, 1));
   const double lowered =
       linear_place(y, between(corner(0, 0), corner(1, 0), across), between(corner(0, 1), corner(1, 1), across));

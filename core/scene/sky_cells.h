@@ -54,6 +54,8 @@ class SkyCells {
   Drawn draw(double x, double y) const;
 
  private:
+  /// The mean strength of a cell's corners.
+  double mean_at(std::uint32_t row, std::uint32_t cell) const;
   double weight_of(std::uint32_t row) const { return row_[row].angle * (row_[row].strength + row_[row].count * least_); }
 
   /// A row of cells: its limits, as cosines of the angle from the upper pole.
@@ -64,13 +66,10 @@ class SkyCells {
     double count = 0;     ///< number of its cells
   };
 
-  using Strengths = std::array<std::array<double, tile_side>, tile_side>;
-
   const SkyReference& sky_;
   std::uint32_t tile_;
   double least_, strength_ = 0, solid_angle_ = 0;
-  Strengths corner_;
-  std::array<std::array<double, sky_tile_cells>, sky_tile_cells> cell_{};  ///< mean strengths
+  std::array<std::array<double, tile_side>, tile_side> corner_;  ///< strengths of texels
   std::array<Row, sky_tile_cells> row_{};
 };
 
