@@ -147,7 +147,8 @@ class Shader {
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   // In core/picture/lights/shade_emitters.cpp:
   bool aims_at_emitter(const HitState& state) const;
-  void begin_choice(HitState& state, std::uint32_t count) const;
+  /// Selects one of `count`: at the stage `choice`, or, if there is nothing to choose, at once.
+  void begin_choice(HitState& state, std::uint32_t count, HitState::Stage choice, HitState::Stage next) const;
   void begin_emitter(HitState& state) const;
   /// One step down a tree of `count` choices; `next`: the stage after the last.
   static void read_choice(HitState& state, const std::byte* record, std::uint32_t count, HitState::Stage next);

@@ -47,14 +47,14 @@ bool Shader::aims_at_emitter(const HitState& state) const {
   return !is_needless;
 }
 
-void Shader::begin_choice(HitState& state, std::uint32_t count) const {
+void Shader::begin_choice(HitState& state, std::uint32_t count, Stage choice, Stage next) const {
   const SamplePair place = pair_of(state.ray, Purpose::place);
   state.keep(count > 1 ? Choosing::of(place.x, pair_of(state.ray, Purpose::emitter).x).stored() : DrawnEmitter::at(0, place.x));
+  state.stage = count > 1 ? choice : next;
 }
 
 void Shader::begin_emitter(HitState& state) const {
-  begin_choice(state, header_.emitter_count);
-  state.stage = header_.emitter_count > 1 ? Stage::emitter_choice : Stage::emitter;
+  begin_choice(state, header_.emitter_count, Stage::emitter_choice, Stage::emitter);
 }
 
 void Shader::read_choice(HitState& state, const std::byte* record, std::uint32_t count, Stage next) {

@@ -47,9 +47,7 @@ bool Shader::aims_at_sky(const HitState& state) const {
 /// Goes on to the sky tile that is sampled, if there is one, else to the stage after all lights.
 void Shader::end_emitters(HitState& state) const {
   if (aims_at_sky(state)) {
-    const std::uint32_t tiles = sky_tile_count(header_.sky);
-    begin_choice(state, tiles);
-    state.stage = tiles > 1 ? Stage::sky_choice : Stage::sky_aim;
+    begin_choice(state, sky_tile_count(header_.sky), Stage::sky_choice, Stage::sky_aim);
   } else {
     state.stage = after_lights(state);
   }
