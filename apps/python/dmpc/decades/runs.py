@@ -6,9 +6,6 @@ from ..studies import runs
 from ..studies.judging import priced_for
 from . import design
 
-_COLUMNS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
-            "messages", "idle_at_end")
-
 
 def kept_in(folder, jobs, say):
     return runs.Runs(folder, jobs, _figures, functools.partial(_database_words, say), say)
@@ -25,7 +22,7 @@ def _figures(stats):
     return {"seconds": stats["virtual_seconds"]["total"], "film": stats["film_hash"], "run": stats["run_hash"],
             "processor": stats["seconds"]["user"] + stats["seconds"]["system"], "memory": stats["options"]["node_memory"],
             "host": _host_busy(stats), "rays": stats["rays"]["total"],
-            "share": {name: round(stats["time_percent"][name], 3) for name in _COLUMNS}}
+            "share": {name: round(stats["time_percent"][name], 3) for name in runs.PARTS}}
 
 
 def _host_busy(stats):

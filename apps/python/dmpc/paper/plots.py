@@ -3,9 +3,9 @@
 import io
 from dataclasses import dataclass
 
+from ..studies.runs import PARTS
 from .catalogue import CACHES, RINGS
 from .data import NODES, SCENES
-from .results import PARTS
 
 _INK = "#010203"  # stands for the colour of what surrounds the plot
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255")

@@ -3,9 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-# The parts of the nodes' time, as keys of the counters.
-PARTS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
-         "messages", "idle_at_end")
+from ..studies.runs import PARTS
 
 
 @dataclass

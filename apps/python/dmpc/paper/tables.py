@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 from statistics import mean
 
+from ..studies.runs import PARTS
 from ..studies.table import Column, Table
 from ..studies.texts import counted
 from .catalogue import ARTICLE_ITEM, CACHE_NODES, CACHES, FITTED, ITEM_SIDES, LOADED_NODES, LONG_QUEUE, RAY_WAYS, RINGS
 from .data import CELLS, NETWORK_RATE, NODES, PEAK_PAGES, PEAK_SHARE, SCENES, Scene, efficiency
 from .fits import law_machines, law_of
-from .results import PARTS, Result
+from .results import Result
 
 
 @dataclass(frozen=True)

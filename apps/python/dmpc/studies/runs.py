@@ -9,6 +9,10 @@ import threading
 
 from .. import program
 
+# The parts of the nodes' time, as keys of the counters.
+PARTS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
+         "messages", "idle_at_end")
+
 
 class Runs:
     """The folder of a study: `runs.jsonl` has a line for each run, written when it ends; `databases` and `machines` have what several runs

@@ -1,8 +1,8 @@
 """The rows of the study's table, and how verdicts see them."""
 
+from ..studies.runs import PARTS
 from ..studies.table import Column
 from . import verdicts
-from .subject import PARTS
 
 _OPTIONS = ("page-size", "in-flight", "work-donor", "resident", "backpressure", "ray-batch")
 COLUMNS = (Column("table", is_heading=True), Column("memory"), Column("nodes"), Column("system"), Column("structure"),

@@ -11,8 +11,6 @@ from ..studies.texts import counted
 from .setups import Database
 
 _OWN = "own"  # the name of a machine's file among drawn machines
-PARTS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
-         "messages", "idle_at_end")
 
 
 def figures(stats):
@@ -20,7 +18,7 @@ def figures(stats):
     options, rays, packets = stats["options"], stats["rays"]["total"], stats["packets"]
     return {"seconds": stats["virtual_seconds"]["total"], "film": stats["film_hash"], "memory": options["node_memory"],
             "in-flight": options["in_flight"], "ray-batch": options["ray_batch"], "host": _host_busy(stats),
-            "share": {part: stats["time_percent"][part] for part in PARTS},
+            "share": {part: stats["time_percent"][part] for part in runs.PARTS},
             "messages": packets["sent"] / rays if rays else 0.0, "bytes": packets["bytes"] / rays if rays else 0.0}
 
 
