@@ -113,9 +113,9 @@ def _turning(priced, found):
 
 def _table_of(found):
     return page.rows(("set", "cell", "scenes", "winner", "lead", "stays"),
-                 [(each.cell.set, place_of(each.cell), ", ".join(each.cell.scenes), each.winner.family,
-                   "alone" if math.isinf(each.lead) else f"{each.lead:.2f}", f"{100 * each.stays:.0f} % of {len(each.times)}")
-                  for each in found if each.cell.set != "map"])
+                     [(each.cell.set, place_of(each.cell), ", ".join(each.cell.scenes), each.winner.family,
+                       "alone" if math.isinf(each.lead) else f"{each.lead:.2f}", f"{100 * each.stays:.0f} % of {len(each.times)}")
+                      for each in found if each.cell.set != "map"])
 
 
 def _undecided(found):
@@ -143,9 +143,9 @@ def _reality(path):
         text += (" What the model lacks here: a process that waits sleeps, and is woken by the system later than a message comes; several "
                  "packets travel in one frame of a rank; and processes that share a processor wait for each other.")
     return f"<p>{text}</p>" + page.rows(("render", "predicted (s)", "took (s)", "of which least and most", "error"),
-                                    [(row["line"], f"{row['predicted']:.4g}", f"{row['timed']:.4g}",
-                                      f"{row['least']:.4g} to {row['most']:.4g}", f"{100 * (row['predicted'] / row['timed'] - 1):+.0f} %")
-                                     for row in held["rows"]])
+                                        [(row["line"], f"{row['predicted']:.4g}", f"{row['timed']:.4g}",
+                                          f"{row['least']:.4g} to {row['most']:.4g}",
+                                          f"{100 * (row['predicted'] / row['timed'] - 1):+.0f} %") for row in held["rows"]])
 
 
 def _expected(expected, found):

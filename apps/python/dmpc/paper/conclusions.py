@@ -6,11 +6,6 @@ from statistics import mean
 from ..studies.texts import counted
 
 
-def _rows(table):
-    """By the columns' names."""
-    return [dict(zip([column.name for column in table.columns], row)) for row in table.rows]
-
-
 def _on_claims(rows):
     verdicts = Counter(row["verdict"] for row in rows)
     judged = f", {verdicts['not judged']} were not judged" if verdicts["not judged"] else ""
@@ -96,4 +91,4 @@ _CONCLUSIONS = {"claims": _on_claims, "table_2": _on_pages, "table_3": _on_times
 
 
 def conclusion(name, table):
-    return _CONCLUSIONS[name](_rows(table)) if name in _CONCLUSIONS else ""
+    return _CONCLUSIONS[name](table.named_rows()) if name in _CONCLUSIONS else ""

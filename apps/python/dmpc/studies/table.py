@@ -52,6 +52,10 @@ class Table:
         """The cell in the column of this name."""
         return row[[column.name for column in self.columns].index(name)]
 
+    def named_rows(self):
+        """The rows as dictionaries by the columns' names."""
+        return [dict(zip((column.name for column in self.columns), row)) for row in self.rows]
+
     def texts(self, row):
         """The row's cells for people."""
         return [_text(*each) for each in zip(self.columns, row)]

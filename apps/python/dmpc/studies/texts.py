@@ -1,7 +1,5 @@
 """Numbers and sentences for people, as dmpc writes them."""
 
-import math
-
 _TIMES = (("s", 1), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
 
 
@@ -21,10 +19,6 @@ def time_text(seconds):
     value = seconds / size
     is_whole = unit == "ns" and abs(value - round(value)) < 1e-9 * max(1, abs(value))
     return f"{value:,.{0 if is_whole or value >= 100 or value == 0 else 1 if value >= 10 else 2 if value >= 1 else 3}f} {unit}"
-
-
-def rounded_up(number):
-    return str(math.ceil(number))
 
 
 def folded(text, width, indent="  "):

@@ -101,7 +101,7 @@ def _draw(table, folder):
     """The table as data, and the times of each of its parts as bars."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "systems.csv").write_text(table.text("csv"))
-    found = [dict(zip((column.name for column in rows.COLUMNS), row)) for row in table.rows]
+    found = table.named_rows()
     for name in dict.fromkeys(row["table"] for row in found):
         series = {}
         for row in found:
