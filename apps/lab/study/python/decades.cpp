@@ -4,15 +4,13 @@ namespace dmpc::apps {
 namespace {
 
 void declare_decades(OptionSet set, PythonStudy& study) {
-  const auto passed_on = [](const std::string&) {};
   set.add_required("-o,--output", "FOLDER", passed_on, "Folder of the page, its pictures, and the counters of all runs");
   set.add_text(
       "--part", "plan|run|hold [run]", passed_on,
       "plan: measure what a run of each kind costs, and print how many there are. run: make what the folder lacks, and the page. "
       "hold: time some renders over MPI on this computer beside their prediction, for the page");
   set.add_flag("--quick", study.is_set, "Fewer cells, scenes and draws: minutes, where all take an hour or two on two cores");
-  set.add_text("--jobs", "1..256 [all cores]", passed_on, "Runs at a time");
-  set.add_quiet(study.quiet);
+  add_run_options(set, study);
   set.set_examples(
       "Examples:\n"
       "  dmpc study decades --quick -o decades\n"

@@ -5,7 +5,6 @@ namespace dmpc::apps {
 namespace {
 
 void declare_paper(OptionSet set, PythonStudy& study) {
-  const auto passed_on = [](const std::string&) {};
   set.add_number("--resolution", study.side, 8, 4096, "512, the article's", "Pixels a side of every picture");
   set.add_flag("--sensitivity", study.is_set,
                "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
@@ -14,8 +13,7 @@ void declare_paper(OptionSet set, PythonStudy& study) {
       "Where the report goes, as a page and as Markdown, with each table as CSV and JSON, plots by Python's matplotlib, hashes, "
       "and all of it as paper.zip; and the counters of all runs");
   add_report_option(set, study.report, "with the tables and their plots");
-  set.add_text("--jobs", "1..256 [all cores]", passed_on, "Runs at a time");
-  set.add_quiet(study.quiet);
+  add_run_options(set, study);
   set.set_examples(
       "Examples:\n"
       "  dmpc study paper -o paper              the article's pictures: ten minutes of processor time\n"

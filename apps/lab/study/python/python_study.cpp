@@ -34,6 +34,11 @@ void add_options(OptionSet set, PythonStudy& study) {
   });
 }
 
+void add_run_options(OptionSet set, PythonStudy& study) {
+  set.add_text("--jobs", "1..256 [all cores]", passed_on, "Runs at a time");
+  set.add_quiet(study.quiet);
+}
+
 int python_study_command(const PythonStudy& study, std::ostream& output) {
   if (study.table) {
     check_files(*study.table, study);

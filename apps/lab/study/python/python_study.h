@@ -36,6 +36,11 @@ PythonStudy systems_study();
 
 void add_options(OptionSet set, PythonStudy& study);
 
+/// For options whose values the program in Python checks.
+inline void passed_on(const std::string&) {}
+/// Those of a study that keeps its runs: how many go side by side, and whether progress is shown.
+void add_run_options(OptionSet set, PythonStudy& study);
+
 /// Checks the outputs of a study with a table as TableFiles does, and becomes Python: does not return. Throws as both do.
 int python_study_command(const PythonStudy& study, std::ostream& output);
 

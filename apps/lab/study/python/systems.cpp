@@ -13,7 +13,6 @@ namespace {
 constexpr Resolution systems_resolution{128, 128};
 
 void declare_systems(OptionSet set, PythonStudy& study) {
-  const auto passed_on = [](const std::string&) {};
   add_node_counts(set, study.node_counts);
   set.add_words("--systems", core::mapped<std::string>(systems(), &SystemDescription::name), passed_on,
                 "Which are compared; all if none is given");
