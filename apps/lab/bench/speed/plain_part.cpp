@@ -183,9 +183,11 @@ class PlainBench {
     const Subject& subject = contender.strategy == Strategy::forest ? *forest_ : subject_;
     const TimedRender one = render_timed(strategy_of(contender), subject.database, subject.settings, interrupt_);
     const Account account = account_of(one.report);
-    core::expect(!film_ || film_->hash() == account.film.hash(), "all computers render one film");
-    film_ = account.film;
-    rays_ = account.operations.ray_count();
+    if (contender.tracer == TracerChoice::grid) {  // Embree rounds in its own way: `dmpc check` judges its hits
+      core::expect(!film_ || film_->hash() == account.film.hash(), "all computers render one film");
+      film_ = account.film;
+      rays_ = account.operations.ray_count();
+    }
     return one.times;
   }
 
