@@ -84,6 +84,7 @@ int render_here(const RenderOptions& options, Interrupt& interrupt, std::ostream
   call.say({frames.note()});
   const std::optional<DueFrame> first = frames.first();
   if (!first) {
+    call.apart([&] { end_frames(call, frames); });
     return 0;
   }
   claim(call, *first);

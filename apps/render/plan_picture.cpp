@@ -1,5 +1,7 @@
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -18,12 +20,16 @@ constexpr const char* equal_frames_note =
     "a frame that equals the one before it is not rendered again: its picture is a copy, and its counters are 0 "
     "(--no-skip=equal-frames renders it)";
 
-/// Whether a checkpoint may be there of the frame before, where a process was killed when that was written.
-bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
+/// Whether a checkpoint may be there of this frame, whose picture is: a process was killed when it had written that.
+bool may_have_checkpoint(const RenderCall& call, std::uint64_t frame, const DueFrames& frames) {
   const CheckpointOptions& checkpoint = call.asked.checkpoint;
   std::error_code error;
-  return !call.checkpoints && checkpoint.file && checkpoint.resumes && frame.number && *frame.number > call.scenes.first() &&
-         frames.was_there(*frame.number - 1) && std::filesystem::exists(*checkpoint.file, error);
+  return checkpoint.file && checkpoint.resumes && frames.was_there(frame) && std::filesystem::exists(*checkpoint.file, error);
+}
+
+bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
+  return !call.checkpoints && frame.number && *frame.number > call.scenes.first() &&
+         may_have_checkpoint(call, *frame.number - 1, frames);
 }
 
 SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
@@ -39,9 +45,15 @@ SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
   return facts;
 }
 
-/// Removes the checkpoint of the frame before; `own` is the identity of the scene's own picture.
-void remove_old_checkpoint(const RenderCall& call, const DueFrame& frame, const PictureIdentity& own) {
-  remove_checkpoint_of(identity_from(call.scenes.view(*frame.number - 1), own), call.asked.checkpoint, call.files);
+/// Removes the checkpoint of a frame that is done; `own` is the identity of the scene's own picture.
+void remove_old_checkpoint(const RenderCall& call, std::uint64_t frame, const PictureIdentity& own) {
+  remove_checkpoint_of(identity_from(call.scenes.view(frame), own), call.asked.checkpoint, call.files);
+}
+
+/// As above; reads the frame's scene.
+void remove_old_checkpoint(RenderCall& call, std::uint64_t frame) {
+  OpenedFiles opened;
+  remove_old_checkpoint(call, frame, identity_of(call.asked, call.scenes.load(frame, opened)));
 }
 
 /// The checkpoint is from now on that of this frame.
@@ -59,15 +71,14 @@ ReadScene read_scene(RenderCall& call, const DueFrame& frame, const DueFrames& f
   Stopwatch stopwatch;
   const bool follows = follows_checkpoint(call, frame, frames);
   if (follows && call.scenes.are_animated()) {
-    OpenedFiles opened;
-    remove_old_checkpoint(call, frame, identity_of(call.asked, call.scenes.load(*frame.number - 1, opened)));
+    remove_old_checkpoint(call, *frame.number - 1);
   }
   OpenedFiles opened;
   ReadScene read{.scene = call.scenes.load(frame.number, opened), .facts = {}};
   check_not_read(opened, files_of(frame.outputs.names()));
   read.facts = facts_of(call.asked, read.scene);
   if (follows && !call.scenes.are_animated()) {
-    remove_old_checkpoint(call, frame, *read.facts.identity);
+    remove_old_checkpoint(call, *frame.number - 1, *read.facts.identity);
   }
   if (read.facts.identity) {
     begin_checkpoint(call, frame, *read.facts.identity);
@@ -191,6 +202,15 @@ PlannedPicture::PlannedPicture(RenderCall& call, const DueFrame& frame, BuiltSce
                 show_next(call, frame, built.subject.settings.camera)),
       nodes(options, built.subject.database, settings_of(call, frame, built.subject)) {
   options.pages.reference_logs = observers.reference_logs();
+}
+
+void end_frames(RenderCall& call, const DueFrames& frames) {
+  const std::uint64_t last = call.asked.frames.range->last;
+  if (may_have_checkpoint(call, last, frames)) {
+    const std::optional<FileLock> lock = claim_checkpoint(call.asked.checkpoint);
+    const Interrupt::EndAtOnce end_at_once(call.interrupt);
+    remove_old_checkpoint(call, last);
+  }
 }
 
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,

@@ -77,6 +77,10 @@ struct WrittenPicture {
 std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,
                                              std::unique_ptr<PlannedPicture> last);
 
+/// If all frames exist: removes the checkpoint of the last one, which a process leaves that is killed when it has written that.
+/// Throws as claim_checkpoint() and FrameScenes::load() do.
+void end_frames(RenderCall& call, const DueFrames& frames);
+
 /// Renders the frame's layers, if any are asked for, by the strategy, on nodes of their own; with ranks on rank 0 alone. Nothing
 /// observes or counts that. Throws Interrupted, and what ReadyRun does.
 void render_layers(const RenderCall& call, PlannedPicture& planned);

@@ -233,6 +233,35 @@ TEST_CASE("more frames than the disk holds are told beforehand, and begun") {
   CHECK(fs::exists(folder / "a.2.exr"));
 }
 
+TEST_CASE("the checkpoint of the last frame goes, where all frames are there, and that of another picture stays") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = {"--frames=2", "--turntable=7", "--samples=256", "-o", "@a.#.exr"};
+  REQUIRE(render(folder, words).status == 0);
+  std::vector<std::string> resumed = words;
+  resumed.insert(resumed.end(), {"--checkpoint=@c", "--resume"});
+  fs::rename(folder / "a.2.exr", folder / "kept.exr");
+  for (int tries = 0; tries < 100 && !fs::exists(folder / "c"); ++tries) {
+    std::vector<std::string> killed = resumed;
+    killed.push_back("--checkpoint-every=0.001");
+    ChildProcess process(line(folder, killed));
+    for (int looks = 0; looks < 60'000 && !fs::exists(folder / "c") && !fs::exists(folder / "a.2.exr"); ++looks) {
+      ::usleep(1'000);
+    }
+    process.send(SIGKILL);
+    process.status();
+    fs::remove(folder / "a.2.exr");
+  }
+  fs::rename(folder / "kept.exr", folder / "a.2.exr");
+  const std::string checkpoint = file_text(folder / "c");
+  REQUIRE(!checkpoint.empty());
+  CHECK(render(folder, resumed).status == 0);
+  CHECK_FALSE(fs::exists(folder / "c"));
+  write_text(folder / "c", checkpoint);
+  resumed[2] = "--samples=255";
+  CHECK(render(folder, resumed).status == 0);
+  CHECK(file_text(folder / "c") == checkpoint);
+}
+
 TEST_CASE("frames that are killed again and again are those of one run, whole or not there") {
   const TemporaryFolder folder;
   REQUIRE(render(folder, {"--frames=5", "--turntable=7", "--samples=16", "-o", "@whole.#.exr"}).status == 0);
