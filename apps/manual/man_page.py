@@ -168,5 +168,5 @@ def man_page(declared):
     for name, text in VARIABLES.items():
         page.add_entry(name, "", text)
     page.begin("SH", "SEE ALSO")
-    page.add_paragraph("gnuplot(1), oiiotool(1)")
+    page.add_paragraph("oiiotool(1)")
     return page.text

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -11,8 +10,6 @@
 
 namespace dmpc::apps {
 namespace {
-
-constexpr std::array<const char*, 2> pythons = {"/usr/bin/python3", "python3"};
 
 /// Imports nothing from the current folder (-P). Its arguments: the module, what needs it, and the words for it.
 /// While it imports, Ctrl-C just ends it.
@@ -31,10 +28,21 @@ sys.exit(module.main(words))
 
 }  // namespace
 
-void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words) {
-  std::vector<std::string> line = {"python3", "-P", "-X", "utf8", "-c", driver, name, what};
+std::string python() {
+  constexpr const char* debian = "/usr/bin/python3";
+  return ::access(debian, X_OK) == 0 ? debian : "python3";
+}
+
+std::vector<std::string> python_words(const std::string& name, const std::string& what, const std::vector<std::string>& words) {
+  std::vector<std::string> line = {"-P", "-X", "utf8", "-c", driver, name, what};
   line.insert(line.end(), words.begin(), words.end());
-  std::vector<char*> values;
+  return line;
+}
+
+void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words) {
+  std::string program = python();
+  std::vector<std::string> line = python_words(name, what, words);
+  std::vector<char*> values = {program.data()};
   for (std::string& word : line) {
     values.push_back(word.data());
   }
@@ -43,9 +51,7 @@ void become_python(const std::string& name, const std::string& what, const std::
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);  // dmpc holds back what Ctrl-C sends, and Python would inherit that
-  for (const char* const python : pythons) {
-    ::execvp(python, values.data());
-  }
+  ::execvp(program.c_str(), values.data());
   throw InstallationError(what + " needs Python: apt-get install python3-dmpc python3-matplotlib");
 }
 

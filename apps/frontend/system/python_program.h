@@ -6,9 +6,13 @@
 
 namespace dmpc::apps {
 
-/// Becomes Python (Debian's, for which packages bring modules, if it is there), which calls main(words) of the module `dmpc.NAME`
-/// with this dmpc for its renders. If a module is missing, that says by which package it comes, as `what` needs it. Throws
-/// InstallationError if there is no Python.
+/// Debian's Python, for which packages bring modules, if it is there, else that of PATH.
+std::string python();
+/// The arguments with which Python calls main(words) of the module `dmpc.NAME`. If a module is missing, that says by which
+/// package it comes, as `what` needs it.
+std::vector<std::string> python_words(const std::string& name, const std::string& what, const std::vector<std::string>& words);
+
+/// Becomes Python with these arguments, and this dmpc for its renders. Throws InstallationError if there is no Python.
 [[noreturn]] void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words);
 
 }  // namespace dmpc::apps

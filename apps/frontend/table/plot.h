@@ -1,7 +1,6 @@
-// A plot of a table: curves or bars of named columns, drawn by gnuplot from the table's CSV file, or by a page's script.
+// A plot of a table: curves or bars of named columns, drawn by Python's matplotlib or by a page's script.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,9 +19,6 @@ enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 /// Number of styles that colour-blind people can distinguish: eight colours, then the first four of them again, dashed or
 /// hatched.
 inline constexpr std::size_t plot_color_count = 12;
-
-/// Colours as #rrggbb, legible on white.
-extern const std::array<const char*, 8> plot_colors;
 
 struct PlotSeries {
   std::string title;   ///< in the legend
@@ -65,9 +61,5 @@ Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std:
 /// Axes for numbers of nodes, and for percent from 0.
 PlotAxis node_axis();
 PlotAxis percent_axis(const std::string& what);
-
-/// Returns a gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg
-/// there; nothing if no row of the table is drawn. Requires columns that the table has.
-std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The axes of a plot in gnuplot's language, and helpers for writing it.
+// Limits and ticks of the axes of a plot.
 #pragma once
 
 #include <limits>
@@ -9,11 +9,6 @@
 #include "apps/frontend/table/plot.h"
 
 namespace dmpc::apps {
-
-/// Quotes a text for gnuplot, on one line.
-std::string gnuplot_text(const std::string& text);
-/// Returns a tic's text at a position along its axis. gnuplot takes such a text as a format for the position, so '%' is doubled.
-std::string gnuplot_tic(std::string text, const std::string& position);
 
 /// The least and the largest value drawn.
 struct PlotExtent {
@@ -31,10 +26,5 @@ struct ShownAxis {
 /// Returns round ticks for numbers counted in `unit`. `has_margin`: with some space around the values if no limits are given, as
 /// logarithmic axes always have.
 ShownAxis shown_axis(PlotAxis axis, const PlotExtent& extent, const std::string& unit, bool has_margin);
-
-/// Returns label, limits and scale of the axis "x" or "y".
-std::string axis_lines(const std::string& name, const PlotAxis& axis);
-/// Returns lines for an axis with round ticks for numbers counted in `unit`; gnuplot itself places ticks at powers of two.
-std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent& extent, const std::string& unit);
 
 }  // namespace dmpc::apps

@@ -1,13 +1,17 @@
 #include "apps/frontend/table/table_files.h"
 
+#include <optional>
+#include <system_error>
+
 #include "apps/frontend/system/output_file.h"
 #include "apps/frontend/system/scratch_folder.h"
+#include "apps/frontend/table/plot_data.h"
 #include "apps/frontend/table/plot_program.h"
 
 namespace dmpc::apps {
 namespace {
 
-constexpr const char* script_ending = ".gnuplot";
+constexpr const char* data_ending = ".json";
 constexpr const char* picture_ending = ".svg";
 
 void add_plots(const std::filesystem::path& folder, const std::vector<PlottedNames>& plotted, OutputSet<TableResult>& files) {
@@ -15,7 +19,7 @@ void add_plots(const std::filesystem::path& folder, const std::vector<PlottedNam
   for (const PlottedNames& names : plotted) {
     add(names.data_file);
     for (const std::string& plot : names.plots) {
-      add(plot + script_ending);
+      add(plot + data_ending);
       add(plot + picture_ending);
     }
   }
@@ -42,15 +46,26 @@ void PlotFolder::add(const Table& table, const std::string& data_file, std::span
   const bool has_data = attempts.make([&] { write_file(folder_ / data_file, text_of(table, TableFormat::csv)); });
   if (has_data) {
     for (const Plot& plot : plots) {
-      attempts.make([&] { draw_one(plot, table, data_file); });
+      attempts.make([&] { write_data(plot, table); });
     }
   }
 }
 
-void PlotFolder::draw_one(const Plot& plot, const Table& table, const std::string& data_file) {
-  const auto outcome = draw(plot, table, folder_, data_file);
-  if (outcome && !outcome->is_drawn && reported_.insert(sentence_on(*outcome)).second) {
-    complaints_ << "dmpc: " << sentence_on(*outcome) << std::endl;
+void PlotFolder::write_data(const Plot& plot, const Table& table) {
+  const auto path = [&](const char* ending) { return folder_ / (plot.name + ending); };
+  std::error_code ignored;
+  std::filesystem::remove(path(picture_ending), ignored);
+  if (const std::optional<std::string> data = plot_data(plot, table)) {
+    write_file(path(data_ending), *data);
+    names_.push_back(plot.name);
+  } else {
+    std::filesystem::remove(path(data_ending), ignored);
+  }
+}
+
+void PlotFolder::draw(std::ostream& complaints) const {
+  if (const std::string complaint = names_.empty() ? "" : draw_plots(folder_, names_); !complaint.empty()) {
+    complaints << "dmpc: " << complaint << std::endl;
   }
 }
 
@@ -97,12 +112,13 @@ void TableFiles::write(const TableResult& result, std::ostream& output, std::ost
 }
 
 void TableFiles::write_plots(const TableResult& result, std::ostream& complaints, Attempts& attempts) const {
-  PlotFolder folder(*asked_.plots, complaints);
+  PlotFolder folder(*asked_.plots);
   std::vector<PlottedTable> plotted;
   attempts.make([&] { plotted = result.plotted(); });
   for (const PlottedTable& one : plotted) {
     folder.add(one.table, one.data_file, one.plots, attempts);
   }
+  folder.draw(complaints);
 }
 
 }  // namespace dmpc::apps

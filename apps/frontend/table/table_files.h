@@ -6,7 +6,6 @@
 #include <functional>
 #include <iosfwd>
 #include <ostream>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,21 +20,22 @@
 
 namespace dmpc::apps {
 
-/// Writes plots to one folder. Plots are optional, so those that cannot be drawn are reported to `complaints`, which outlives
-/// this, each reason once.
+/// Writes plots to one folder.
 class PlotFolder {
  public:
-  PlotFolder(std::filesystem::path folder, std::ostream& complaints) : folder_(std::move(folder)), complaints_(complaints) {}
+  explicit PlotFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Writes the table as CSV to `data_file`, and then draws its plots. Each file is one attempt.
+  /// Writes the table as CSV to `data_file`, and what its plots draw. Each file is one attempt. Of a plot of no row older files
+  /// go.
   void add(const Table& table, const std::string& data_file, std::span<const Plot> plots, Attempts& attempts);
+  /// Draws all plots. They are optional: one sentence on `complaints` says why they are not drawn.
+  void draw(std::ostream& complaints) const;
 
  private:
-  void draw_one(const Plot& plot, const Table& table, const std::string& data_file);
+  void write_data(const Plot& plot, const Table& table);
 
   std::filesystem::path folder_;
-  std::ostream& complaints_;
-  std::set<std::string> reported_;
+  std::vector<std::string> names_;  ///< of plots with data
 };
 
 /// A table's files in the folder of plots: the CSV file and the plots.

@@ -15,7 +15,7 @@ void add_options(OptionSet options, TableOutput& output, TableExtras extras) {
     add_report_option(options, output.report, "with the table and its plots");
   }
   if (extras != TableExtras::none) {
-    options.add_path("--plots", "FOLDER", output.plots, "Write plots by gnuplot to this folder, with their scripts and data");
+    options.add_path("--plots", "FOLDER", output.plots, "Write plots by Python's matplotlib to this folder, with their data");
   }
   options.add_path("-o,--output", "FILE [stdout]", output.file, "Output file");
 }

@@ -15,7 +15,7 @@ struct TableOutput {
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> file;    ///< stdout if not given
   std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
-  std::optional<std::filesystem::path> plots;   ///< a folder for gnuplot's plots and their data
+  std::optional<std::filesystem::path> plots;   ///< a folder for plots and their data
 };
 
 enum class TableExtras : std::uint8_t { none, plots, plots_and_report };

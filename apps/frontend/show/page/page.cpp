@@ -10,8 +10,9 @@
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/show/page/data_url.h"
 #include "apps/frontend/show/page/escaped.h"
-#include "apps/frontend/show/page/plot_data.h"
+#include "apps/frontend/show/page/map_data.h"
 #include "apps/frontend/show/page/table.h"
+#include "apps/frontend/table/plot_data.h"
 
 namespace dmpc::apps::html {
 

@@ -1,4 +1,4 @@
-// Plots of the page's tables, as apps/frontend/show/page/plot_data.h describes them: bars, curves, intervals and bands; and maps of
+// Plots of the page's tables, as apps/frontend/table/plot_data.h describes them: bars, curves, intervals and bands; and maps of
 // numbers. What is at the pointer, or reached by arrow keys, is told below.
 (() => {
   const titleHigh = 26, fieldHigh = 220, lineHigh = 17, letterWide = 6.6, widest = 570, slantedMost = 130;

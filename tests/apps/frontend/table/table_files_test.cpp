@@ -62,12 +62,12 @@ TEST_CASE("a table, its page and its pictures go where they are asked for") {
   CHECK(file_text(folder / "table.md") == "the table\n");
   CHECK(file_text(folder / "page.html") == "the page");
   CHECK(file_text(folder / "plots" / "times.csv") == "nodes,time (s)\n1,8\n");
-  CHECK(contains(file_text(folder / "plots" / "one.gnuplot"), "times.csv"));
+  CHECK(contains(file_text(folder / "plots" / "one.json"), "series"));
   CHECK(written({}).output == "the table\n");
 }
 
 TEST_CASE("each output that cannot be written is said, and all others are there but for pictures without data") {
-  for (const std::string bad : {"table.md", "page.html", "plots/times.csv", "plots/one.gnuplot"}) {
+  for (const std::string bad : {"table.md", "page.html", "plots/times.csv", "plots/one.json"}) {
     CAPTURE(bad);
     const TemporaryFolder folder;
     make_unwritable(folder / bad);
@@ -75,8 +75,8 @@ TEST_CASE("each output that cannot be written is said, and all others are there 
     CHECK(all.status == 1);
     CHECK(count(all.messages, "dmpc: ") == 1);
     CHECK(contains(all.messages, bad));
-    for (const std::string good : {"table.md", "page.html", "plots/times.csv", "plots/one.gnuplot"}) {
-      const bool needs_bad = good == bad || (bad == "plots/times.csv" && good == "plots/one.gnuplot");
+    for (const std::string good : {"table.md", "page.html", "plots/times.csv", "plots/one.json"}) {
+      const bool needs_bad = good == bad || (bad == "plots/times.csv" && good == "plots/one.json");
       CHECK(file_text(folder / good).empty() == needs_bad);
     }
   }
@@ -93,7 +93,7 @@ TEST_CASE("a page or a picture that fails by itself keeps the table and the othe
 }
 
 TEST_CASE("what is in the way of an output is found before anything is done") {
-  for (const std::string bad : {"table.md", "page.html", "plots/times.csv", "plots/one.gnuplot", "plots/one.svg"}) {
+  for (const std::string bad : {"table.md", "page.html", "plots/times.csv", "plots/one.json", "plots/one.svg"}) {
     CAPTURE(bad);
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / bad);

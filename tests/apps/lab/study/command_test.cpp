@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/frontend/show/page/escaped.h"
+#include "apps/frontend/table/plot_data.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
@@ -127,7 +128,7 @@ TEST_CASE("pictures of a study go to a folder that is made for them, beside the 
   options.table.format = apps::TableFormat::csv;
   const std::string table = output_of(options);
   CHECK(file_text(*options.table.plots / "traffic.csv") == table);
-  for (const char* name : {"traffic_bytes.gnuplot", "traffic_memory.gnuplot"}) {
+  for (const char* name : {"traffic_bytes.json", "traffic_memory.json"}) {
     CHECK(contains(file_text(*options.table.plots / name), "traffic.csv"));
   }
   options.table.plots = folder / "new" / "plots" / "traffic.csv";
@@ -141,7 +142,7 @@ TEST_CASE("pictures and a page of a study are made of regions whose names have c
   options.table.plots = folder / "plots";
   options.table.report = folder / "page.html";
   output_of(options);
-  CHECK(contains(file_text(*options.table.plots / "balance_load.gnuplot"), "'scattered, 16 a node, achieved'"));
+  CHECK(contains(file_text(*options.table.plots / "balance_load.json"), "'scattered, 16 a node, achieved'"));
   CHECK(contains(file_text(folder / "page.html"), "Plot: Average load of the nodes. "));
 }
 
@@ -182,7 +183,7 @@ TEST_CASE("every study's pictures show columns that its table has, under names o
     table.add_row(std::vector<apps::Cell>(columns.size(), std::uint64_t{1}));
     for (const apps::Plot& plot : plots) {
       CHECK(names.insert(plot.name).second);
-      CHECK_NOTHROW(apps::script_of(plot, table, "t.csv"));
+      CHECK_NOTHROW(apps::plot_data(plot, table));
     }
     CHECK_FALSE(plots.empty());
   }
@@ -202,7 +203,7 @@ TEST_CASE("every study draws its pictures and its page, of rows as they come") {
     const StudyOptions options = apps::parse_command_line(words).options<StudyOptions>();
     output_of(options);
     for (const apps::Plot& plot : std::visit([](const auto& study) { return study.plots(); }, options.study)) {
-      CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+      CHECK(file_text(folder / "plots" / (plot.name + ".json")).size() > 100);
       CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
     }
   }

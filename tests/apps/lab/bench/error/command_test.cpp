@@ -115,7 +115,7 @@ TEST_CASE("bench error writes its table and plots where they are asked for") {
                               "-o" + (folder / "table.csv").string()}))
             .empty());
   CHECK(contains(file_text(folder / "table.csv"), "RMSE (1/255)"));
-  CHECK(std::filesystem::exists(folder / "plots" / "error_tetra-2_knobs.gnuplot"));
+  CHECK(std::filesystem::exists(folder / "plots" / "error_tetra-2_knobs.json"));
 }
 
 TEST_CASE("bench error writes what was measured before an error ended it") {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/table/plot_data.h"
 #include "apps/lab/bench/error/table.h"
 #include "tests/support/text.h"
 
@@ -238,12 +239,11 @@ TEST_CASE("the first picture has uniform and adaptive sampling alone, and their 
   const auto plots = apps::plots_of(result, "error");
   REQUIRE(plots.size() == 2);
   CHECK(plots[1].name == apps::knobs_plot_of("error"));
-  const std::string first = *apps::script_of(plots[0], table, "error.csv"),
-                    second = *apps::script_of(plots[1], table, "error.csv");
-  CHECK(contains(first, "tetra-2: adaptive takes 0.25 of uniform''s time at 8/255 (0.25 to 0.25)"));
-  CHECK(contains(first, "with yerrorbars"));
-  CHECK_FALSE(contains(first, "title 'depth'"));
-  CHECK(contains(second, "title 'depth'"));
+  const std::string first = *apps::plot_data(plots[0], table), second = *apps::plot_data(plots[1], table);
+  CHECK(contains(first, "tetra-2: adaptive takes 0.25 of uniform's time at 8/255 (0.25 to 0.25)"));
+  CHECK(contains(first, R"("mark":"intervals")"));
+  CHECK_FALSE(contains(first, R"("name":"depth")"));
+  CHECK(contains(second, R"("name":"depth")"));
 }
 
 TEST_CASE("the first words say what adaptive sampling takes, and where errors end") {

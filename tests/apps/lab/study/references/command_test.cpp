@@ -130,7 +130,7 @@ TEST_CASE("the study of references draws its curves, in a folder and on a page")
   std::ostringstream output;
   CHECK(apps::study_references_command(options, interrupt, output) == 0);
   const apps::Plot plot = apps::CacheCurves::plot({});
-  CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+  CHECK(file_text(folder / "plots" / (plot.name + ".json")).size() > 100);
   CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("a policy of one's own has a column beside dmpc's, on plots, too") {
   CHECK(apps::study_references_command(options, interrupt, output) == 0);
   CHECK(contains(output.str(), "faults s3-fifo,faults Clock,faults optimum"));
   CHECK(contains(output.str(), ",10,8\n"));  // fifo's anomaly, as the clock has it, and the optimum
-  CHECK(contains(file_text(folder / "plots" / "cache_faults.gnuplot"), "Clock"));
+  CHECK(contains(file_text(folder / "plots" / "cache_faults.json"), "Clock"));
 }
 
 TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/table/plot_data.h"
+
 namespace dmpc::tests::sweep_table_test {
 
 using apps::Figure;
@@ -92,12 +94,12 @@ TEST_CASE("where nothing varies by numbers a picture has bars, and more curves t
   CHECK(sweep_plots(many, apps::sweep_runs(many)).empty());
 }
 
-TEST_CASE("the table of a sweep can be drawn by gnuplot's scripts") {
+TEST_CASE("the table of a sweep can be drawn as plots") {
   const SweepSettings settings = sweep_of({"page-size:1KiB,4KiB", "strategy:svm,replicated"}, {"packets.bytes"});
   const auto runs = apps::sweep_runs(settings);
   const apps::Table table = sweep_table(settings, runs, all_with(settings, {{"packets.bytes", std::uint64_t{7}}}));
   for (const apps::Plot& plot : sweep_plots(settings, runs)) {
-    CHECK(script_of(plot, table, "sweep.csv").has_value());
+    CHECK(plot_data(plot, table).has_value());
   }
 }
 

@@ -1,14 +1,12 @@
-#include "apps/frontend/show/page/plot_data.h"
+#include "apps/frontend/table/plot_data.h"
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/frontend/system/base64.h"
 #include "core/base/expect.h"
 
-namespace dmpc::apps::html::plot_data_test {
+namespace dmpc::apps::plot_data_test {
 
 namespace {
 
@@ -55,44 +53,50 @@ TEST_CASE("curves have limits and ticks along both axes, at powers of two where 
   CHECK(data["y"]["most"].get<double>() > 9);
 }
 
-TEST_CASE("a map of few numbers has them, and a scale without halves where they are counted") {
-  NumberMap map{.title = "Who",
-                .row_label = "row",
-                .column_label = "column",
-                .value_label = "fetches",
-                .unit = {},
-                .rows = 1,
-                .columns = 2,
-                .values = {0, 2}};
-  json data = json::parse(map_data(map));
-  CHECK(data["values"] == json({0.0, 2.0}));
-  CHECK(data["most"] == 2.0);
-  for (const json& tick : data["ticks"]) {
-    CHECK(tick[0].get<double>() == std::floor(tick[0].get<double>()));
-  }
-  CHECK_FALSE(data.contains("column_ticks"));
-  map.column_ns = 5'000'000;
-  map.unit = "%";
-  map.most = 1;
-  data = json::parse(map_data(map));
-  CHECK(data["column_ticks"].back() == json({2.0, "10 ms"}));
-  CHECK(data["most"] == 1.0);
-  map.values.clear();
-  CHECK_THROWS_AS(map_data(map), core::InternalError);
+TEST_CASE("bars over time stand at their numbers, each as wide as a step") {
+  Plot plot = curves("times", "Times", "nodes", {}, {.label = "t", .least = 0},
+                     {{.title = "time", .column = "time", .mark = PlotMark::bars}});
+  plot.bar_width = 2.5;
+  const json data = data_of(plot);
+  CHECK_FALSE(data.contains("places"));
+  CHECK(data["width"] == 2.5);
+  CHECK(data["x"]["most"] == 6.5);
+  CHECK(data["series"][0]["rows"] == json({{1.0, 8.0}, {4.0, 2.0}}));
 }
 
-TEST_CASE("a map of many numbers has them in 255ths of the largest, and none but 0 becomes 0") {
-  NumberMap map{.title = "Who", .row_label = {}, .column_label = {}, .value_label = {}, .unit = {}, .rows = 1, .columns = 4098};
-  map.values.assign(4095, 1000);
-  map.values.insert(map.values.begin(), {0, 1, 500});
-  const json data = json::parse(map_data(map));
-  CHECK_FALSE(data.contains("values"));
-  CHECK(data["levels"].get<std::string>().substr(0, 4) == base64(std::string("\0\1\200", 3)));
+TEST_CASE("a series without a row is left out, and one without a number above 0 on a logarithmic axis") {
+  Plot plot = curves("times", "Times", "nodes", {}, {}, {{"a", "time", {{"scene", "a"}}}, {"b", "low", {{"scene", "b"}}}});
+  CHECK(data_of(plot)["series"].size() == 1);
+  Table table = times();
+  table.add_row({"b", std::uint64_t{8}, 1.0, 0.0, 1.0});
+  CHECK(json::parse(plot_data(plot, table).value())["series"].size() == 2);
+  plot.y.scale = PlotScale::powers_of_10;
+  CHECK(json::parse(plot_data(plot, table).value())["series"].size() == 1);
 }
 
-TEST_CASE("a plot of nothing has no data") {
-  const Plot plot = curves("times", "Times", "nodes", {}, {}, {{"b", "time", {{"scene", "b"}}}});
+TEST_CASE("a plot of no row has no data") {
+  Plot plot = curves("times", "Times", "nodes", {}, {}, {{"b", "time", {{"scene", "b"}}}});
+  CHECK_FALSE(plot_data(plot, times()).has_value());
+  plot.series.clear();
   CHECK_FALSE(plot_data(plot, times()).has_value());
 }
 
-}  // namespace dmpc::apps::html::plot_data_test
+TEST_CASE("a plot of what the table has not, of too many colours, or of bars and curves is a mistake") {
+  const auto is_refused = [](const Plot& plot) { CHECK_THROWS_AS(plot_data(plot, times()), core::InternalError); };
+  const Plot right = curves("times", "Times", "nodes", {}, {}, {{"time", "time"}, {"low", "low"}});
+  CHECK_NOTHROW(plot_data(right, times()));
+  Plot plot = right;
+  plot.series[0].column = "speed";
+  is_refused(plot);
+  plot = right;
+  plot.series[0].color = plot_color_count;
+  is_refused(plot);
+  plot = right;
+  plot.series[0].mark = PlotMark::bars;
+  is_refused(plot);
+  plot = right;
+  plot.places = {"nodes", "scene"};
+  is_refused(plot);
+}
+
+}  // namespace dmpc::apps::plot_data_test

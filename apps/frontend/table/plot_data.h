@@ -1,0 +1,20 @@
+// A plot as a page's script (plot.js) and Python (dmpc.plotting) draw it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table.h"
+
+namespace dmpc::apps {
+
+/// Returns JSON; nothing if no row of the table is drawn. Keys:
+///
+/// - title, bars, stacked, width (of bars along x; 0: they stand at places)
+/// - x, y: {label, unit, digits, log, least, most, ticks: [[position, text]]}; places: names along x in place of limits and ticks
+/// - series: [{name, color, mark, unit, digits, rows}]; a row: x, or the number of its place, y, and for intervals and bands the
+///   two ends, for bands also those of the box
+std::optional<std::string> plot_data(const Plot& plot, const Table& table);
+
+}  // namespace dmpc::apps
