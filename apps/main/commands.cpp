@@ -25,7 +25,7 @@ void declare_all(Commands& commands) {
   commands.add(BalanceStudy::name, BalanceStudy::description, StudyOptions{.study = BalanceStudy()}, study_command);
   commands.add(TrafficStudy::name, TrafficStudy::description, StudyOptions{.study = TrafficStudy()}, study_command);
   commands.add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
-  commands.add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
+  commands.add("speedup", "How much faster a modelled machine gets by more nodes", speedup_study(), python_study_command);
   commands.add("systems", "The systems that the 1994 article classifies, side by side on one machine", systems_study(),
                python_study_command);
   commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);

@@ -63,6 +63,7 @@ constexpr Gone gone[] = {
     {"bench error --references", "each run makes its own references"},
     {"bench speed --plots", "-o FILE.csv --format=csv has all comparisons, to be drawn"},
     {"bench stability --resume", "a long run may be made of several with another --seed each, whose counts add up"},
+    {"study speedup --report", "-o FILE has its table, --plots=FOLDER its pictures"},
     {"study systems --report", "-o FILE has its table, --plots=FOLDER its pictures"},
     {"study scale",
      "examples/scale.py of the Python module has costs and their growth over scenes, dmpc study sweep those of one"},

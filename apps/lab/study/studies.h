@@ -79,30 +79,6 @@ struct CacheStudy {
   std::string conclusion(const Table& table) const;
 };
 
-/// For each node count, the virtual time on one machine, speedup and efficiency against the first count that the scene fits, and
-/// the parts of the nodes' time.
-struct SpeedupStudy {
-  static constexpr const char* name = "speedup";
-  static constexpr const char* description = "How much faster a modelled machine gets by more nodes";
-
-  std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
-  /// The options of all runs, with their machine; its node count is not used.
-  StrategyOptions run = on_usual_machine();
-
-  /// Loads the user's replacement policy, if there is one.
-  void load(const std::function<void()>& check);
-
-  void add_options(StudyLine line);
-  std::vector<Column> columns() const;
-  std::vector<Plot> plots() const;
-  /// Adds to `table`, which has columns(), a row for each node count (after a signal, for the finished ones), and notes: why a
-  /// row is empty (the scene does not fit the nodes), and what was reduced to fit. Throws as StudyRuns does: NothingFits once all
-  /// rows are there, without figures.
-  void measure(StudyRuns& runs, Table& table) const;
-  std::vector<std::string> notes(const std::string& scene) const;
-  std::string conclusion(const Table& table) const;
-};
-
 /// For pages with caches of several sizes, for questions and for travelling rays, the mean over frames 2 to the last of a
 /// camera's path on modelled machines: each frame is rendered by nodes that have rendered the frames before it (warm), and by
 /// nodes that have rendered none (cold).
@@ -136,6 +112,6 @@ struct FramesStudy {
 /// the 1994 article's result if the scene, as on the command line, is one of its own. conclusion() is a sentence or two computed
 /// from a table's rows, empty if there are too few. measure() adds row after row to a table that has columns(), as the runs end,
 /// and throws as StudyRuns does.
-using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, FramesStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, FramesStudy>;
 
 }  // namespace dmpc::apps

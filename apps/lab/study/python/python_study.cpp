@@ -34,6 +34,17 @@ void add_options(OptionSet set, PythonStudy& study) {
   });
 }
 
+void add_scene_options(OptionSet set, PythonStudy& study) {
+  add_options(set, study.picture);
+  add_transport_options(set, study.picture);
+  if (study.database) {
+    add_options(set, *study.database);
+  }
+  add_options(set, study.table.emplace(), TableExtras::none);
+  set.add_path("--plots", "FOLDER", study.table->plots, "Write plots by Python's matplotlib to this folder, with their data");
+  set.add_quiet(study.quiet);
+}
+
 void add_run_options(OptionSet set, PythonStudy& study) {
   set.add_text("--jobs", "1..256 [all cores]", passed_on, "Runs at a time");
   set.add_quiet(study.quiet);
@@ -44,8 +55,7 @@ int python_study_command(const PythonStudy& study, std::ostream& output) {
     check_files(*study.table, study);
   }
   output.flush();
-  const std::string module = study.module;
-  become_python(module, "study " + module.substr(0, module.find('.')), study.words);
+  become_python(study.module, std::string("study ") + study.name, study.words);
 }
 
 }  // namespace dmpc::apps

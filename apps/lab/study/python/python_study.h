@@ -10,16 +10,20 @@
 
 #include "apps/frontend/line/command_line.h"
 #include "apps/frontend/table/table_options.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
 
 /// A study as a command. It declares what it needs of the options below, by which dmpc checks them.
 struct PythonStudy {
+  const char* name;
   const char* module;  ///< its main(words): "systems.command" of the package dmpc
   void (*declare)(OptionSet set, PythonStudy& study);
   PictureOptions picture = {};
   std::optional<TableOutput> table = {};
+  std::optional<DatabaseOptions> database = {};
+  StrategyOptions run = {};
   std::string machine_name = "ipsc2";
   std::vector<std::uint32_t> node_counts = {};
   std::uint32_t draws = 0;
@@ -32,12 +36,15 @@ struct PythonStudy {
 
 PythonStudy decades_study();
 PythonStudy paper_study();
+PythonStudy speedup_study();
 PythonStudy systems_study();
 
 void add_options(OptionSet set, PythonStudy& study);
 
 /// For options whose values the program in Python checks.
 inline void passed_on(const std::string&) {}
+/// Those of a study of one scene: its picture, its database if the study has one, its table and plots.
+void add_scene_options(OptionSet set, PythonStudy& study);
 /// Those of a study that keeps its runs: how many go side by side, and whether progress is shown.
 void add_run_options(OptionSet set, PythonStudy& study);
 

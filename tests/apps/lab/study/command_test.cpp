@@ -173,8 +173,7 @@ TEST_CASE("a table may lie in the folder of its pictures, but not in place of on
 
 TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
   const apps::CacheStudy timed{.machine = nodes::Machine()};
-  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::SpeedupStudy(),
-                                            apps::FramesStudy()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::FramesStudy()};
   std::set<std::string> names;
   for (const apps::Study& study : studies) {
     const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
@@ -192,7 +191,6 @@ TEST_CASE("every study draws its pictures and its page, of rows as they come") {
   for (std::vector<std::string> words : std::vector<std::vector<std::string>>{{"balance", "--nodes=1,2", "--per-node"},
                                                                               {"traffic", "--nodes=1,2"},
                                                                               {"cache", "--nodes=2", "--cache-pages=2,8"},
-                                                                              {"speedup", "--nodes=1,2"},
                                                                               {"frames", "--nodes=2,3", "--frames=2"}}) {
     CAPTURE(words[0]);
     const TemporaryFolder folder;
@@ -224,20 +222,16 @@ TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
 TEST_CASE("Ctrl-C leaves the finished rows of runs side by side in the file, whatever its format" * doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string file = folder / "table";
-  for (const auto& [study, rows] :
-       {std::pair{"speedup", endless("--nodes", "2")}, std::pair{"cache", endless("--cache-pages", "1")}}) {
-    for (const auto& [format, beginning, row] : {std::tuple{"csv", "", "\n"}, std::tuple{"markdown", "**Study ", "\n|"},
-                                                 std::tuple{"json", "{", "\"virtual_time\": "}}) {
-      CAPTURE(study);
-      CAPTURE(format);
-      const Ended ended = ended_by(SIGINT, {DMPC_PROGRAM, "study", study, "balls-1", "--machine=ipsc2", "--resolution=8x8", rows,
-                                            std::string("--format=") + format, "-o", file});
-      CHECK(ended.status == 130);
-      CHECK(contains(ended.errors, rows_are_kept));
-      CHECK(file_text(file).find(beginning) == 0);
-      CHECK(count(file_text(file), row) > 0);
-      CHECK(folder.entry_count() == 1);
-    }
+  for (const auto& [format, beginning, row] :
+       {std::tuple{"csv", "", "\n"}, std::tuple{"markdown", "**Study ", "\n|"}, std::tuple{"json", "{", "\"virtual_time\": "}}) {
+    CAPTURE(format);
+    const Ended ended = ended_by(SIGINT, {DMPC_PROGRAM, "study", "cache", "balls-1", "--machine=ipsc2", "--resolution=8x8",
+                                          endless("--cache-pages", "1"), std::string("--format=") + format, "-o", file});
+    CHECK(ended.status == 130);
+    CHECK(contains(ended.errors, rows_are_kept));
+    CHECK(file_text(file).find(beginning) == 0);
+    CHECK(count(file_text(file), row) > 0);
+    CHECK(folder.entry_count() == 1);
   }
 }
 

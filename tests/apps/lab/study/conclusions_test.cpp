@@ -27,7 +27,6 @@ Table table_with(const Study& study, const std::vector<std::vector<std::pair<std
 TEST_CASE("a table without rows has no conclusion") {
   CHECK(BalanceStudy{}.conclusion(table_with(BalanceStudy{}, {})).empty());
   CHECK(TrafficStudy{}.conclusion(table_with(TrafficStudy{}, {})).empty());
-  CHECK(SpeedupStudy{}.conclusion(table_with(SpeedupStudy{}, {})).empty());
   CHECK(CacheStudy{}.conclusion(table_with(CacheStudy{}, {})).empty());
 }
 
@@ -47,18 +46,6 @@ TEST_CASE("balance is concluded with both kinds of regions") {
                                   {{"nodes", std::uint64_t{4}}, {"regions", "equal size"}, {"average load achieved", 40.0}}});
   CHECK(BalanceStudy{}.conclusion(table) ==
         "On 4 nodes the average load is 90.0 % with regions by the subsampled picture, and 40.0 % with regions of equal size.");
-}
-
-TEST_CASE("speedup is concluded with the last row that has figures, and its largest loss") {
-  const Table table = table_with(SpeedupStudy{}, {{{"nodes", std::uint64_t{32}},
-                                                   {"speedup", 24.0},
-                                                   {"efficiency", 75.0},
-                                                   {"computing", 75.0},
-                                                   {"service_busy", 5.0},
-                                                   {"data_wait", 20.0}},
-                                                  {{"nodes", std::uint64_t{64}}}});
-  CHECK(SpeedupStudy{}.conclusion(table) ==
-        "On 32 nodes the speedup is 24.0, an efficiency of 75.0 %; the largest loss is data wait, 20.0 % of the nodes' time.");
 }
 
 TEST_CASE("caches are concluded with the size from which lru is good") {

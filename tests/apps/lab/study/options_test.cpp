@@ -28,10 +28,6 @@ BalanceStudy balance(std::initializer_list<std::string> more = {}) {
   return std::get<BalanceStudy>(study("balance", more).study);
 }
 
-SpeedupStudy speedup(std::initializer_list<std::string> more = {}) {
-  return std::get<SpeedupStudy>(study("speedup", more).study);
-}
-
 }  // namespace
 
 TEST_CASE("a study and a scene are all that study needs") {
@@ -59,7 +55,7 @@ TEST_CASE("options of a study are taken") {
 }
 
 TEST_CASE("every study goes along paths, too, with the options that render has") {
-  for (const std::string name : {"balance", "traffic", "cache", "speedup"}) {
+  for (const std::string name : {"balance", "traffic", "cache"}) {
     CAPTURE(name);
     const PictureOptions picture = study(name, {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"}).picture;
     CHECK(text_of(picture.transport) == "paths, 3 bounces, sky 1,1,1/0,0,1");
@@ -102,41 +98,11 @@ TEST_CASE("frames are studied on one machine, or several that have names, by mor
   CHECK(several.node_counts == Counts{16, 64});
 }
 
-TEST_CASE("the study of speedup runs svm on the ipsc2 with the default pixels in flight, unless told otherwise") {
-  const SpeedupStudy standard = speedup();
-  CHECK(standard.node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
-  CHECK(standard.run.strategy == Strategy::svm);
-  CHECK(standard.run.computer.machine.value().name == "ipsc2");
-  CHECK_FALSE(standard.run.computer.node_memory_bytes);
-  CHECK_FALSE(standard.run.pages.in_flight);
-}
-
-TEST_CASE("the options of the study of speedup are those of a run") {
-  const SpeedupStudy pages = speedup({"--nodes=1,4096", "--strategy=svm", "--node-memory=4MiB", "--cache-pages=9",
-                                      "--replacement=fifo", "--in-flight=3", "--work-item=0", "--machine=paragon"});
-  CHECK(pages.node_counts == Counts{1, 4096});
-  CHECK(pages.run.computer.node_memory_bytes == std::size_t{4} << 20U);
-  CHECK(pages.run.pages.cache_pages == 9);
-  CHECK(pages.run.pages.replacement == svm::Replacement::fifo);
-  CHECK(pages.run.pages.in_flight == 3);
-  CHECK(pages.run.pages.work_item_side == 0);
-  CHECK(pages.run.computer.machine.value().name == "paragon");
-  const SpeedupStudy rays = speedup({"--strategy=dataflow", "--nodes=1024", "--balance=equal-size", "--ray-batch=3",
-                                     "--ray-credits=2", "--ray-queue=7", "--machine=hdr"});
-  CHECK(rays.run.strategy == Strategy::dataflow);
-  CHECK(rays.run.rays.balance.balance == dataflow::Balance::equal_size);
-  CHECK(rays.run.rays.ray_batch == 3);
-  CHECK(rays.run.rays.ray_credits == 2);
-  CHECK(rays.run.rays.queue_packets == 7);
-  CHECK(rays.run.rays.topology == nodes::TopologyKind::fat_tree);
-  CHECK(speedup({"--strategy=replicated", "--in-flight=2"}).run.strategy == Strategy::replicated);
-}
-
 TEST_CASE("the help of the study of speedup tells its own defaults") {
   const std::string text = parse_command_line(std::vector<std::string>{"study", "speedup", "--help"}).options<HelpText>().text;
-  CHECK(text.find("--in-flight 1..4096 [1]") != std::string::npos);
+  CHECK(text.find("--in-flight 1..4096 [16, replicated 1]") != std::string::npos);
   CHECK(text.find("[a quarter of the database") != std::string::npos);
-  CHECK(text.find("replicated 1") == std::string::npos);
+  CHECK(text.find("forest 16 to 256") == std::string::npos);
 }
 
 TEST_CASE("a study in Python gets the options of the line as words, and its scene") {
@@ -147,7 +113,11 @@ TEST_CASE("a study in Python gets the options of the line as words, and its scen
   CHECK(words_of({"study", "systems", "--search", "--node-memory", "rays,25%", "--resolution=8x8", "balls-1", "-o", "a.md"}) ==
         std::vector<std::string>{"--node-memory=rays,25%", "--search", "--resolution=8x8", "--output=a.md", "balls-1"});
   CHECK(words_of({"study", "decades", "--quick", "-o", "out"}) == std::vector<std::string>{"--output=out", "--quick"});
-  CHECK_THROWS_AS(words_of({"study", "systems", "balls-1", "--machine=abacus"}), core::InputError);
+  CHECK(words_of({"study", "speedup", "--bundles", "--cache-pages=9", "balls-1", "--page-size=4KiB"}) ==
+        std::vector<std::string>{"speedup", "--page-size=4KiB", "--cache-pages=9", "--bundles", "balls-1"});
+  for (const char* const name : {"systems", "speedup"}) {
+    CHECK_THROWS_AS(words_of({"study", name, "balls-1", "--machine=abacus"}), core::InputError);
+  }
 }
 
 }  // namespace dmpc::apps::study_options_test
