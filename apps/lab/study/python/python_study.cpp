@@ -2,10 +2,13 @@
 
 #include <ostream>
 
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/python_program.h"
 #include "apps/frontend/table/table_files.h"
 #include "apps/scene/load_scene.h"
+#include "nodes/node_id.h"
 
 namespace dmpc::apps {
 namespace {
@@ -32,6 +35,14 @@ void add_options(OptionSet set, PythonStudy& study) {
       study.words.push_back(study.picture.scene);
     }
   });
+}
+
+void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts) {
+  const std::string listed = joined(counts, ",", [&](const std::uint32_t count) { return std::to_string(count); });
+  set.add_text(
+      "--nodes", "N,N,... [" + listed + "]",
+      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", nodes::node_count_max); },
+      "Nodes of the computers, one after the other");
 }
 
 void add_scene_options(OptionSet set, PythonStudy& study) {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "apps/frontend/machine/machine_file.h"
-#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/python/python_study.h"
 #include "core/base/ranges.h"
 
@@ -26,7 +25,7 @@ void declare_systems(OptionSet set, PythonStudy& study) {
       "grid; S%, a share of the database; or a size such as 4MiB");
   set.add_flag("--search", study.is_set, "Adds the steps of each row's search as notes");
   constexpr std::uint32_t draws_max = 10'000;
-  set.add_number("--draws", study.draws, 0, draws_max, "100",
+  set.add_number("--draws", study.number, 0, draws_max, "100",
                  "Draws of the machine's prices, within the certainty of their sources, for the best rows; 0: none");
   add_machine_option(set, study.machine_name, "");
   set.check_in_the_end([&study] { load_machine(study.machine_name); });
