@@ -33,8 +33,6 @@ Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std:
   return bars_by_node(std::move(name), std::move(title), std::move(y), std::move(series), true);
 }
 
-PlotAxis node_axis() { return {.label = "nodes", .scale = PlotScale::powers_of_2}; }
-
 PlotAxis percent_axis(const std::string& what) { return {.label = what + " (%)", .least = 0, .most = 105}; }
 
 }  // namespace dmpc::apps

@@ -1,16 +1,19 @@
 // The study `cache`: how often nodes miss pages with caches of any size and policy, and the cost on a machine.
-#include "apps/lab/study/studies.h"
+#include "apps/lab/study/cache.h"
 
+#include <iostream>
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/frontend/machine/machines.h"
+#include "apps/frontend/system/progress.h"
 #include "apps/frontend/table/filled_columns.h"
 #include "apps/frontend/table/geometric_sizes.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/cache_curves.h"
-#include "apps/run/run_strategy.h"
+#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 
@@ -22,16 +25,19 @@ constexpr std::uint32_t standard_size_count = 12;
 constexpr double as_good = 1.1;
 
 /// svm on a machine, with one pixel at a time on each node, as in the 1994 paper.
-StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
-  StrategyOptions options{.computer = {.node_count = node_count}, .pages = {.in_flight = 1}};
-  choose_machine(options, machine);
-  return options;
+svm::RunOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
+  return {.computer = {.node_count = node_count, .machine = machine}, .pages = {.in_flight = 1}};
 }
 
 /// All references, which depend on neither cache nor machine, so the default machine, which takes no time, will do.
-svm::RunOptions recording(std::uint32_t node_count) {
-  return {.computer = {.node_count = node_count, .machine = nodes::Machine()},
-          .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
+svm::Report record(CacheRuns& runs, std::uint32_t node_count) {
+  Progress progress(std::cerr, runs.shows_progress, counted(node_count, "node") + ", recording: ");
+  svm::RunOptions options{.computer = {.node_count = node_count, .machine = nodes::Machine()},
+                          .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
+  options.watching.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+  svm::Report report = runs.run(options);
+  runs.take(report.film);
+  return report;
 }
 
 struct TimedCache {
@@ -57,19 +63,19 @@ const FilledColumns<TimedCache>& timed_cache_columns() {
   return columns;
 }
 
-/// Adds a row for each size as soon as the machine has run with it.
-void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uint32_t page_count, StudyRuns& runs, Table& table) {
-  std::vector<StrategyOptions> options = {one_at_a_time(1, *study.machine)};
+/// Adds a row for each size as soon as the machine has run with it. Modelled machines have no threads.
+void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uint32_t page_count, CacheRuns& runs, Table& table) {
+  std::vector<svm::RunOptions> options = {one_at_a_time(1, *study.machine)};
   for (const std::uint32_t size : curves.sizes()) {
     options.push_back(one_at_a_time(study.node_count, *study.machine));
     options.back().pages.cache_pages = size;
   }
   std::optional<std::uint64_t> one_node_ns;
-  runs.run_side_by_side(options, [&](std::size_t run, const StudyOutcome& outcome) {
-    if (!outcome.report) {
-      throw core::InputError(outcome.misfit);
-    }
-    const auto& report = std::get<svm::Report>(*outcome.report);
+  Progress progress(std::cerr, runs.shows_progress, "side by side: ", "runs");
+  const auto measure = [&](std::size_t run) { return runs.run(options[run]); };
+  measure_each(options.size(), Turns::side_by_side, measure, [&](std::size_t run, const svm::Report& report) {
+    runs.take(report.film);
+    progress.update(run + 1, options.size());
     const std::uint64_t total_ns = report.virtual_time->total_ns;
     if (run == 0) {
       one_node_ns = total_ns;
@@ -94,18 +100,32 @@ std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& record
 
 }  // namespace
 
-void CacheStudy::add_options(StudyLine line) {
-  line.set.add_number("--nodes", node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");
-  add_cache_pages(line.set, cache_pages);
-  add_policies(line.set, policy_places);
-  line.set.add_text(
+svm::Report CacheRuns::run(const svm::RunOptions& options) const {
+  interrupt.check();
+  svm::Report report =
+      with_options_named(strategy_words(), [&] { return svm::run_svm(database, settings, options, interrupt.token()); });
+  interrupt.check();
+  return report;
+}
+
+void CacheRuns::take(const core::Film& film) {
+  core::expect(film.hash() == film_hash.value_or(film.hash()), "every run of a study gives the same film");
+  film_hash = film.hash();
+  ++count;
+}
+
+void CacheStudy::add_options(OptionSet set, std::string& machine_name) {
+  set.add_number("--nodes", node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");
+  add_cache_pages(set, cache_pages);
+  add_policies(set, policy_places);
+  set.add_text(
       "--machine", "MACHINE|FILE.json",
-      [this, &file = line.machine_name](const std::string& text) {
+      [this, &file = machine_name](const std::string& text) {
         machine = load_machine(text).machine;
         file = text;
       },
       "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
-  line.set.set_examples(
+  set.set_examples(
       "Examples:\n"
       "  dmpc study cache rings-4-t1\n"
       "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
@@ -132,13 +152,13 @@ std::vector<Plot> CacheStudy::plots() const {
   return plots;
 }
 
-void CacheStudy::measure(StudyRuns& runs, Table& table) const {
-  svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
+void CacheStudy::measure(CacheRuns& runs, Table& table) const {
+  svm::Report recorded = record(runs, node_count);
   const std::uint32_t page_count = recorded.plan.request.page_count;
   const CacheCurves curves(
       references_of(recorded), recorded.pages().references,
       cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages, policies,
-      {.check = [&runs] { runs.check(); }});
+      {.check = [&runs] { runs.interrupt.check(); }});
   recorded = svm::Report{{{.film = core::Film(1, 1)}}};  // frees the references' memory
   if (machine) {
     add_timed_rows(*this, curves, page_count, runs, table);
@@ -146,7 +166,7 @@ void CacheStudy::measure(StudyRuns& runs, Table& table) const {
     curves.add_rows(page_count, table);
   }
   table.add_note(curves.needs_note());
-  runs.check();
+  runs.interrupt.check();
 }
 
 std::vector<std::string> CacheStudy::notes(const std::string& scene) const {

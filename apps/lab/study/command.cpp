@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,20 +13,16 @@
 #include "apps/frontend/table/shown_rows.h"
 #include "apps/frontend/table/table_files.h"
 #include "apps/lab/study/engine/tabled_job.h"
-#include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/render_record.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
-#include "core/database/conversion.h"
-#include "core/families/scenes.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// Returns the name of the pictures' data file in their folder.
-std::string data_file_of(const std::string& study) { return study + ".csv"; }
+constexpr const char* data_file = "cache.csv";
 
 TableFiles files_of(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
@@ -35,18 +30,13 @@ TableFiles files_of(const StudyOptions& options) {
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.machine_name});
   }
-  const PlottedNames plotted =
-      std::visit([](const auto& study) { return names_of(data_file_of(study.name), study.plots()); }, options.study);
-  return {options.table, {plotted}, {.inputs = std::move(inputs)}};
+  return {options.table, {names_of(data_file, options.study.plots())}, {.inputs = std::move(inputs)}};
 }
 
 /// The subject, and the digest of its scene for a page.
 struct Loaded {
   Subject subject;
   std::optional<std::uint64_t> scene_digest;
-  std::optional<core::Scene> scene;  ///< for a study that builds other databases from it
-  core::View view;                   ///< the scene's own
-  core::Box bounds;                  ///< in the world's coordinates
 };
 
 /// Here a signal ends the process at once.
@@ -56,11 +46,7 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
   check_not_read(opened, files.names());
   const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
-  const bool is_kept = std::holds_alternative<FramesStudy>(options.study);
-  auto kept = is_kept ? std::optional(scene) : std::nullopt;
-  const core::View view = scene.view;
-  const core::Box bounds = core::bounds_of(scene, core::Parallel(0));
-  return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept), view, bounds};
+  return {build_subject(std::move(scene), options.picture, options.database, true), digest};
 }
 
 std::string samples_text(const PictureOptions& picture) {
@@ -82,59 +68,45 @@ std::string structure_text(const core::BuildOptions& build) {
   return build.structure == Structure::grid ? "" : std::string("structure ") + name_of(build.structure) + rule + ", ";
 }
 
-std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
+std::string title_of(const StudyOptions& options, const Subject& subject) {
   const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
-  return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
-         std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", " + light_text(picture) + ", convention " +
+  return "Study cache of " + picture.scene + ": " + std::to_string(camera.width()) + "x" + std::to_string(camera.height()) +
+         " pixels, " + samples_text(picture) + ", " + light_text(picture) + ", convention " +
          (picture.convention == core::Convention::haines ? "haines" : "paper") + ", record order " +
          name_of(options.database.build.record_order) + ", " + structure_text(options.database.build) +
          counted(subject.database.header().primitive_count, "primitive");
 }
 
-std::string film_note(const StudyRuns& runs) {
-  if (!runs.film_hash()) {
-    return "No picture was rendered.";
+/// Adds what the machine lacks prices for, and the film.
+void add_last_notes(const CacheStudy& study, const CacheRuns& runs, Table& table) {
+  const std::string note = study.machine ? price_note(*study.machine, runs.database.structure()) : "";
+  if (!note.empty()) {
+    table.add_note(note + ".");
   }
-  return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
+  table.add_note(runs.film_hash
+                     ? "Film of every run, " + std::to_string(runs.count) + " in all: " + hash_text(*runs.film_hash) + "."
+                     : "No picture was rendered.");
 }
 
-/// Identify another study of the same subject.
-struct Marks {
-  std::optional<std::uint64_t> scene_digest;
-  std::optional<std::uint64_t> film_hash;
-};
-
-template <class OneStudy>
-TableResult result_of(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options) {
-  return study_result({.title = "Study " + std::string(OneStudy::name) + " of " + options.picture.scene,
+TableResult result_of(const Table& table, const std::optional<std::uint64_t>& scene_digest,
+                      const std::optional<std::uint64_t>& film_hash, const StudyOptions& options) {
+  return study_result({.title = "Study cache of " + options.picture.scene,
                        .table = table,
-                       .data_file = data_file_of(OneStudy::name),
-                       .plots = study.plots(),
-                       .conclusion = study.conclusion(table),
-                       .facts = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{},
-                       .scene_digest = marks.scene_digest},
+                       .data_file = data_file,
+                       .plots = options.study.plots(),
+                       .conclusion = options.study.conclusion(table),
+                       .facts = film_hash ? html::Facts{{"film", hash_text(*film_hash)}} : html::Facts{},
+                       .scene_digest = scene_digest},
                       options.table.format);
 }
 
-template <class OneStudy>
-Table empty_table(const OneStudy& study, const StudyOptions& options, const Subject& subject) {
-  Table table(title_of(OneStudy::name, options, subject), study.columns());
-  for (std::string& note : study.notes(options.picture.scene)) {
-    table.add_note(std::move(note));
-  }
-  return table;
-}
-
 /// If the study ends early, the table has the finished rows, and a note that others are missing.
-template <class OneStudy>
-void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
+void measure(const CacheStudy& study, CacheRuns& runs, Table& table) {
   try {
     study.measure(runs, table);
   } catch (const Interrupted&) {
     table.add_note("Interrupted: rows are missing.");
-    throw;
-  } catch (const NothingFits&) {
     throw;
   } catch (const std::exception&) {
     table.add_note("Ended by an error: rows are missing.");
@@ -142,54 +114,10 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   }
 }
 
-/// A study that also asks questions gets the scene from which to build their tree.
-void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions& options) {
-  study.build_tree = [&scene, &options] {
-    const core::BuildOptions usual = usual_database(Strategy::forest).build;
-    DatabaseOptions tree = options.database;
-    tree.build.structure = usual.structure;
-    tree.build.record_order = usual.record_order;
-    tree.build.page_size_bytes = usual.page_size_bytes;
-    return build_subject_quietly(scene, options.picture, tree);
-  };
-}
-
-/// Returns the exit status.
-template <class OneStudy>
-int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
-  const auto check = [&interrupt] { interrupt.check(); };
-  if constexpr (requires { study.load(check); }) {
-    study.load(check);
-  }
-  const auto [subject, digest, scene, view, bounds] = load(options, files, interrupt);
-  if constexpr (std::is_same_v<OneStudy, FramesStudy>) {
-    give_scene(study, *scene, options);
-    study.own_view = view;
-    study.bounds = bounds;
-  }
-  Table table = empty_table(study, options, subject);
-  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
-  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
-  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal()}, interrupt);
-  const auto write = [&](bool is_whole, Attempts& attempts) {
-    runs.add_price_notes(table);
-    table.add_note(film_note(runs));
-    std::optional<Interrupt::EndAtOnce> end_at_once;
-    if (is_whole) {
-      interrupt.set_consequence(options.table.file ? "nothing was written" : "the table is incomplete");
-      end_at_once.emplace(interrupt);
-    }
-    files.write(result_of(study, table, {digest, runs.film_hash()}, options), output, std::cerr, attempts);
-  };
-  return run_tabled(
-      {.measure = [&] { measure(study, runs, table); }, .has_findings = [&] { return !table.rows().empty(); }, .write = write},
-      interrupt);
-}
-
 }  // namespace
 
 void add_options(OptionSet set, StudyOptions& options) {
-  std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
+  options.study.add_options(set, options.machine_name);
   add_options(set, options.picture);
   add_transport_options(set, options.picture);
   add_options(set, options.database);
@@ -197,9 +125,31 @@ void add_options(OptionSet set, StudyOptions& options) {
   set.add_quiet(options.quiet);
 }
 
-int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
+int study_command(const StudyOptions& asked, Interrupt& interrupt, std::ostream& output) {
+  StudyOptions options = asked;
   const TableFiles files = files_of(options);
-  return std::visit([&](const auto& study) { return carry_out(study, options, files, interrupt, output); }, options.study);
+  options.study.load([&interrupt] { interrupt.check(); });
+  const auto [subject, digest] = load(options, files, interrupt);
+  Table table(title_of(options, subject), options.study.columns());
+  for (std::string& note : options.study.notes(options.picture.scene)) {
+    table.add_note(std::move(note));
+  }
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
+  CacheRuns runs{subject.database, subject.settings, interrupt, stderr_is_terminal()};
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    add_last_notes(options.study, runs, table);
+    std::optional<Interrupt::EndAtOnce> end_at_once;
+    if (is_whole) {
+      interrupt.set_consequence(options.table.file ? "nothing was written" : "the table is incomplete");
+      end_at_once.emplace(interrupt);
+    }
+    files.write(result_of(table, digest, runs.film_hash, options), output, std::cerr, attempts);
+  };
+  return run_tabled({.measure = [&] { measure(options.study, runs, table); },
+                     .has_findings = [&] { return !table.rows().empty(); },
+                     .write = write},
+                    interrupt);
 }
 
 }  // namespace dmpc::apps

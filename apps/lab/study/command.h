@@ -1,4 +1,4 @@
-// The command `study`: renders one scene on several computers and prints a table.
+// The command `study cache`: renders one scene, and prints a table of its caches.
 #pragma once
 
 #include <iosfwd>
@@ -7,14 +7,14 @@
 #include "apps/frontend/line/command_line.h"
 #include "apps/frontend/system/interrupt.h"
 #include "apps/frontend/table/table_options.h"
-#include "apps/lab/study/studies.h"
+#include "apps/lab/study/cache.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
 
 struct StudyOptions {
-  Study study;
+  CacheStudy study;
   PictureOptions picture;
   DatabaseOptions database;
   TableOutput table;
@@ -22,7 +22,6 @@ struct StudyOptions {
   bool quiet = false;        ///< no progress
 };
 
-/// Declares the options that all studies share, and those of the study that `options` holds now.
 void add_options(OptionSet set, StudyOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::InputError for a scene that cannot be read or outputs that cannot be

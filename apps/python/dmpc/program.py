@@ -157,12 +157,15 @@ def run(line, passing=(), noted=lambda sentence: None):
     return output.decode()
 
 
-def counters(line):
-    """The counters of a render by this line, whose picture nobody wants. Raises as run() does."""
+def counters(line, noted=lambda sentence: None):
+    """The counters of a render by this line, whose picture nobody wants; a list of each frame's, if it has frames. Calls `noted` and raises
+    as run() does."""
+    are_frames = any(word.startswith("--frames=") for word in line)
+    name = "%06d" if are_frames else "film"
     with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
-        stats = pathlib.Path(folder, "stats.json")
-        run([*line, "--quiet", f"--stats={stats}", "-o", str(pathlib.Path(folder, "film.png"))])
-        return json.loads(stats.read_bytes())
+        run([*line, f"--stats={folder}/{name}.json", "-o", f"{folder}/{name}.png"], noted=noted)
+        found = [json.loads(path.read_bytes()) for path in sorted(pathlib.Path(folder).glob("*.json"))]
+    return found if are_frames else found[0]
 
 
 def check_format(json, what):

@@ -60,7 +60,8 @@ Lines printed_by(const std::string& command, const fs::path& folder) {
   const std::string path = fs::path(DMPC_PROGRAM).parent_path().string() + ":" + DMPC_EXAMPLES + ":" + std::getenv("PATH");
   const fs::path script = folder / "script", output = folder / "output";
   write_text(script, "cd '" + folder.string() + "'\n" + command + "\n");
-  run({"env", "PATH=" + path, "sh", "-c", "sh '" + script.string() + "' > '" + output.string() + "' 2>&1"});
+  run({"env", "PATH=" + path, "PYTHONPATH=" DMPC_SOURCE_DIR "/apps/python", "sh", "-c",
+       "sh '" + script.string() + "' > '" + output.string() + "' 2>&1"});
   Lines lines;
   for (const std::string& line : lines_of(output)) {
     lines.push_back(trimmed(line));

@@ -64,7 +64,7 @@ struct TableCase {
 };
 
 std::vector<TableCase> table_cases() {
-  return {{{"study", "traffic", "balls-1", "--resolution=8x8", "--nodes=1"}, "traffic.csv", true},
+  return {{{"study", "cache", "balls-1", "--resolution=8x8", "--nodes=2"}, "cache.csv", true},
           {{"study", "sweep", "balls-1", "--resolution=8x8", "--vary=nodes:1,2"}, "sweep.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},

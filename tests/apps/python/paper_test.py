@@ -25,6 +25,7 @@ sys.path.insert(0, MODULES)
 from dmpc import program
 from dmpc.paper import (catalogue, claims, command, conclusions, data, fits, plots, price_tables, report, results, sensitivity, summary,
                         tables)
+from dmpc.studies import plots as drawing
 from dmpc.studies.runs import Runs
 
 PAGES = {key: 4000 for key in catalogue.sizes()}
@@ -430,12 +431,12 @@ class ReportTest(unittest.TestCase):
         for name, drawn in plots.PLOTS.items():
             for plot in drawn:
                 for series in plot.series:
-                    self.assertTrue(plots.points(plot, series, made[name]), (plot.name, series.label))
+                    self.assertTrue(drawing.points(plot, series, made[name]), (plot.name, series.label))
         if importlib.util.find_spec("matplotlib"):
-            self.assertIn("currentColor", plots.draw(plots.PLOTS["losses"][0], made["losses"]))
+            self.assertIn("currentColor", drawing.draw(plots.PLOTS["losses"][0], made["losses"]))
 
     def test_without_matplotlib_the_report_is_complete_but_for_its_plots_and_says_so(self):
-        with mock.patch.object(plots, "draw", side_effect=ModuleNotFoundError(name="matplotlib")):
+        with mock.patch.object(report, "draw", side_effect=ModuleNotFoundError(name="matplotlib")):
             made = report.Report(["a"], self.whole(as_claimed()))
         self.assertIn("apt-get install python3-matplotlib", made.complaint)
         self.assertIn(made.complaint, " ".join(made.markdown().split()))
@@ -448,7 +449,7 @@ class StudyTest(unittest.TestCase):
     def study(self, folder, *words):
         line_of, said, told = catalogue.line_of, io.StringIO(), io.StringIO()
         small = mock.patch.object(catalogue, "line_of", lambda scene, *rest, **more: line_of("tetra-2", *rest, **more))
-        with small, mock.patch.object(plots, "draw", return_value="<svg></svg>"), redirect_stdout(said), redirect_stderr(told):
+        with small, mock.patch.object(report, "draw", return_value="<svg></svg>"), redirect_stdout(said), redirect_stderr(told):
             status = command.main([f"--output={folder}", "--resolution=8", *words])
         return status, said.getvalue(), told.getvalue()
 

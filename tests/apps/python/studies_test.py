@@ -7,6 +7,7 @@ import os
 import pathlib
 import sys
 import tempfile
+import time
 import unittest
 from types import SimpleNamespace
 from unittest import mock
@@ -207,6 +208,28 @@ class RunsTest(unittest.TestCase):
             with mock.patch.object(program, "counters", side_effect=AssertionError("nothing is run twice")):
                 self.assertEqual(self.kept_in(folder).get(lines), first)
 
+    def test_results_come_in_the_order_of_their_lines_and_an_error_in_its_place(self):
+        def counters(words, noted):
+            time.sleep(0.1 * (words[1] == "slow"))
+            if words[1] == "bad":
+                raise program.UsageError("bad")
+            noted("in-flight reduced from 9 to 1")
+            return {"virtual_seconds": {"total": 1.0}}
+
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(program, "counters", side_effect=counters):
+            came = []
+            with self.assertRaises(program.UsageError):
+                for result in self.kept_in(folder).each(["render slow", "render fast", "render slow", "render bad", "render never"]):
+                    came.append(result["line"])
+                    self.assertEqual(result["notes"], ["in-flight reduced from 9 to 1"])
+        self.assertEqual(came, ["render slow", "render fast", "render slow"])
+
+    def test_what_this_computer_has_no_room_for_is_no_misfit(self):
+        said = program.CapacityError("dmpc: a note\ndmpc: this computer has no room for 64 nodes.")
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(program, "counters", side_effect=said):
+            with self.assertRaises(program.CapacityError):
+                self.kept_in(folder).get(["render tetra-2"])
+
     def test_what_dmpc_complains_of_is_raised(self):
         with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(program.UsageError, "--nodes"):
             self.kept_in(folder).get(["render tetra-2 --nodes=0"])
@@ -214,7 +237,7 @@ class RunsTest(unittest.TestCase):
 
 class OutputTest(unittest.TestCase):
     def run_with(self, measure, **more):
-        options = SimpleNamespace(**{"format": "csv", "output": None, "quiet": False, **more})
+        options = SimpleNamespace(**{"format": "csv", "output": None, "quiet": False, "plots": None, **more})
         table, errors, printed = Table("t", [Column("a")]), io.StringIO(), io.StringIO()
         with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(printed), mock.patch.object(output, "take_signals"):
             status = output.run(lambda: measure(table), table, options, output.Messages(options), lambda: ["Closing."])

@@ -20,6 +20,6 @@ void declare_decades(OptionSet set, PythonStudy& study) {
 
 }  // namespace
 
-PythonStudy decades_study() { return {.module = "decades.command", .declare = declare_decades}; }
+PythonStudy decades_study() { return {.name = "decades", .module = "decades.command", .declare = declare_decades}; }
 
 }  // namespace dmpc::apps

@@ -23,6 +23,6 @@ void declare_paper(OptionSet set, PythonStudy& study) {
 
 }  // namespace
 
-PythonStudy paper_study() { return {.module = "paper.command", .declare = declare_paper}; }
+PythonStudy paper_study() { return {.name = "paper", .module = "paper.command", .declare = declare_paper}; }
 
 }  // namespace dmpc::apps

@@ -2,10 +2,13 @@
 
 #include <ostream>
 
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/python_program.h"
 #include "apps/frontend/table/table_files.h"
 #include "apps/scene/load_scene.h"
+#include "nodes/node_id.h"
 
 namespace dmpc::apps {
 namespace {
@@ -34,6 +37,25 @@ void add_options(OptionSet set, PythonStudy& study) {
   });
 }
 
+void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts) {
+  const std::string listed = joined(counts, ",", [&](const std::uint32_t count) { return std::to_string(count); });
+  set.add_text(
+      "--nodes", "N,N,... [" + listed + "]",
+      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", nodes::node_count_max); },
+      "Nodes of the computers, one after the other");
+}
+
+void add_scene_options(OptionSet set, PythonStudy& study) {
+  add_options(set, study.picture);
+  add_transport_options(set, study.picture);
+  if (study.database) {
+    add_options(set, *study.database);
+  }
+  add_options(set, study.table.emplace(), TableExtras::none);
+  set.add_path("--plots", "FOLDER", study.table->plots, "Write plots by Python's matplotlib to this folder, with their data");
+  set.add_quiet(study.quiet);
+}
+
 void add_run_options(OptionSet set, PythonStudy& study) {
   set.add_text("--jobs", "1..256 [all cores]", passed_on, "Runs at a time");
   set.add_quiet(study.quiet);
@@ -44,8 +66,7 @@ int python_study_command(const PythonStudy& study, std::ostream& output) {
     check_files(*study.table, study);
   }
   output.flush();
-  const std::string module = study.module;
-  become_python(module, "study " + module.substr(0, module.find('.')), study.words);
+  become_python(study.module, std::string("study ") + study.name, study.words);
 }
 
 }  // namespace dmpc::apps

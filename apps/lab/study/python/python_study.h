@@ -10,19 +10,23 @@
 
 #include "apps/frontend/line/command_line.h"
 #include "apps/frontend/table/table_options.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
 
 /// A study as a command. It declares what it needs of the options below, by which dmpc checks them.
 struct PythonStudy {
+  const char* name;
   const char* module;  ///< its main(words): "systems.command" of the package dmpc
   void (*declare)(OptionSet set, PythonStudy& study);
   PictureOptions picture = {};
   std::optional<TableOutput> table = {};
+  std::optional<DatabaseOptions> database = {};
+  StrategyOptions run = {};
   std::string machine_name = "ipsc2";
   std::vector<std::uint32_t> node_counts = {};
-  std::uint32_t draws = 0;
+  std::uint32_t number = 0;  ///< of draws, or of frames
   std::uint32_t side = 512;  ///< of square pictures, in pixels
   std::optional<std::filesystem::path> report = {};
   bool is_set = false;                  ///< of any flag that is passed on
@@ -30,14 +34,22 @@ struct PythonStudy {
   std::vector<std::string> words = {};  ///< defaults; once a line is read, with what it gives in their place
 };
 
+PythonStudy balance_study();
 PythonStudy decades_study();
+PythonStudy frames_study();
 PythonStudy paper_study();
+PythonStudy speedup_study();
 PythonStudy systems_study();
+PythonStudy traffic_study();
 
 void add_options(OptionSet set, PythonStudy& study);
 
 /// For options whose values the program in Python checks.
 inline void passed_on(const std::string&) {}
+/// Declares --nodes: several numbers, whose defaults are in `counts`.
+void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts);
+/// Those of a study of one scene: its picture, its database if the study has one, its table and plots.
+void add_scene_options(OptionSet set, PythonStudy& study);
 /// Those of a study that keeps its runs: how many go side by side, and whether progress is shown.
 void add_run_options(OptionSet set, PythonStudy& study);
 

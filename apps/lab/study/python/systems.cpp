@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "apps/frontend/machine/machine_file.h"
-#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/python/python_study.h"
 #include "core/base/ranges.h"
 
@@ -26,15 +25,11 @@ void declare_systems(OptionSet set, PythonStudy& study) {
       "grid; S%, a share of the database; or a size such as 4MiB");
   set.add_flag("--search", study.is_set, "Adds the steps of each row's search as notes");
   constexpr std::uint32_t draws_max = 10'000;
-  set.add_number("--draws", study.draws, 0, draws_max, "100",
+  set.add_number("--draws", study.number, 0, draws_max, "100",
                  "Draws of the machine's prices, within the certainty of their sources, for the best rows; 0: none");
   add_machine_option(set, study.machine_name, "");
   set.check_in_the_end([&study] { load_machine(study.machine_name); });
-  add_options(set, study.picture);
-  add_transport_options(set, study.picture);
-  add_options(set, study.table.emplace(), TableExtras::none);
-  set.add_path("--plots", "FOLDER", study.table->plots, "Write plots by Python's matplotlib to this folder, with their data");
-  set.add_quiet(study.quiet);
+  add_scene_options(set, study);
   set.set_examples(
       "Examples:\n"
       "  dmpc study systems rings-4-t1\n"
@@ -46,7 +41,7 @@ void declare_systems(OptionSet set, PythonStudy& study) {
 }  // namespace
 
 PythonStudy systems_study() {
-  PythonStudy study{.module = "systems.command", .declare = declare_systems, .node_counts = {64}};
+  PythonStudy study{.name = "systems", .module = "systems.command", .declare = declare_systems, .node_counts = {64}};
   study.picture.resolution = systems_resolution;
   study.words = {"--resolution=128x128"};
   return study;

@@ -3,32 +3,32 @@
 import argparse
 import functools
 import math
-import os
-import sys
 import time
 
 from .. import program
-from ..studies import search
+from ..studies import output, search
+from ..studies.runs import CORES
 from . import controls, design, measuring, memory, page, predictions, prices, runs, verdicts
 
 
 def main(words):
     options = _parser().parse_args(words)
-    kept = runs.kept_in(options.output, options.jobs, (lambda text: None) if options.quiet else _say)
+    say = output.Messages(options).say
+    kept = runs.kept_in(options.output, options.jobs, (lambda text: None) if options.quiet else say)
     plan = design.QUICK_DESIGN if options.quick else design.WHOLE_DESIGN
     try:
         if options.part == "plan":
             return _plan(kept, plan)
         if options.part == "hold":
             for row in measuring.hold(kept.folder):
-                _say(f"{row['cell']}: predicted {row['predicted']:.4g} s, took {row['timed']:.4g} s")
+                say(f"{row['cell']}: predicted {row['predicted']:.4g} s, took {row['timed']:.4g} s")
             return 0
         study(kept, plan, options.quick)
     except KeyboardInterrupt:
-        _say(f"stopped; the same line continues after the {len(kept)} runs that {options.output} has")
+        say(f"stopped; the same line continues after the {len(kept)} runs that {options.output} has")
         return 130
     except program.Error as error:
-        _say(error)
+        say(error)
         return 1
     return 0
 
@@ -76,15 +76,12 @@ def _plan(kept, plan):
     return 0
 
 
-def _say(text):
-    print(f"dmpc: {text}", file=sys.stderr, flush=True)
-
-
 def _parser():
     parser = argparse.ArgumentParser(prog="dmpc study decades")
     parser.add_argument("--output", required=True)
     parser.add_argument("--part", choices=("plan", "run", "hold"), default="run")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--quiet", action="store_true")
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--jobs", type=int, default=CORES)
+    parser.set_defaults(format=None)
     return parser

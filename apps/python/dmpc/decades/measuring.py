@@ -12,6 +12,7 @@ import tempfile
 from dataclasses import dataclass
 
 from .. import program
+from ..studies.runs import CORES
 
 RANKS = 2
 REPEATS = 5
@@ -106,7 +107,6 @@ def measured(form="hdr"):
 
 def hold(folder):
     """Times the held cells, predicts them by a machine file that it measures, and keeps both in the folder."""
-    processors = len(os.sched_getaffinity(0))
     path = pathlib.Path(folder) / "measured.json"
     path.write_text(json.dumps(measured(), indent=2))
     rows = []
@@ -115,7 +115,7 @@ def hold(folder):
         predicted = program.counters(["render", *words, "--runner=virtual", f"--machine={path}"])["virtual_seconds"]["total"]
         rows.append({"cell": name, "line": " ".join(words), "predicted": predicted, "timed": statistics.median(seconds),
                      "least": seconds[0], "most": seconds[-1]})
-    (pathlib.Path(folder) / "reality.json").write_text(json.dumps({"processors": processors, "rows": rows}, indent=1))
+    (pathlib.Path(folder) / "reality.json").write_text(json.dumps({"processors": CORES, "rows": rows}, indent=1))
     return rows
 
 

@@ -6,6 +6,7 @@ import math
 import numpy
 
 from .. import program
+from ..studies.runs import at
 
 _GROUPS = {"processor, per message": ("long_message", "send_ns"), "latency and bandwidth": ("long_message", "latency_ns"),
            "short messages": ("short_message", "latency_ns"), "a hop": ("hop_ns",), "page service": ("service_ns",),
@@ -22,20 +23,14 @@ class Prices:
     def factors(self, machine, draw):
         if (machine, draw) not in self._factors:
             base, drawn = self._machine(machine, None), self._machine(machine, draw)
-            self._factors[machine, draw] = {name: math.log(_at(drawn, path) / _at(base, path)) for name, path in _GROUPS.items()
-                                            if _at(base, path) > 0}
+            self._factors[machine, draw] = {name: math.log(at(drawn, path) / at(base, path)) for name, path in _GROUPS.items()
+                                            if at(base, path) > 0}
         return self._factors[machine, draw]
 
     def _machine(self, machine, draw):
         if (machine, draw) not in self._machines:
             self._machines[machine, draw] = json.loads(program.run(["machine", machine] + ([] if draw is None else [f"--draw={draw}"])))
         return self._machines[machine, draw]
-
-
-def _at(machine, path):
-    for key in path:
-        machine = machine[key]
-    return machine
 
 
 def turning(prices, verdict):

@@ -4,14 +4,13 @@ import argparse
 import contextlib
 import copy
 import json
-import os
 import pathlib
 import re
 import tempfile
 
 from .. import program
 from ..studies.output import INTERRUPTED, Messages, take_signals
-from ..studies.runs import Runs
+from ..studies.runs import CORES, Runs
 from . import catalogue, price_tables, sensitivity, tables
 from .claims import claims
 from .data import RESOLUTION
@@ -83,7 +82,7 @@ def _found(kept, lines):
     for (key, line), one in zip(lines.items(), kept.get(list(lines.values()))):
         if "misfit" in one:
             raise program.CapacityError(f"dmpc {line}: {one['misfit']}")
-        results[key] = result = Result(**{name: value for name, value in one.items() if name != "line"})
+        results[key] = result = Result(**{name: value for name, value in one.items() if name not in ("line", "notes")})
         subject = (re.sub(r"^databases/|\.\w+\.pages$", "", line.split()[1]), *re.findall(r"--(?:resolution|light)=\S+", line))
         if films.setdefault(subject, result.film) != result.film:
             raise program.InternalError(f"this is a bug in dmpc, please report it: dmpc {line} gives another film than other runs")
@@ -106,6 +105,6 @@ def _parser():
     parser.add_argument("--resolution", type=int, default=RESOLUTION)
     parser.add_argument("--sensitivity", action="store_true")
     parser.add_argument("--quiet", action="store_true")
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--jobs", type=int, default=CORES)
     parser.set_defaults(format=None)  # no rows are shown meanwhile
     return parser

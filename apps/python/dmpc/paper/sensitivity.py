@@ -3,6 +3,7 @@
 import copy
 from statistics import mean
 
+from ..studies.runs import at
 from .catalogue import on_grid
 from .data import SCENES, efficiency
 from .tables import table_of
@@ -19,16 +20,10 @@ _MESSAGES = {"short message latency": (1000, (_SHORT, "latency_ns")), "long mess
              "interrupt service": (1000, ("service_ns",))}
 
 
-def _get(machine, path):
-    for key in path:
-        machine = machine[key]
-    return machine
-
-
 def _changed(machine, paths, value_of):
     machine = copy.deepcopy(machine)
     for path in paths:
-        _get(machine, path[:-1])[path[-1]] = value_of(_get(machine, path))
+        at(machine, path[:-1])[path[-1]] = value_of(at(machine, path))
     return machine
 
 
@@ -43,7 +38,7 @@ def variations(machine):
     prices = machine["operation_ps"]
     scaled = [("all operations", None, [("operation_ps", name) for name in prices])]
     scaled += [(text, _time_text(prices[name]), [("operation_ps", name)]) for name, text in _OPERATIONS.items() if prices[name]]
-    after = [(text, " and ".join(dict.fromkeys(_time_text(unit * _get(machine, path)) for path in paths)), paths)
+    after = [(text, " and ".join(dict.fromkeys(_time_text(unit * at(machine, path)) for path in paths)), paths)
              for text, (unit, *paths) in _MESSAGES.items()]
     fifths = {"-20 %": 4, "+20 %": 6}
 

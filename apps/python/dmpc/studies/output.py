@@ -6,7 +6,7 @@ import signal
 import sys
 
 from .. import program
-from . import table
+from . import plots, table
 
 INTERRUPTED = 130
 _CLEAR = "\r\x1b[K"
@@ -17,6 +17,12 @@ def add_options(parser):
     parser.add_argument("--format", choices=table.FORMATS, default="markdown")
     parser.add_argument("-o", "--output")
     parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--plots", type=pathlib.Path)
+    parser.add_argument("scene")
+
+
+class NothingFits(program.CapacityError):
+    """All rows are there, and none has figures."""
 
 
 class Messages:
@@ -42,26 +48,29 @@ class Messages:
         sys.stderr.flush()
 
 
-def run(measure, rows, options, messages, closing=lambda: (), draw=None):
+def run(measure, rows, options, messages, closing=lambda: (), draw=lambda: None):
     """Calls measure(), which adds to the table `rows`, and writes that, whatever ended the measuring, with the closing notes; draw() makes
-    what else there is of the rows. The exit status."""
+    the plots of the rows, if they are asked for. The exit status."""
     take_signals()
     status = 0
     try:
+        if options.plots:
+            plots.check()
         measure()
     except KeyboardInterrupt:
         rows.note("Interrupted: rows are missing.")
         messages.say("interrupted, " + ("the table has the rows finished before" if rows.rows else "nothing was written"))
         status = INTERRUPTED
     except program.Error as error:
-        rows.note("Ended by an error: rows are missing.")
+        if not isinstance(error, NothingFits):
+            rows.note("Ended by an error: rows are missing.")
         messages.say(error)
         status = program.status_of(error)
     if rows.rows or status == 0:
         for note in closing():
             rows.note(note)
         status = write(rows.text(options.format), options.output, messages) or status
-        if draw:
+        if options.plots:
             draw()
     return status
 

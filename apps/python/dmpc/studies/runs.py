@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -9,9 +10,11 @@ import threading
 
 from .. import program
 
+CORES = len(os.sched_getaffinity(0))
 # The parts of the nodes' time, as keys of the counters.
 PARTS = ("computing", "data_wait", "starvation", "token_wait", "credit_wait", "film_wait", "other_wait", "service_busy", "service_idle",
          "messages", "idle_at_end")
+_OF_THIS_COMPUTER = "this computer has "  # begins what is said where the nodes' memory is not what lacks
 
 
 class Runs:
@@ -19,7 +22,8 @@ class Runs:
     share, which lines name as databases/NAME.pages and machines/MACHINE.DRAW.json.
 
     `jobs` runs go side by side. `figures` returns what is kept of the counters of one, `database` the words by which dmpc builds the
-    database of a name. `say` is called with what dmpc notes of a scene, `progress` with the runs that have ended and all that were asked for together.
+    database of a name. `say` is called with what dmpc notes of a scene, `progress` with the runs that have ended and all that were asked
+    for together.
     `machines` has the files of machines that are no presets, by their names in lines.
     """
 
@@ -51,23 +55,30 @@ class Runs:
         return self._kept.get(line)
 
     def get(self, lines):
-        """The results of these command lines, in their order; those that are missing are run side by side. A result has the line, and
-        figures, or the reason why there was no room as "misfit". Raises a program.Error with what else dmpc says; an exception, such as
-        KeyboardInterrupt, ends the runs before it goes on."""
-        missing = [line for line in dict.fromkeys(lines) if line not in self._kept]
+        """The results that each() yields."""
+        return list(self.each(lines))
+
+    def each(self, lines):
+        """Yields the results of these command lines, in their order, as soon as they are there; those that are missing are run side by
+        side. A result has the line, figures, and as "notes" what had to be reduced to fit, or the reason why there was no room in the nodes
+        as "misfit". Raises in its place a program.Error with what else dmpc says; an exception, such as KeyboardInterrupt, ends the runs
+        before it goes on."""
+        missing, position = [line for line in dict.fromkeys(lines) if line not in self._kept], 0
         for line in missing:
             self._prepare(line)
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            done = [pool.submit(self._run, line) for line in missing]
+            runs = {line: pool.submit(self._run, line) for line in missing}
             try:
-                for count, one in enumerate(concurrent.futures.as_completed(done), 1):
-                    one.result()
+                for count, _ in enumerate(concurrent.futures.as_completed(runs.values()), 1):
                     self._progress(count, len(missing))
+                    while position < len(lines) and (lines[position] not in runs or runs[lines[position]].done()):
+                        yield runs[lines[position]].result() if lines[position] in runs else self._kept[lines[position]]
+                        position += 1
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 program.end_all()
                 raise
-        return [self._kept[line] for line in lines]
+        yield from map(self.kept, lines[position:])
 
     def database(self, name):
         """The path of the database of this name, which is built if there is none."""
@@ -93,14 +104,28 @@ class Runs:
     def _run(self, line):
         words = [str(self.folder / word) if word.startswith("databases/") else
                  word.replace("=machines/", f"={self.folder}/machines/") for word in shlex.split(line)]
+        notes = []
         try:
-            one = {"line": line, **self._figures(program.counters(words))}
+            one = {"line": line, **self._figures(program.counters(words, notes.append))}
         except program.CapacityError as error:
-            one = {"line": line, "misfit": str(error)}
+            why = str(error).splitlines()[-1].removeprefix("dmpc: ").rstrip(".")
+            if why.startswith(_OF_THIS_COMPUTER):
+                raise
+            one = {"line": line, "misfit": why}
+        if reduced := [note for note in notes if " reduced from " in note]:
+            one["notes"] = reduced
         with self._lock:
             self._kept[line] = one
             with open(self._file, "a") as file:
                 file.write(json.dumps(one) + "\n")
+        return one
+
+
+def at(tree, path):
+    """The value below these keys, one in the other."""
+    for key in path:
+        tree = tree[key]
+    return tree
 
 
 def line_of(words):

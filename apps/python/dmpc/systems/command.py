@@ -1,9 +1,6 @@
 """The command line of dmpc study systems: its table, and what its notes say."""
 
 import argparse
-import functools
-import os
-import pathlib
 import tempfile
 
 from .. import program
@@ -19,12 +16,11 @@ def main(words):
     options, picture = _parse(words)
     messages = output.Messages(options)
     table = Table("", rows.COLUMNS, messages.row)
-    draw = functools.partial(_draw, table, options.plots)
     with tempfile.TemporaryDirectory(prefix="dmpc-study-") as folder:
-        subject = Subject(options.scene, _whole_picture(picture), options.machine, folder,
-                          len(os.sched_getaffinity(0)), messages)
+        subject = Subject(options.scene, picture, options.machine, folder, messages)
         return output.run(lambda: _measure(options, subject, table), table, options, messages,
-                          lambda: _closing_notes(subject), draw if options.plots else None)
+                          lambda: [*subject.price_notes(), subject.film_note()],
+                          lambda: plots.write(options.plots, "systems", table, _plots(table)))
 
 
 def _parse(words):
@@ -37,17 +33,8 @@ def _parse(words):
     parser.add_argument("--search", action="store_true")
     parser.add_argument("--draws", type=int, default=100)
     parser.add_argument("--machine", default="ipsc2")
-    parser.add_argument("--plots", type=pathlib.Path)
     output.add_options(parser)
-    parser.add_argument("scene")
     return parser.parse_known_args(words)
-
-
-def _whole_picture(picture):
-    """The words of dmpc render that make its picture the study's: a file's is as that of other scenes."""
-    given = {word.split("=")[0] for word in picture}
-    transport = [] if "--transport" in given else ["--transport=whitted"]
-    return [*picture, *transport, *([] if given & {"--samples", "--quality", "--error"} else ["--samples=1"])]
 
 
 def _words(given):
@@ -60,8 +47,6 @@ def _measure(options, subject, table):
     rules = memory_rule.parse(options.node_memory)
     if options.scene.endswith(".pages"):
         raise program.UsageError(f"{options.scene}: study systems builds databases of its own: expected a scene")
-    if options.plots:
-        plots.check()
     names = _words(options.systems) or list(setups.systems())
     table.title = f"Study systems of {options.scene}: {subject.text}"
     table.notes += _notes(options, names, subject)
@@ -92,20 +77,11 @@ def _notes(options, names, subject):
         "all kinds."]
 
 
-def _closing_notes(subject):
-    film = f"Film of every run, {subject.count} in all: {subject.film}." if subject.film else "No picture was rendered."
-    return [*subject.price_notes(), film]
-
-
-def _draw(table, folder):
-    """The table as data, and the times of each of its parts as bars."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "systems.csv").write_text(table.text("csv"))
-    found = table.named_rows()
-    for name in dict.fromkeys(row["table"] for row in found):
-        series = {}
-        for row in found:
-            if row["table"] == name and row["virtual time"] is not None:
-                place = f"{row['system']} {row['structure']}"
-                series.setdefault(f"memory {row['memory']}, {row['nodes']} nodes", {})[place] = row["virtual time"]
-        plots.bars(folder / f"systems_time_{name}.svg", f"Virtual time of the systems, {name}", "virtual time (s)", series)
+def _plots(table):
+    """For each of its parts the times as bars."""
+    for name in dict.fromkeys(row["table"] for row in table.named_rows()):
+        places = dict.fromkeys((row["memory"], row["nodes"]) for row in table.named_rows() if row["table"] == name)
+        series = [plots.Series(f"memory {memory}, {nodes} nodes", "virtual time", {"table": name, "memory": memory, "nodes": nodes}, colour)
+                  for colour, (memory, nodes) in enumerate(places)]
+        yield plots.Plot(f"systems_time_{name}", f"Virtual time of the systems, {name}", "virtual time (s)", tuple(series),
+                         places=("system", "structure"), is_log=True)

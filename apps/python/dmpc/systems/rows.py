@@ -25,5 +25,5 @@ def row_of(subject, table, memory, setup, result, ahead=None):
 
 
 def compared(subject, setup, result, search=""):
-    return verdicts.Row(setup.name, (subject.scene, subject.machine_name, result["film"], setup.nodes, setup.memory),
+    return verdicts.Row(setup.name, (subject.scene, subject.machine_name, result["films"][0], setup.nodes, setup.memory),
                         {**setup.texts(result), "prices": subject.prices_of(setup.database.structure)}, result["seconds"], search)

@@ -81,7 +81,7 @@ TEST_CASE("a sweep draws what it varies, with commas in names, too, in a folder 
   const auto plots = apps::sweep_plots(options.settings, apps::sweep_runs(options.settings));
   REQUIRE(plots.size() == 2);
   for (const apps::Plot& plot : plots) {
-    CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+    CHECK(file_text(folder / "plots" / (plot.name + ".json")).size() > 100);
     CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
   }
 }
