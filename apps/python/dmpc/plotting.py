@@ -37,7 +37,8 @@ def drawn(data, name):
             axis.set_xticks(range(len(places)), places, **slanted)
         axis.set_title(data["title"])
         axis.spines[["top", "right"]].set_visible(False)
-        figure.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, frameon=False)
+        if len(data["series"]) > 1:
+            figure.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, frameon=False)
         text = io.StringIO()
         figure.savefig(text, format="svg", transparent=True, bbox_inches="tight", metadata={"Date": None})
         pyplot.close(figure)
@@ -45,10 +46,10 @@ def drawn(data, name):
 
 
 def _set_axis(axes, letter, data):
-    options = {}
+    """Without limits and ticks matplotlib chooses them."""
+    axes.set(**{f"{letter}label": data["label"], f"{letter}scale": "log" if data.get("log") else "linear"})
     if "most" in data:
-        options = {f"{letter}scale": "log" if data["log"] else "linear", f"{letter}lim": (data["least"], data["most"])}
-    axes.set(**{f"{letter}label": data["label"], **options})
+        axes.set(**{f"{letter}lim": (data["least"], data["most"])})
     if ticks := data.get("ticks"):
         axis = getattr(axes, f"{letter}axis")
         axis.set_ticks([place for place, _ in ticks], [text for _, text in ticks])

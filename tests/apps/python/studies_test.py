@@ -1,6 +1,7 @@
 """What studies in Python share, run by Debian's Python with nothing but its standard library: `studies_test.py PROGRAM MODULE_FOLDER`."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import os
@@ -131,6 +132,40 @@ def searched(options, seconds):
 
 
 THREE = [search.Searched("page", ("1KiB", "4KiB")), search.Searched("fixed", ("yes",)), search.Searched("in-flight", ("16", "1", "64"))]
+
+
+def plot_data(*series, **other):
+    """As dmpc writes it, with limits and ticks along y; a series is its mark, colour and rows."""
+    y = {"label": "time", "log": True, "least": 1, "most": 100, "ticks": [[1, "1 s"], [10, "10 s"]]}
+    return {"title": "Times", "stacked": False, "width": 0, "x": {"label": "nodes", "log": False, "ticks": []}, "y": y, **other,
+            "series": [{"name": f"the {mark}", "mark": mark, "color": color, "rows": rows} for mark, color, rows in series]}
+
+
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "there is no matplotlib")
+class PlottingTest(unittest.TestCase):
+    CURVES = plot_data(("line", 0, [[1, 50], [4, 20]]), ("points", 1, [[1, 60]]), ("intervals", 2, [[1, 30, 20, 40], [4, 10, 9, 12]]))
+
+    def test_pictures_are_written_beside_their_data_the_same_each_time(self):
+        from dmpc import plotting
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "a.json").write_text(json.dumps(self.CURVES))
+            plotting.main([folder, "a"])
+            text = (path / "a.svg").read_text()
+            for said in ("Times", "nodes", "1 s", "10 s", "the line", "the points", "the intervals", "currentColor"):
+                self.assertIn(said, text)
+            self.assertEqual(text, plotting.drawn(self.CURVES, "a"))
+
+    def test_bars_stand_beside_or_upon_each_other_and_from_the_ninth_colour_on_are_hatched(self):
+        from dmpc import plotting
+        from matplotlib.axes import Axes
+        for stacked in (False, True):
+            with mock.patch.object(Axes, "bar", autospec=True, side_effect=Axes.bar) as bar:
+                plotting.drawn(plot_data(("bars", 0, [[0, 4], [1, 3]]), ("bars", 9, [[1, 2]]), places=["a", "b"], stacked=stacked), "b")
+            (first, second), ninth = [call.args[1:] for call in bar.call_args_list], bar.call_args_list[1].kwargs
+            self.assertEqual(second[0], [1] if stacked else [1.2])
+            self.assertEqual((first[3], second[3]), ([0, 0], [3 if stacked else 0]))
+            self.assertEqual((bar.call_args_list[0].kwargs["hatch"], ninth["hatch"]), (None, "//"))
 
 
 class SearchTest(unittest.TestCase):

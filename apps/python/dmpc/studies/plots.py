@@ -1,16 +1,10 @@
-"""Plots of tables, by matplotlib, which is asked for when a plot is wanted: given values as marks without a line, found ones as lines or
-bars. Ink is the colour of the page around it."""
+"""Plots of tables: given values as marks without a line, found ones as lines or bars."""
 
 import importlib.util
-import io
 from dataclasses import dataclass, field
 
 from .. import program
 from .runs import PARTS
-
-_INK = "#010203"  # stands for the colour of what surrounds the plot
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255")
-_MARKS = "os^Dv"
 
 
 @dataclass(frozen=True)
@@ -74,53 +68,21 @@ def points(plot, series, table):
     return found
 
 
+def data(plot, table):
+    """What plotting.drawn() takes: series without a row are left out."""
+    found = [(series, rows) for series in plot.series if (rows := points(plot, series, table))]
+    places = list(dict.fromkeys(place for _, rows in found for place, _ in rows))
+    ticks = [[place, str(place)] for place in sorted(places)] if plot.x and plot.log_x == 2 else []
+    mark = {True: "points", False: "line"} if plot.x else {False: "bars"}
+    return {"title": plot.title, "stacked": plot.is_stacked, "width": 0, "places": [] if plot.x else places,
+            "x": {"label": (plot.x_label or plot.x), "log": bool(plot.x and plot.log_x), "ticks": ticks},
+            "y": {"label": plot.y, "log": plot.is_log, "ticks": []},
+            "series": [{"name": series.label, "color": series.colour, "mark": mark[series.is_printed],
+                        "rows": [(place if plot.x else places.index(place), number) for place, number in rows]} for series, rows in found]}
+
+
 def draw(plot, table):
     """As SVG. Raises ModuleNotFoundError without matplotlib."""
-    import matplotlib
+    from .. import plotting
 
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    settings = dict.fromkeys(("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), _INK)
-    with pyplot.rc_context({**settings, "font.size": 9, "svg.fonttype": "none", "svg.hashsalt": plot.name}):
-        figure, axis = pyplot.subplots(figsize=(7.5 if plot.x else max(7.5, 0.15 * len(table.rows)), 4), layout="constrained")
-        (_lines if plot.x else _bars)(axis, plot, table)
-        axis.set(title=plot.title, ylabel=plot.y, yscale="log" if plot.is_log else "linear")
-        axis.spines[["top", "right"]].set_visible(False)
-        figure.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, frameon=False)
-        text = io.StringIO()
-        figure.savefig(text, format="svg", transparent=True, bbox_inches="tight", metadata={"Date": None})
-        pyplot.close(figure)
-    return text.getvalue().replace(_INK, "currentColor")
-
-
-def _lines(axis, plot, table):
-    for series in plot.series:
-        found = points(plot, series, table)
-        if found:
-            style = {"linestyle": "", "markerfacecolor": "none"} if series.is_printed else {"linewidth": 1.2, "markersize": 3}
-            marker = _MARKS[series.colour % len(_MARKS)]
-            axis.plot(*zip(*found), color=_colour(series), marker=marker, label=series.label, **style)
-    axis.set_xlabel(plot.x_label or plot.x)
-    if plot.log_x:
-        axis.set_xscale("log", base=plot.log_x)
-    if plot.log_x == 2:
-        ticks = sorted({place for series in plot.series for place, _ in points(plot, series, table)})
-        axis.set_xticks(ticks, map(str, ticks))
-
-
-def _colour(series):
-    return _COLOURS[series.colour % len(_COLOURS)]
-
-
-def _bars(axis, plot, table):
-    numbers = [(series, dict(points(plot, series, table))) for series in plot.series]
-    places = list(dict.fromkeys(place for _, found in numbers for place in found))
-    width, low = 0.8 if plot.is_stacked else 0.8 / len(numbers), [0.0] * len(places)
-    for index, (series, found) in enumerate(numbers):
-        heights = [found.get(place, 0.0) for place in places]
-        offset = 0 if plot.is_stacked else (index - (len(numbers) - 1) / 2) * width
-        axis.bar([at + offset for at in range(len(places))], heights, width, low if plot.is_stacked else 0.0,
-                 color=_colour(series), label=series.label)
-        low = [below + height for below, height in zip(low, heights)]
-    axis.set_xticks(range(len(places)), places, rotation=45 if len(places) > 6 else 0, ha="right" if len(places) > 6 else "center")
+    return plotting.drawn(data(plot, table), plot.name)
