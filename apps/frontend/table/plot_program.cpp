@@ -1,6 +1,7 @@
 #include "apps/frontend/table/plot_program.h"
 
 #include <cstddef>
+#include <string_view>
 
 #include "apps/frontend/system/child_process.h"
 #include "apps/frontend/system/python_program.h"
@@ -16,7 +17,9 @@ constexpr std::size_t words_bytes_max = 2000;
 /// Returns the last line, which has the error in what Python says.
 std::string last_line(std::string words) {
   words.erase(words.find_last_not_of(" \n") + 1);
-  return words.substr(words.find_last_of('\n') + 1).substr(0, words_bytes_max);
+  words = words.substr(words.find_last_of('\n') + 1, words_bytes_max);
+  constexpr std::string_view program = "dmpc: ";
+  return words.starts_with(program) ? words.substr(program.size()) : words;
 }
 
 }  // namespace
