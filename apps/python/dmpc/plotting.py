@@ -1,5 +1,4 @@
-"""Plots by matplotlib, of the data in which dmpc writes them (apps/frontend/table/plot_data.h) and studies in Python make them. Ink is the
-colour of the page around a plot."""
+"""Plots by matplotlib, of the data in which dmpc writes them (apps/frontend/table/plot_data.h) and studies in Python make them."""
 
 import io
 import json
@@ -10,7 +9,7 @@ import matplotlib
 matplotlib.use("svg")
 from matplotlib import pyplot
 
-_INK = "#010203"  # stands for the colour of what surrounds the plot
+_INK = "#010203"  # stands for the colour of text and axes
 # M. Okabe and K. Ito, "Color Universal Design", 2008, with a brown in place of their yellow; then the first again, dashed or hatched.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#606060", "#8c6d46")
 _MARKS = "os^Dv"
@@ -23,8 +22,8 @@ def main(words):
         (folder / f"{name}.svg").write_text(drawn(json.loads((folder / f"{name}.json").read_text()), name))
 
 
-def drawn(data, name):
-    """The plot as SVG, the same for the same data and name."""
+def drawn(data, name, is_in_page=False):
+    """The plot as SVG, the same for the same data and name: black on white, or in the colours of the page around it."""
     inked = dict.fromkeys(("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), _INK)
     with pyplot.rc_context({**inked, "font.size": 9, "svg.fonttype": "none", "svg.hashsalt": name, "hatch.linewidth": 1.5}):
         figure, axis = pyplot.subplots(figsize=(max(7.5, 0.15 * len(data.get("places", ()))), 4), layout="constrained")
@@ -40,9 +39,9 @@ def drawn(data, name):
         if len(data["series"]) > 1:
             figure.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, frameon=False)
         text = io.StringIO()
-        figure.savefig(text, format="svg", transparent=True, bbox_inches="tight", metadata={"Date": None})
+        figure.savefig(text, format="svg", transparent=is_in_page, bbox_inches="tight", metadata={"Date": None})
         pyplot.close(figure)
-    return text.getvalue().replace(_INK, "currentColor")
+    return text.getvalue().replace(_INK, "currentColor" if is_in_page else "#000000")
 
 
 def _set_axis(axes, letter, data):

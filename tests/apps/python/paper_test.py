@@ -433,7 +433,7 @@ class ReportTest(unittest.TestCase):
                 for series in plot.series:
                     self.assertTrue(drawing.points(plot, series, made[name]), (plot.name, series.label))
         if importlib.util.find_spec("matplotlib"):
-            self.assertIn("currentColor", drawing.draw(plots.PLOTS["losses"][0], made["losses"]))
+            self.assertIn("currentColor", drawing.draw(plots.PLOTS["losses"][0], made["losses"], True))
 
     def test_without_matplotlib_the_report_is_complete_but_for_its_plots_and_says_so(self):
         with mock.patch.object(report, "draw", side_effect=ModuleNotFoundError(name="matplotlib")):

@@ -152,9 +152,10 @@ class PlottingTest(unittest.TestCase):
             (path / "a.json").write_text(json.dumps(self.CURVES))
             plotting.main([folder, "a"])
             text = (path / "a.svg").read_text()
-            for said in ("Times", "nodes", "1 s", "10 s", "the line", "the points", "the intervals", "currentColor"):
+            for said in ("Times", "nodes", "1 s", "10 s", "the line", "the points", "the intervals", "#000000"):
                 self.assertIn(said, text)
             self.assertEqual(text, plotting.drawn(self.CURVES, "a"))
+            self.assertIn("currentColor", plotting.drawn(self.CURVES, "a", True))
 
     def test_bars_stand_beside_or_upon_each_other_and_from_the_ninth_colour_on_are_hatched(self):
         from dmpc import plotting

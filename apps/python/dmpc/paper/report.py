@@ -20,7 +20,7 @@ class Report:
     def __init__(self, texts, tables):
         self.texts, self.tables, self.drawn = list(texts), tables, {}
         try:
-            self.drawn = {plot.name: draw(plot, table) for name, table in tables.items() for plot in plots.PLOTS.get(name, ())}
+            self.drawn = {plot.name: draw(plot, table, True) for name, table in tables.items() for plot in plots.PLOTS.get(name, ())}
             self.complaint = ""
         except ModuleNotFoundError as error:
             self.complaint = f"the plots are not drawn: there is no {error.name}: apt-get install python3-matplotlib"

@@ -81,8 +81,8 @@ def data(plot, table):
                         "rows": [(place if plot.x else places.index(place), number) for place, number in rows]} for series, rows in found]}
 
 
-def draw(plot, table):
-    """As SVG. Raises ModuleNotFoundError without matplotlib."""
+def draw(plot, table, is_in_page=False):
+    """As SVG, as plotting.drawn() has it. Raises ModuleNotFoundError without matplotlib."""
     from .. import plotting
 
-    return plotting.drawn(data(plot, table), plot.name)
+    return plotting.drawn(data(plot, table), plot.name, is_in_page)
