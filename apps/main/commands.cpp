@@ -6,7 +6,7 @@
 #include "apps/lab/bench/stability/command.h"
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 #include "apps/lab/study/python/python_study.h"
 #include "apps/lab/study/references/command.h"
 #include "apps/lab/study/sweep/command.h"

@@ -1,8 +1,9 @@
-// The study `cache`: its options, its table, and what it concludes.
+// The study `cache`: how often nodes miss pages with caches of any size and policy, and the cost on a machine.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,10 @@
 #include "apps/frontend/line/command_line.h"
 #include "apps/frontend/system/interrupt.h"
 #include "apps/frontend/table/plot.h"
+#include "apps/frontend/table/table_options.h"
 #include "apps/lab/study/cache_curves.h"
+#include "apps/scene/database_options.h"
+#include "apps/scene/picture_options.h"
 #include "core/database/database.h"
 #include "core/picture/film/film.h"
 #include "core/picture/pixel_task.h"
@@ -57,5 +61,20 @@ struct CacheStudy {
   /// A sentence computed from a table's rows, empty if there are too few.
   std::string conclusion(const Table& table) const;
 };
+
+struct StudyOptions {
+  CacheStudy study;
+  PictureOptions picture;
+  DatabaseOptions database;
+  TableOutput table;
+  std::string machine_name;  ///< as given on the command line
+  bool quiet = false;        ///< no progress
+};
+
+void add_options(OptionSet set, StudyOptions& options);
+
+/// Measures and writes as run_tabled() does. Throws core::InputError for a scene that cannot be read or outputs that cannot be
+/// made, core::UsageError for an output that is the scene's file, core::InternalError if two runs give different films.
+int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -32,7 +32,7 @@ def drawn(data, name, is_in_page=False):
         for letter in "xy":
             _set_axis(axis, letter, data[letter])
         if places := data.get("places"):
-            slanted = {"rotation": 45, "ha": "right"} if max(map(len, places)) * len(places) > 60 else {}
+            slanted = {"rotation": 45, "ha": "right"} if len(places) > 6 or max(map(len, places)) > 15 else {}
             axis.set_xticks(range(len(places)), places, **slanted)
         axis.set_title(data["title"])
         axis.spines[["top", "right"]].set_visible(False)

@@ -10,7 +10,7 @@
 #include "apps/lab/bench/precision/command.h"
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/stability/command.h"
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 #include "apps/lab/study/sweep/command.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
@@ -106,7 +106,7 @@ TEST_CASE("a table that cannot be written keeps none of its pictures") {
   make_unwritable(folder / "table.md");
   const Words outputs = {"-o", folder / "table.md", "--plots", folder / "plots", "--report", folder / "page.html"};
   CHECK(run_table(table_cases()[0].words, outputs).status == 1);
-  CHECK(std::filesystem::exists(folder / "plots" / "traffic.csv"));
+  CHECK(std::filesystem::exists(folder / "plots" / "cache.csv"));
   CHECK(contains(file_text(folder / "page.html"), "</html>"));
 }
 

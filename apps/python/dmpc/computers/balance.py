@@ -42,7 +42,7 @@ def measure(options, subject, table):
     machine = {**json.loads(program.run(["machine", "ipsc2"])), "topology": options.topology}
     (subject.runs.folder / "machines" / "wired.json").write_text(json.dumps(machine))
     rows = [(nodes, name) for nodes in options.nodes for name in _CUTTINGS]
-    lines = [subject.line("scene", ["--strategy=dataflow", "--no-skip=bundles", *options.run, *_CUTTINGS[name], f"--nodes={nodes}"],
+    lines = [subject.line("scene", ["--strategy=dataflow", *options.run, *_CUTTINGS[name], f"--nodes={nodes}"],
                           "machines/wired.json") for nodes, name in rows]
     for row, result in zip(rows, subject.fitting(lines)):
         table.add([*row, *result["row"], *[None] * (len(table.columns) - len(_COLUMNS))])

@@ -74,7 +74,7 @@ def data(plot, table):
     places = list(dict.fromkeys(place for _, rows in found for place, _ in rows))
     ticks = [[place, str(place)] for place in sorted(places)] if plot.x and plot.log_x == 2 else []
     mark = {True: "points", False: "line"} if plot.x else {False: "bars"}
-    return {"title": plot.title, "stacked": plot.is_stacked, "width": 0, "places": [] if plot.x else places,
+    return {"title": plot.title, "stacked": plot.is_stacked, "width": 0, "places": [] if plot.x else list(map(str, places)),
             "x": {"label": (plot.x_label or plot.x), "log": bool(plot.x and plot.log_x), "ticks": ticks},
             "y": {"label": plot.y, "log": plot.is_log, "ticks": []},
             "series": [{"name": series.label, "color": series.colour, "mark": mark[series.is_printed],

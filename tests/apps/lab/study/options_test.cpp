@@ -1,4 +1,4 @@
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,6 @@
-// The options of the studies of one scene on several computers.
+// The options of each study that is a program in Python.
+#include "apps/lab/study/python/python_study.h"
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -7,8 +9,10 @@
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/frontend/run/option_words.h"
-#include "apps/lab/study/python/python_study.h"
+#include "apps/frontend/table/table_options.h"
+#include "apps/run/systems.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -118,11 +122,81 @@ PythonStudy study_of(const char* name, void (*declare)(OptionSet, PythonStudy&),
           .words = {name}};
 }
 
+void declare_decades(OptionSet set, PythonStudy& study) {
+  set.add_required("-o,--output", "FOLDER", passed_on, "Folder of the page, its pictures, and the counters of all runs");
+  set.add_text(
+      "--part", "plan|run|hold [run]", passed_on,
+      "plan: measure what a run of each kind costs, and print how many there are. run: make what the folder lacks, and the page. "
+      "hold: time some renders over MPI on this computer beside their prediction, for the page");
+  set.add_flag("--quick", study.is_set, "Fewer cells, scenes and draws: minutes, where all take an hour or two on two cores");
+  add_run_options(set, study);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study decades --quick -o decades\n"
+      "  dmpc study decades -o decades\n"
+      "Needs Python with numpy, pandas, OpenImageIO and matplotlib.");
+}
+
+void declare_paper(OptionSet set, PythonStudy& study) {
+  set.add_number("--resolution", study.side, 8, 4096, "512, the article's", "Pixels a side of every picture");
+  set.add_flag("--sensitivity", study.is_set,
+               "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
+  set.add_text(
+      "-o,--output", "FOLDER", passed_on,
+      "Where the report goes, as a page and as Markdown, with each table as CSV and JSON, plots by Python's matplotlib, hashes, "
+      "and all of it as paper.zip; and the counters of all runs");
+  add_report_option(set, study.report, "with the tables and their plots");
+  add_run_options(set, study);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study paper -o paper              the article's pictures: ten minutes of processor time\n"
+      "  dmpc study paper --sensitivity -o paper\n"
+      "  dmpc study paper --resolution=64       to see what it prints, not what is true");
+}
+
+constexpr Resolution systems_resolution{128, 128};
+
+void declare_systems(OptionSet set, PythonStudy& study) {
+  add_node_counts(set, study.node_counts);
+  set.add_words("--systems", core::mapped<std::string>(systems(), &SystemDescription::name), passed_on,
+                "Which are compared; all if none is given");
+  set.add_words(
+      "--tables", {"described", "equal"}, passed_on,
+      "described: each system as it had it when it was described. equal: each on every structure at its best, with equal "
+      "memory. Both if none is given");
+  set.add_text(
+      "--node-memory", "RULE,RULE,... [rays]", passed_on,
+      "All that a node may store, in the table equal: rays, what the better of scattered and subsampled needs by default on the "
+      "grid; S%, a share of the database; or a size such as 4MiB");
+  set.add_flag("--search", study.is_set, "Adds the steps of each row's search as notes");
+  constexpr std::uint32_t draws_max = 10'000;
+  set.add_number("--draws", study.number, 0, draws_max, "100",
+                 "Draws of the machine's prices, within the certainty of their sources, for the best rows; 0: none");
+  add_machine_option(set, study.machine_name, "");
+  set.check_in_the_end([&study] { load_machine(study.machine_name); });
+  add_scene_options(set, study);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study systems rings-4-t1\n"
+      "  dmpc study systems balls-4 --machine=hdr --samples=16 --plots=plots -o systems.md\n"
+      "  dmpc study systems mount-6-t6 --tables=equal --node-memory=rays,25%,1MiB --search --format=csv -o systems.csv\n"
+      "A system that does not fit has a row without figures.");
+}
+
 }  // namespace
 
 PythonStudy balance_study() { return study_of("balance", declare_balance, {4, 8, 16, 32, 64}); }
 PythonStudy frames_study() { return study_of("frames", declare_frames, {8}); }
 PythonStudy speedup_study() { return study_of("speedup", declare_speedup, {1, 2, 4, 8, 16, 32, 64}); }
 PythonStudy traffic_study() { return study_of("traffic", declare_traffic, {1, 2, 4, 8, 16, 32, 64}); }
+PythonStudy decades_study() { return {.name = "decades", .module = "decades.command", .declare = declare_decades}; }
+PythonStudy paper_study() { return {.name = "paper", .module = "paper.command", .declare = declare_paper}; }
+
+PythonStudy systems_study() {
+  PythonStudy study{.name = "systems", .module = "systems.command", .declare = declare_systems, .node_counts = {64}};
+  study.picture.resolution = systems_resolution;
+  study.words = {"--resolution=128x128"};
+  return study;
+}
 
 }  // namespace dmpc::apps
