@@ -18,6 +18,7 @@
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
+#include "core/base/ranges.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
@@ -79,11 +80,8 @@ void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uin
 }
 
 std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& recorded) {
-  std::vector<CacheCurves::NodeReferences> references;
-  for (const svm::NodeReport& node : recorded.nodes) {
-    references.push_back({node.references.pages()});
-  }
-  return references;
+  return core::mapped<CacheCurves::NodeReferences>(
+      recorded.nodes, [](const svm::NodeReport& node) { return CacheCurves::NodeReferences{node.references.pages()}; });
 }
 
 constexpr const char* data_file = "cache.csv";
@@ -115,11 +113,6 @@ std::string samples_text(const PictureOptions& picture) {
   return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
 }
 
-/// Returns "depth 5", or the settings of paths.
-std::string light_text(const PictureOptions& picture) {
-  return picture.transport.is_by_paths() ? text_of(picture.transport) : "depth " + std::to_string(picture.depth);
-}
-
 /// Returns "structure extents, " or "structure voxels (article), ", nothing for the grid.
 std::string structure_text(const core::BuildOptions& build) {
   using core::Structure;
@@ -131,21 +124,11 @@ std::string title_of(const StudyOptions& options, const Subject& subject) {
   const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
   return "Study cache of " + picture.scene + ": " + std::to_string(camera.width()) + "x" + std::to_string(camera.height()) +
-         " pixels, " + samples_text(picture) + ", " + light_text(picture) + ", convention " +
-         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", record order " +
+         " pixels, " + samples_text(picture) + ", " +
+         (picture.transport.is_by_paths() ? text_of(picture.transport) : "depth " + std::to_string(picture.depth)) +
+         ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", record order " +
          name_of(options.database.build.record_order) + ", " + structure_text(options.database.build) +
          counted(subject.database.header().primitive_count, "primitive");
-}
-
-/// Adds what the machine lacks prices for, and the film.
-void add_last_notes(const CacheStudy& study, const CacheRuns& runs, Table& table) {
-  const std::string note = study.machine ? price_note(*study.machine, runs.database.structure()) : "";
-  if (!note.empty()) {
-    table.add_note(note + ".");
-  }
-  table.add_note(runs.film_hash
-                     ? "Film of every run, " + std::to_string(runs.count) + " in all: " + hash_text(*runs.film_hash) + "."
-                     : "No picture was rendered.");
 }
 
 }  // namespace
@@ -285,17 +268,25 @@ int study_command(const StudyOptions& asked, Interrupt& interrupt, std::ostream&
     if (!is_whole) {
       table.add_note(interrupt.requested() ? "Interrupted: rows are missing." : "Ended by an error: rows are missing.");
     }
-    add_last_notes(options.study, runs, table);
+    const std::string prices = options.study.machine ? price_note(*options.study.machine, runs.database.structure()) : "";
+    if (!prices.empty()) {
+      table.add_note(prices + ".");
+    }
+    table.add_note("Film of every run, " + std::to_string(runs.count) + " in all: " + hash_text(runs.film_hash.value()) + ".");
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (is_whole) {
       interrupt.set_consequence(options.table.file ? "nothing was written" : "the table is incomplete");
       end_at_once.emplace(interrupt);
     }
-    StudyFindings findings{title, table, data_file, options.study.plots(), options.study.conclusion(table), {}, digest};
-    if (runs.film_hash) {
-      findings.facts = {{"film", hash_text(*runs.film_hash)}};
-    }
-    files.write(study_result(std::move(findings), options.table.format), output, std::cerr, attempts);
+    files.write(study_result({title,
+                              table,
+                              data_file,
+                              options.study.plots(),
+                              options.study.conclusion(table),
+                              {{"film", hash_text(runs.film_hash.value())}},
+                              digest},
+                             options.table.format),
+                output, std::cerr, attempts);
   };
   return run_tabled({.measure = [&] { options.study.measure(runs, table); },
                      .has_findings = [&] { return !table.rows().empty(); },

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "apps/frontend/line/option_values.h"
 #include "apps/frontend/line/words.h"
@@ -113,12 +112,13 @@ void declare_frames(OptionSet set, PythonStudy& study) {
       "  dmpc study frames mount-6 --turntable=5 --each-frame --format=csv -o mount.csv");
 }
 
-PythonStudy study_of(const char* name, void (*declare)(OptionSet, PythonStudy&), std::vector<std::uint32_t> node_counts) {
+PythonStudy of_one_scene(const char* name, void (*declare)(OptionSet, PythonStudy&),
+                         const std::vector<std::uint32_t>& node_counts) {
   return {.name = name,
           .module = "computers.command",
           .declare = declare,
           .database = DatabaseOptions(),
-          .node_counts = std::move(node_counts),
+          .node_counts = node_counts,
           .words = {name}};
 }
 
@@ -154,9 +154,10 @@ void declare_paper(OptionSet set, PythonStudy& study) {
       "  dmpc study paper --resolution=64       to see what it prints, not what is true");
 }
 
-constexpr Resolution systems_resolution{128, 128};
-
 void declare_systems(OptionSet set, PythonStudy& study) {
+  study.node_counts = {64};
+  study.picture.resolution = Resolution{128, 128};
+  study.words = {"--resolution=128x128"};
   add_node_counts(set, study.node_counts);
   set.add_words("--systems", core::mapped<std::string>(systems(), &SystemDescription::name), passed_on,
                 "Which are compared; all if none is given");
@@ -169,8 +170,7 @@ void declare_systems(OptionSet set, PythonStudy& study) {
       "All that a node may store, in the table equal: rays, what the better of scattered and subsampled needs by default on the "
       "grid; S%, a share of the database; or a size such as 4MiB");
   set.add_flag("--search", study.is_set, "Adds the steps of each row's search as notes");
-  constexpr std::uint32_t draws_max = 10'000;
-  set.add_number("--draws", study.number, 0, draws_max, "100",
+  set.add_number("--draws", study.number, 0, 10'000, "100",
                  "Draws of the machine's prices, within the certainty of their sources, for the best rows; 0: none");
   add_machine_option(set, study.machine_name, "");
   set.check_in_the_end([&study] { load_machine(study.machine_name); });
@@ -185,18 +185,18 @@ void declare_systems(OptionSet set, PythonStudy& study) {
 
 }  // namespace
 
-PythonStudy balance_study() { return study_of("balance", declare_balance, {4, 8, 16, 32, 64}); }
-PythonStudy frames_study() { return study_of("frames", declare_frames, {8}); }
-PythonStudy speedup_study() { return study_of("speedup", declare_speedup, {1, 2, 4, 8, 16, 32, 64}); }
-PythonStudy traffic_study() { return study_of("traffic", declare_traffic, {1, 2, 4, 8, 16, 32, 64}); }
-PythonStudy decades_study() { return {.name = "decades", .module = "decades.command", .declare = declare_decades}; }
-PythonStudy paper_study() { return {.name = "paper", .module = "paper.command", .declare = declare_paper}; }
-
-PythonStudy systems_study() {
-  PythonStudy study{.name = "systems", .module = "systems.command", .declare = declare_systems, .node_counts = {64}};
-  study.picture.resolution = systems_resolution;
-  study.words = {"--resolution=128x128"};
-  return study;
+PythonStudy python_study(const std::string& name) {
+  for (PythonStudy study :
+       {of_one_scene("balance", declare_balance, {4, 8, 16, 32, 64}), of_one_scene("frames", declare_frames, {8}),
+        of_one_scene("speedup", declare_speedup, {1, 2, 4, 8, 16, 32, 64}),
+        of_one_scene("traffic", declare_traffic, {1, 2, 4, 8, 16, 32, 64}),
+        PythonStudy{"decades", "decades.command", declare_decades}, PythonStudy{"paper", "paper.command", declare_paper},
+        PythonStudy{"systems", "systems.command", declare_systems}}) {
+    if (study.name == name) {
+      return study;
+    }
+  }
+  throw core::InternalError("there is no study " + name);
 }
 
 }  // namespace dmpc::apps

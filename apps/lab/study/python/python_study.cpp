@@ -11,19 +11,6 @@
 #include "nodes/node_id.h"
 
 namespace dmpc::apps {
-namespace {
-
-/// Throws for a table or plots that cannot be written, or would replace what the study reads.
-void check_files(const TableOutput& table, const PythonStudy& study) {
-  std::vector<NamedFile> inputs;
-  add_scene_file(study.picture, inputs);
-  if (find_machine_preset(study.machine_name) == nullptr) {
-    inputs.push_back({"--machine", study.machine_name});
-  }
-  static_cast<void>(TableFiles(table, {}, {.inputs = std::move(inputs)}));
-}
-
-}  // namespace
 
 void add_options(OptionSet set, PythonStudy& study) {
   study.declare(set, study);
@@ -63,10 +50,15 @@ void add_run_options(OptionSet set, PythonStudy& study) {
 
 int python_study_command(const PythonStudy& study, std::ostream& output) {
   if (study.table) {
-    check_files(*study.table, study);
+    std::vector<NamedFile> inputs;
+    add_scene_file(study.picture, inputs);
+    if (find_machine_preset(study.machine_name) == nullptr) {
+      inputs.push_back({"--machine", study.machine_name});
+    }
+    static_cast<void>(TableFiles(*study.table, {}, {.inputs = std::move(inputs)}));
   }
   output.flush();
-  become_python(study.module, std::string("study ") + study.name, study.words);
+  become_python(study.module, "study " + study.name, study.words);
 }
 
 }  // namespace dmpc::apps

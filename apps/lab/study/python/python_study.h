@@ -17,7 +17,7 @@ namespace dmpc::apps {
 
 /// A study as a command. It declares what it needs of the options below, by which dmpc checks them.
 struct PythonStudy {
-  const char* name;
+  std::string name;
   const char* module;  ///< its main(words): "systems.command" of the package dmpc
   void (*declare)(OptionSet set, PythonStudy& study);
   PictureOptions picture = {};
@@ -34,13 +34,8 @@ struct PythonStudy {
   std::vector<std::string> words = {};  ///< defaults; once a line is read, with what it gives in their place
 };
 
-PythonStudy balance_study();
-PythonStudy decades_study();
-PythonStudy frames_study();
-PythonStudy paper_study();
-PythonStudy speedup_study();
-PythonStudy systems_study();
-PythonStudy traffic_study();
+/// The study of this name.
+PythonStudy python_study(const std::string& name);
 
 void add_options(OptionSet set, PythonStudy& study);
 
