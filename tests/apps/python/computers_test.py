@@ -199,6 +199,9 @@ class FramesTest(unittest.TestCase):
             self.assertLess(shown[KEPT][f"{name}_warm"], shown[KEPT][f"{name}_cold"])
         self.assertTrue(shown[KEPT]["faults_warm"] < shown[KEPT]["faults_cold"] == shown[WORKING_SET]["faults_cold"])
         self.assertLess(shown[KEPT]["worst_warm_faults"], 100)
+        words = ["--turntable=2", "--nodes=3", "--runner=virtual", f"--cache-pages={shown[KEPT]['cache_pages']}"]
+        cold = [stats("rings-2-t1", f"--frames={frame}..{frame}", *words)[0] for frame in (1, 2, 3)]
+        self.assertEqual(shown[WORKING_SET]["cache_pages"], max(node["pages"]["faults"] for one in cold for node in one["nodes"]))
 
     def test_single_frames_have_rows_that_their_means_follow_and_are_those_of_their_own_runs(self):
         shown = self.table(2, "--each-frame")
