@@ -1,15 +1,19 @@
 """The common part of studies that print a table: what is said meanwhile, where the table goes, and the exit status."""
 
+import contextlib
 import os
 import pathlib
 import signal
+import subprocess
 import sys
+import tempfile
 
 from .. import program
 from . import plots, table
 
 INTERRUPTED = 130
 _CLEAR = "\r\x1b[K"
+_HEIR = 'read -r nothing; for n in 1 2 3 4 5 6 7 8 9; do rm -rf -- "$1"; sleep 0.2; [ -e "$1" ] || break; done'
 
 
 def add_options(parser):
@@ -73,6 +77,21 @@ def run(measure, rows, options, messages, closing=lambda: (), draw=lambda: None)
         if options.plots:
             draw()
     return status
+
+
+@contextlib.contextmanager
+def scratch_folder():
+    """For all temporary files of this program, which go with it even if it is killed: then by a shell, which waits for its end."""
+    with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
+        heir = subprocess.Popen(["/bin/sh", "-c", _HEIR, "dmpc-heir", folder], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, start_new_session=True)
+        tempfile.tempdir = folder
+        try:
+            yield
+        finally:
+            tempfile.tempdir = None
+            heir.kill()
+            heir.communicate()
 
 
 def take_signals():

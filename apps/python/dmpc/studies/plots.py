@@ -9,7 +9,7 @@ from .. import program
 from .runs import PARTS
 
 _INK = "#010203"  # stands for the colour of what surrounds the plot
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255")
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255")
 _MARKS = "os^Dv"
 
 
@@ -110,7 +110,7 @@ def _lines(axis, plot, table):
 
 
 def _colour(series):
-    return _COLOURS[series.colour % len(_COLOURS)]
+    return COLOURS[series.colour % len(COLOURS)]
 
 
 def _bars(axis, plot, table):

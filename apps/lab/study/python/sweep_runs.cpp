@@ -1,15 +1,17 @@
-#include "apps/lab/study/sweep/settings.h"
-
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <set>
+#include <string_view>
 
+#include "apps/build/command.h"
 #include "apps/frontend/line/command_line.h"
 #include "apps/frontend/line/number_text.h"
 #include "apps/frontend/line/unknown_option.h"
 #include "apps/frontend/line/words.h"
-#include "apps/lab/study/engine/render_process.h"
+#include "apps/frontend/system/digest.h"
+#include "apps/lab/study/python/sweep.h"
 #include "apps/scene/database_facts.h"
-#include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -48,16 +50,16 @@ class RenderLine {
 };
 
 bool is_sweepable(const OptionDescription& option) {
-  return std::find(std::begin(unsweepable), std::end(unsweepable), long_name_of(option)) == std::end(unsweepable);
+  return std::find(std::begin(unsweepable), std::end(unsweepable), option.names.back()) == std::end(unsweepable);
 }
 
 const OptionDescription& find_option(const std::string& name, const std::string& text) {
   std::vector<std::string> names;
   for (const OptionDescription& option : sweepable_options()) {
-    if (long_name_of(option) == "--" + name) {
+    if (option.names.back() == "--" + name) {
       return option;
     }
-    names.push_back(long_name_of(option).substr(2));
+    names.push_back(option.names.back().substr(2));
   }
   if (const std::string instead = said_instead_of("--" + name); !instead.empty()) {
     throw core::UsageError("--vary=" + text + ": " + name + " is no option of dmpc render any more: " + instead);
@@ -94,32 +96,25 @@ std::vector<std::string> values_in(const std::string& text) {
   return values;
 }
 
-/// Returns the word that sets an option to a value; nothing for a flag that is off.
-std::optional<std::string> word_of(const VariedOption& variation, const std::string& value) {
-  if (variation.is_flag) {
-    return value == "on" ? std::optional(variation.option) : std::nullopt;
-  }
-  return variation.option + "=" + value;
-}
-
 /// Returns `runs` with every value of `variation` appended to each.
 std::vector<SweepRun> varied(const std::vector<SweepRun>& runs, const VariedOption& variation) {
   std::vector<SweepRun> all;
   for (const SweepRun& run : runs) {
     for (const std::string& value : variation.values) {
       SweepRun& next = all.emplace_back(run);
-      next.values.push_back(value);
-      if (const std::optional<std::string> word = word_of(variation, value)) {
-        next.words.push_back(*word);
+      const std::string word = variation.option + (variation.is_flag ? "" : "=" + value);
+      next.varied += (run.varied.empty() ? "" : " ") + word + (variation.is_flag ? " " + value : "");
+      if (!variation.is_flag || value == "on") {
+        next.words.push_back(word);
       }
     }
   }
   return all;
 }
 
-void check_count(const SweepSettings& settings) {
+void check_count(const SweepStudy& study) {
   std::size_t count = 1;
-  for (const VariedOption& variation : settings.variations) {
+  for (const VariedOption& variation : study.variations) {
     count *= variation.values.size();
     if (count > runs_max) {
       throw core::UsageError("these are more than " + grouped(runs_max) + " runs: vary fewer options, or give fewer values");
@@ -127,11 +122,11 @@ void check_count(const SweepSettings& settings) {
   }
 }
 
-void check_options(const SweepSettings& settings) {
+void check_options(const SweepStudy& study) {
   std::set<std::string> varied;
-  for (const VariedOption& variation : settings.variations) {
+  for (const VariedOption& variation : study.variations) {
     const auto is_it = [&](const std::string& word) { return word.substr(0, word.find('=')) == variation.option; };
-    if (std::any_of(settings.fixed.begin(), settings.fixed.end(), is_it)) {
+    if (std::any_of(study.fixed.begin(), study.fixed.end(), is_it)) {
       throw core::UsageError(variation.option + " is given, and varied, too: expected one of them");
     }
     if (!varied.insert(variation.option).second) {
@@ -141,25 +136,71 @@ void check_options(const SweepSettings& settings) {
 }
 
 /// Returns the options of `render` for a combination.
-RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& variations) {
+RenderOptions options_of(const SweepRun& run) {
   try {
-    return RenderLine().parse(RenderProcesses::with_outputs(run.words, "stats.json", "picture.exr"));
+    std::vector<std::string> words = run.words;
+    words.insert(words.end(), {"--quiet", "--stats=stats.json", "--output=picture.png"});
+    return RenderLine().parse(words);
   } catch (const core::UsageError& error) {
-    throw core::UsageError("with " + text_of(variations, run) + " dmpc render would say: " + error.what());
+    throw core::UsageError("with " + run.varied + " dmpc render would say: " + error.what());
   }
 }
 
+/// Returns what of a scene's name a file's can have.
+std::string file_name_of(const std::string& scene) {
+  std::string name = std::filesystem::path(scene).filename().string().substr(0, 40);
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '-'; }, '_');
+  return name;
+}
+
+/// Returns a digest of all that decides the database of a scene.
+std::uint64_t digest_of_database(const RenderOptions& options) {
+  Digest digest;
+  digest.add(std::string_view(options.picture.scene));
+  for (const auto& [name, value] : database_facts(options.picture, options.database.build)) {
+    digest.add(std::string_view(value));
+  }
+  digest.add(static_cast<std::uint64_t>(options.database.instances) << 1U | (options.picture.is_refined ? 1U : 0U));
+  digest.add(std::string_view(options.database.why_copied));
+  if (options.picture.scene_setup.camera) {  // the database is that of its distance
+    digest.add(std::string_view(text_of(*options.picture.scene_setup.camera)));
+  }
+  return digest.value();
+}
+
+/// Returns the words of a run that `build` takes, too, with what the run's strategy decides.
+std::vector<std::string> build_words(const SweepRun& run) {
+  static const std::set<std::string> names = [] {
+    BuildRequest none;
+    CommandLine line{"", "", ""};
+    add_options(line.add_command("build", ""), none);
+    std::set<std::string> all;
+    for (const OptionDescription& option : line.describe().commands.front().options) {
+      all.insert(option.names.back());
+    }
+    return all;
+  }();
+  const DatabaseOptions& database = run.options.database;
+  std::vector<std::string> words = words_of(database.build);
+  if (database.instances == InstancesChoice::automatic && database.why_copied.empty()) {  // the scene decides
+    std::erase_if(words, [](const std::string& word) { return word == "--structure=grid" || word.starts_with("--instances="); });
+    words.emplace_back("--instances=auto");
+  }
+  std::copy_if(run.words.begin(), run.words.end(), std::back_inserter(words),
+               [](const std::string& word) { return names.contains(word.substr(0, word.find('='))) && !is_of_building(word); });
+  return words;
+}
+
 /// Returns whether any of these options of `render` is fixed or varied.
-bool gives_any(const SweepSettings& settings, const std::set<std::string>& names) {
+bool gives_any(const SweepStudy& study, const std::set<std::string>& names) {
   const auto is_one = [&](const std::string& word) { return names.contains(word.substr(0, word.find('='))); };
-  return std::any_of(settings.fixed.begin(), settings.fixed.end(), is_one) ||
-         std::any_of(settings.variations.begin(), settings.variations.end(),
+  return std::any_of(study.fixed.begin(), study.fixed.end(), is_one) ||
+         std::any_of(study.variations.begin(), study.variations.end(),
                      [&](const VariedOption& variation) { return is_one(variation.option); });
 }
 
 }  // namespace
-
-std::string long_name_of(const OptionDescription& option) { return option.names.back(); }
 
 const std::vector<OptionDescription>& sweepable_options() {
   static const std::vector<OptionDescription> options = [] {
@@ -183,46 +224,35 @@ VariedOption parse_variation(const std::string& text) {
   return variation;
 }
 
-std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {
-  check_count(settings);
-  check_options(settings);
-  std::vector<std::string> words = {"render", settings.scene};
-  words.insert(words.end(), settings.fixed.begin(), settings.fixed.end());
+std::vector<SweepRun> sweep_runs(const SweepStudy& study) {
+  check_count(study);
+  check_options(study);
+  std::vector<std::string> words = {"render", study.scene};
+  words.insert(words.end(), study.fixed.begin(), study.fixed.end());
   // A sweep measures the cost of a picture, so a mesh file is shown as other scenes are, unless an option says otherwise.
-  if (is_mesh(settings.scene) && !gives_any(settings, {"--transport"})) {
+  if (is_mesh(study.scene) && !gives_any(study, {"--transport"})) {
     words.emplace_back("--transport=whitted");
-    if (!gives_any(settings, {"--samples", "--quality", "--error"})) {
+    if (!gives_any(study, {"--samples", "--quality", "--error"})) {
       words.emplace_back("--samples=1");
     }
   }
-  std::vector<SweepRun> runs = {{.values = {}, .words = words, .options = {}}};
-  for (const VariedOption& variation : settings.variations) {
+  std::vector<SweepRun> runs = {{.varied = {}, .words = words, .options = {}}};
+  for (const VariedOption& variation : study.variations) {
     runs = varied(runs, variation);
   }
   for (SweepRun& run : runs) {
-    run.options = options_of(run, settings.variations);
+    run.options = options_of(run);
   }
   return runs;
 }
 
-OpenedFiles scene_files(const SweepSettings& settings, const SweepRun& run) {
-  OpenedFiles opened;
-  std::vector<NamedFile> named;
-  add_scene_file(settings.scene, named);
-  if (!named.empty()) {
-    load_scene(run.options.picture, LoadNotes::silent, &opened);
+SweepDatabase database_of(const SweepRun& run, std::uint64_t source) {
+  const RenderOptions& options = run.options;
+  if (options.picture.stored || options.frames.animation) {
+    return {"-", {}};
   }
-  return opened;
-}
-
-std::string text_of(const std::vector<VariedOption>& variations, const SweepRun& run) {
-  std::string text;
-  for (std::size_t i = 0; i < variations.size(); ++i) {
-    const std::string word =
-        variations[i].is_flag ? variations[i].option + " " + run.values[i] : variations[i].option + "=" + run.values[i];
-    text += (text.empty() ? "" : " ") + word;
-  }
-  return text;
+  const std::string name = file_name_of(options.picture.scene) + "-" + hash_text(digest_of_database(options)) + "-";
+  return {name + hash_text(source) + ".pages", build_words(run)};
 }
 
 }  // namespace dmpc::apps
