@@ -18,9 +18,6 @@ std::string sweep_page(const Sweep& sweep, const Origin& origin) {
     }
     page.add_table(part.table);
   }
-  if (sweep.forecast) {
-    add_forecast_alone(page, *sweep.forecast);
-  }
   page.add_origin(origin, sweep.results);
   return page.text();
 }

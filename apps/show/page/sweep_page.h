@@ -1,7 +1,6 @@
 // The page of a study: the results of a sweep as plots and tables.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,6 @@
 #include "apps/frontend/show/page/page.h"
 #include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table.h"
-#include "apps/show/page/forecast_view.h"
 
 namespace dmpc::apps::html {
 
@@ -24,8 +22,7 @@ struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs
   std::vector<SweepPart> parts;
-  Facts results = {};                         ///< identify another run with the same results
-  std::optional<ForecastView> forecast = {};  ///< from one of the sweep's runs, shown beside all of them
+  Facts results = {};  ///< identify another run with the same results
 };
 
 /// Returns the whole document. Throws core::InputError if no temporary file can be written.

@@ -13,7 +13,7 @@ namespace {
 
 std::string page_of(const StudyFindings& findings) {
   const html::SweepPart part{"", findings.table, findings.plots, findings.conclusion};
-  return html::sweep_page({findings.title, {}, {part}, findings.facts, findings.forecast}, this_origin(findings.scene_digest));
+  return html::sweep_page({findings.title, {}, {part}, findings.facts}, this_origin(findings.scene_digest));
 }
 
 }  // namespace

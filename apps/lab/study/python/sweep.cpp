@@ -51,8 +51,10 @@ void add_sweep_options(OptionSet& set, SweepStudy& study) {
       "--vary", "OPTION:VALUE,VALUE,...",
       [&study](const std::string& text) { study.variations.push_back(parse_variation(text)); },
       "An option of dmpc render and its values, of a flag on and off; given several times, all combinations are run");
-  set.add_text("--columns", "FIGURE,FIGURE,... [times and traffic]", passed_on,
-               "What the table tells of each run, by the keys of --stats: pages.faults, or faults where there is no other");
+  set.add_text(
+      "--columns", "FIGURE,FIGURE,... [times and traffic]",
+      [](const std::string& text) { words_between_commas(text, "--columns"); },
+      "What the table tells of each run, by the keys of --stats: pages.faults, or faults where there is no other");
   set.add_path("--runs", "FOLDER [none]", study.kept,
                "Keep the counters of each run there, and the databases of large scenes, and do nothing twice: who was stopped "
                "goes on, who asks for more adds to it");

@@ -14,6 +14,7 @@
 #include "apps/scene/database_facts.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/base/ranges.h"
 
 namespace dmpc::apps {
 namespace {
@@ -175,11 +176,10 @@ std::vector<std::string> build_words(const SweepRun& run) {
     BuildRequest none;
     CommandLine line{"", "", ""};
     add_options(line.add_command("build", ""), none);
-    std::set<std::string> all;
-    for (const OptionDescription& option : line.describe().commands.front().options) {
-      all.insert(option.names.back());
-    }
-    return all;
+    const CommandDescription build = line.describe().commands.front();
+    const std::vector<std::string> all =
+        core::mapped<std::string>(build.options, [](const OptionDescription& option) { return option.names.back(); });
+    return std::set<std::string>(all.begin(), all.end());
   }();
   const DatabaseOptions& database = run.options.database;
   std::vector<std::string> words = words_of(database.build);

@@ -49,7 +49,10 @@ class Sweep:
     def measure(self):
         """Adds the rows as their runs end. Raises NothingFits once all rows are there, if none has figures."""
         known = figures.known(self._schema)
-        self.names = columns.names(self._options, self.variations, known)
+        try:
+            self.names = columns.names(self._options, self.variations, known)
+        except program.UsageError as error:
+            raise program.UsageError(f"{error}\nTry: dmpc study sweep --help") from error
         self.numbers = [name for name in self.names if known[name]]
         kept = Kept(self._options.runs, self._options.source, self._messages.say) if self._options.runs else None
         for run in self.runs if kept else ():
