@@ -1,11 +1,11 @@
 """The study sweep, by Debian's Python with nothing but its standard library: `sweep_test.py PROGRAM MODULE_FOLDER`."""
 
+import contextlib
 import importlib.util
+import io
 import json
 import os
 import pathlib
-import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -18,7 +18,7 @@ PROGRAM, MODULES = (os.path.abspath(path) for path in sys.argv[1:3])
 os.environ.update(DMPC=PROGRAM, PYTHONPATH=MODULES)
 sys.path.insert(0, MODULES)
 from dmpc import program  # noqa: E402
-from dmpc.sweeps import columns, figures, kept  # noqa: E402
+from dmpc.sweeps import columns, command, figures, kept  # noqa: E402
 from dmpc.sweeps.variation import Variation  # noqa: E402
 
 TINY = ["balls-1", "--resolution=8x8", "--runner=virtual"]
@@ -66,13 +66,14 @@ class FolderTest(unittest.TestCase):
     def calling(self, *lines):
         """A program that notes what it does, and does what dmpc does, unless a line of its own says otherwise."""
         path = self.folder / "dmpc"
-        path.write_text("\n".join(["#!/bin/sh", f"echo begin >> {self.calls}", *lines, f'{PROGRAM} "$@"; s=$?', f"echo end >> {self.calls}",
-                                   "exit $s"]))
+        path.write_text("\n".join(["#!/bin/sh", f"echo begin $1 >> {self.calls}", *lines, f'{PROGRAM} "$@"; s=$?',
+                                   f"echo end >> {self.calls}", "exit $s"]))
         path.chmod(0o700)
         return path
 
     def count(self):
-        return self.calls.read_text().count("begin")
+        """Of renders."""
+        return self.calls.read_text().count("begin render")
 
 
 class TableTest(FolderTest):
@@ -130,7 +131,7 @@ class TableTest(FolderTest):
         for runner, are_beside in (("virtual", kept.os.sched_getaffinity(0) != {0}), ("threads", False)):
             self.calls.write_text("")
             table("--vary=depth:1,2,3", f"--runner={runner}", start=TINY[:2], renders=self.calling("sleep 0.3"))
-            self.assertEqual("begin\nbegin" in self.calls.read_text(), are_beside)
+            self.assertEqual("begin render\nbegin" in self.calls.read_text(), are_beside)
 
     def test_what_goes_wrong_is_told_before_anything_runs_with_what_was_meant(self):
         for words, told in (([], "there is nothing to vary"), (["--vary=node:2"], "Did you mean nodes?"),
@@ -138,14 +139,11 @@ class TableTest(FolderTest):
                             (["--vary=nodes:2", "--columns=bytes"], "this may be any of "),
                             (["--vary=nodes:2", "--columns=faults,pages.faults"], "there twice"),
                             (["--vary=nodes:2", "--columns=faults,,rays"], "a word is missing"),
-                            (["--vary=machine:hdr", "--columns=runner,machine.name"], ""),
-                            (["--vary=convention:paper", "--columns=options.convention"], ""),
                             (["--vary=nodes:x"], "with --nodes=x dmpc render would say: --nodes=x: expected"),
                             (["--vary=nodes:2,3", "--vary=depth:0,1"], "with --nodes=2 --depth=0 dmpc render would say"),
                             (["--vary=nodes:2", "--nodes=2"], "given, and varied")):
             status, text, said = swept(*words, renders=self.calling())
-            if told:
-                self.assertEqual((status, text, told in said, self.calls.exists()), (2, "", True, False), said)
+            self.assertEqual((status, text, told in said, self.calls.exists()), (2, "", True, False), said)
         self.assertIn("has a column of its own", swept("--vary=runner:virtual", "--columns=runner", start=TINY[:2])[2])
         scene = self.folder / "a.nff"
         scene.write_text(NFF)
@@ -221,11 +219,11 @@ class KeptTest(FolderTest):
         text, victim = table(*words), self.folder / "victim"
         [entry] = self.runs.iterdir()
         whole, counting = entry.read_text(), self.calling()
-        wrong = [{"format": 1}, {"pages": {}}, {"packets": {"bytes": [7], "by_kind": {}}}, {"packets": {"bytes": float("nan")}}, {"options": 1},
+        wrong = [{"format": 1}, {"pages": {}}, {"packets": {"bytes": [7]}}, {"packets": {"bytes": float("nan")}}, {"options": 1},
                  {"machine": {"name": 7}}]
-        for number, odd in enumerate(["", '{"format": 2, ', "[" * 100000, "7", *(json.dumps({**json.loads(whole), **each}) for each in wrong)]):
+        for odd in ["", '{"format": 2, ', "[" * 100000, "7", *(json.dumps({**json.loads(whole), **each}) for each in wrong)]:
             entry.write_text(odd)
-            self.assertEqual((table(*words, renders=PROGRAM), entry.read_text()), (text, whole), odd[:100])
+            self.assertEqual((table(*words), entry.read_text().count("film_hash")), (text, 1), odd[:100])
         for linked in ("mine", whole):
             victim.write_text(linked)
             entry.unlink()
@@ -235,39 +233,47 @@ class KeptTest(FolderTest):
         os.mkfifo(entry)
         self.assertEqual(table(*words), text)
         os.truncate(entry, 3 << 30)
-        self.assertEqual((table(*words), entry.read_text()), (text, whole))
+        self.assertEqual((table(*words), entry.read_text().count("film_hash")), (text, 1))
         self.assertEqual((swept("--vary=nodes:2", f"--runs={victim}", renders=counting)[0], self.calls.exists()), (1, False))
 
+    def kept_with_databases(self, *words):
+        """As table() with --runs, as if all databases were large, and what is said."""
+        stand_in = self.folder / "modules/dmpc/sweeps"
+        stand_in.mkdir(parents=True, exist_ok=True)
+        for name in ("__init__.py", "../__init__.py"):
+            (stand_in / name).touch()
+        (stand_in / "command.py").write_text("import json, shutil\n\n\ndef main(words):\n"
+                                             f"    shutil.copy(words[0].removeprefix('--plan='), {str(self.folder / 'plan')!r})\n"
+                                             "    print(json.dumps(words[1:]))\n")
+        line = [PROGRAM, "study", "sweep", *words, f"--runs={self.runs}", "--format=csv"]
+        given = subprocess.run(line, capture_output=True, check=True, env={**os.environ, "PYTHONPATH": str(self.folder / "modules")}).stdout
+        printed, said = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said), mock.patch.object(kept, "DATABASE_BYTES_MIN", 0):
+            self.assertEqual(command.main([f"--plan={self.folder}/plan", *json.loads(given)]), 0, said.getvalue())
+        return printed.getvalue(), said.getvalue()
+
     def test_large_databases_are_kept_one_for_all_runs_that_need_it_and_odd_or_old_ones_are_built_again(self):
-        scene = self.folder / "large.nff"
-        scene.write_text(NFF + "".join(f"s {x} {y} 0 0.01\n" for x in range(600) for y in range(200)))
-        start = [str(scene), "--resolution=4x4", "--runner=virtual", "--depth=1", "--columns=faults,run_hash"]
-        words = ["--vary=page-size:1KiB,4KiB", "--vary=nodes:1,2"]
-
-        def databases():
-            return sorted(self.runs.glob("*.pages"))
-
-        text = table(*words, start=start)
-        self.assertEqual(table(*words, f"--runs={self.runs}", start=start), text)
-        first = databases()
+        scene, victim = self.folder / "a.nff", self.folder / "victim"
+        scene.write_text(NFF)
+        line = [str(scene), "--runner=virtual", "--columns=faults,run_hash", "--vary=page-size:1KiB,4KiB"]
+        text = table(*line[1:], "--vary=nodes:1,2", "--depth=2", start=line[:1])
+        self.assertEqual(self.kept_with_databases(*line, "--vary=nodes:1,2", "--depth=2"), (text, ""))
+        first = sorted(self.runs.glob("*.pages"))
         self.assertEqual(len(first), 2)
-        times = [path.stat().st_mtime for path in first]
-        victim = self.folder / "victim"
         os.replace(first[0], victim)
         first[0].symlink_to(victim)
         first[1].write_text("no database")
         content = victim.read_bytes()
-        status, _, said = swept("--vary=page-size:1KiB,4KiB", "--vary=nodes:3", f"--runs={self.runs}", start=start)
-        self.assertEqual((status, said.count("built again"), databases(), victim.read_bytes() == content), (0, 2, first, True))
+        self.assertEqual(self.kept_with_databases(*line, "--vary=nodes:3")[1].count("built again"), 2)
+        self.assertEqual((sorted(self.runs.glob("*.pages")), victim.read_bytes()), (first, content))
         self.assertFalse(first[0].is_symlink() or first[1].read_bytes() == b"no database")
-        times = [path.stat().st_mtime for path in first]
-        self.assertEqual(table(*words, f"--runs={self.runs}", start=start), text)
-        self.assertEqual([path.stat().st_mtime for path in first], times)
-        scene.write_text(scene.read_text() + "s 1 0 0 1\n")
-        table("--vary=nodes:2", f"--runs={self.runs}", start=start)
-        self.assertEqual(len(databases()), 2)
-        self.assertNotEqual(databases(), first)
-        self.assertEqual(len([name for name in os.listdir(self.runs) if name.startswith(".")]), 0)
+        with mock.patch.object(kept.Kept, "_replacing", side_effect=AssertionError("built")):
+            self.assertEqual(self.kept_with_databases(*line, "--vary=nodes:1,2", "--depth=2")[0], text)
+        scene.write_text(NFF + "s 1 0 0 1\n")
+        self.assertEqual(self.kept_with_databases(*line, "--vary=nodes:1,2")[1].count("built again"), 2)
+        self.assertEqual({path.name[:20] for path in self.runs.glob("*.pages")}, {path.name[:20] for path in first})
+        self.assertFalse(any(path in first for path in self.runs.glob("*.pages")))
+        self.assertFalse([name for name in os.listdir(self.runs) if name.startswith(".")])
 
 
 class PlotTest(FolderTest):
@@ -286,8 +292,8 @@ class PlotTest(FolderTest):
     @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "no matplotlib")
     def test_plots_of_all_numbers_are_in_a_folder_with_their_data_and_on_a_page_with_the_table(self):
         page = self.folder / "page.html"
-        text = table("--vary=page-size:1KiB,4KiB", "--vary=strategy:svm,dataflow", "--columns=faults,virtual_seconds,film_hash", "--nodes=2",
-                     f"--plots={self.folder}/plots", f"--report={page}")
+        text = table("--vary=page-size:1KiB,4KiB", "--vary=strategy:svm,dataflow", "--columns=faults,virtual_seconds,film_hash",
+                     "--nodes=2", f"--plots={self.folder}/plots", f"--report={page}")
         names = ["pages-faults.svg", "sweep.csv", "virtual_seconds-total.svg"]
         self.assertEqual((sorted(os.listdir(self.folder / "plots")), (self.folder / "plots/sweep.csv").read_text()), (names, text))
         self.assertEqual((page.read_text().count("<svg"), page.read_text().count("<tr>")), (2, 5))
@@ -313,8 +319,8 @@ class FiguresTest(unittest.TestCase):
                     figures.value(stats, name)
 
     def test_units_are_told_by_names(self):
-        for name, unit in (("seconds.render", "s"), ("time_percent.data_wait", "%"), ("packets.bytes", "bytes"), ("options.page_size", "bytes"),
-                           ("memory.total", "bytes"), ("pages.faults", ""), ("a_ps", "ps")):
+        for name, unit in (("seconds.render", "s"), ("time_percent.data_wait", "%"), ("packets.bytes", "bytes"),
+                           ("options.page_size", "bytes"), ("memory.total", "bytes"), ("pages.faults", ""), ("a_ps", "ps")):
             self.assertEqual(figures.unit(name), unit)
 
 

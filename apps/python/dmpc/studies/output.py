@@ -74,8 +74,12 @@ def run(measure, rows, options, messages, closing=lambda: (), draw=lambda: None)
         for note in closing():
             rows.note(note)
         status = write(rows.text(options.format), options.output, messages) or status
-        if options.plots:
-            draw()
+        try:
+            if options.plots:
+                draw()
+        except OSError as error:
+            messages.say(f"--plots: {error.filename}: {error.strerror}")
+            status = status or program.status_of(program.InputError())
     return status
 
 
@@ -108,8 +112,8 @@ def take_signals():
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
 
 
-def write(text, path, messages):
-    """To the file, which is replaced at once, or to the standard output; the exit status."""
+def write(text, path, messages, option="-o"):
+    """To the file of an option, which is replaced at once, or to the standard output; the exit status."""
     try:
         if path is None:
             print(text, end="", flush=True)
@@ -122,7 +126,7 @@ def write(text, path, messages):
         new.write_text(text)
         os.replace(new, target)
     except OSError as error:
-        where = f"-o {path}" if path else "the table could not be written to the standard output"
+        where = f"{option} {path}" if path else "the table could not be written to the standard output"
         messages.say(f"{where}: {error.strerror}")
         return program.status_of(program.InputError())
     return 0

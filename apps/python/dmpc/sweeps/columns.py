@@ -12,7 +12,7 @@ _DIGITS = 4  # of a column's largest number
 
 
 def names(options, variations, known):
-    """Of the figures asked for, or else of the usual ones. Raises a program.UsageError for one that there is not, or that is there twice."""
+    """Of the figures asked for, or else of the usual ones. Raises a program.UsageError for one that is none, or there twice."""
     if options.columns is None:
         return options.usual.split(",")
     found = []
@@ -37,8 +37,8 @@ def _digits(values):
 
 
 def plots(scene, variations, numbers):
-    """One for each figure: over the first variation by numbers, with a curve for each combination of the rest, or bars; none for more curves
-    than can be told apart."""
+    """One for each figure: over the first variation by numbers, with a curve for each combination of the rest, or bars; none for more
+    curves than can be told apart."""
     along = next((each for each in variations if each.are_numbers and len(each.cells) > 1), None)
     rest = [each for each in variations if each is not along and len(each.cells) > 1]
     curves = list(itertools.product(*(zip(each.values, each.cells) for each in rest))) if along else [()]

@@ -111,7 +111,7 @@ def main(words):
         status = output.run(sweep.measure, sweep.table, options, messages, sweep.notes,
                             lambda: plots.write(options.plots, "sweep", sweep.table, drawn()))
         if options.report and sweep.done:
-            status = output.write(page.of_table(sweep.table, drawn()), options.report, messages) or status
+            status = output.write(page.of_table(sweep.table, drawn()), options.report, messages, "--report") or status
     return status
 
 

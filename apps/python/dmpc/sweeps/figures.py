@@ -10,7 +10,7 @@ _KINDS = ("by_kind", "waiting")  # what is in them differs from strategy to stra
 
 
 def known(schema):
-    """Whether a figure of a render is a number where it is there, by its name; "*" stands for any place in a list."""
+    """Whether a figure of a render is a number where it is there, by its name; lists have no figures."""
     whole = json.loads(schema)
 
     def meant(place):
@@ -26,13 +26,12 @@ def known(schema):
         elif "propertyNames" in place:
             for key in meant(place["propertyNames"])["enum"]:
                 yield from walk(place["additionalProperties"], f"{name}.{key}")
-        elif "items" in place and "prefixItems" not in place:
-            yield from walk(place["items"], name + ".*")
         else:
-            kinds = place.get("type", "")
-            yield name, "prefixItems" not in place and (kinds[0] if isinstance(kinds, list) else kinds) in ("integer", "number")
+            kinds = place.get("type", type(place.get("const")).__name__)
+            yield name, kinds[0] if isinstance(kinds, list) else kinds
 
-    return {name: is_number for name, is_number in walk(whole["$defs"]["render"], "") if "*" not in name}
+    found = {name: kind for name, kind in walk(whole["$defs"]["render"], "") if kind not in ("array", "list")}
+    return {name: kind in ("integer", "number") for name, kind in found.items()}
 
 
 def figure_meant(typed, figures, option="--columns"):
@@ -62,8 +61,8 @@ def _question(typed, figures):
 
 
 def value(stats, name):
-    """None if it is told to be none, or of another strategy's kind. Raises a KeyError, TypeError or ValueError if counters do not have it as
-    a text, a whole number or a finite one."""
+    """None if it is told to be none, or of another strategy's kind. Raises a KeyError, TypeError or ValueError if counters do not have it
+    as a text, a whole number or a finite one."""
     found, above = stats, ""
     for key in name.split("."):
         if found is None or above in _KINDS and found and key not in found:
