@@ -231,7 +231,10 @@ class KeptTest(FolderTest):
             self.assertEqual((table(*words), victim.read_text(), entry.is_symlink()), (text, linked, False))
         entry.unlink()
         os.mkfifo(entry)
-        self.assertEqual(table(*words), text)
+        pipe = os.open(entry, os.O_RDWR)
+        os.write(pipe, whole.encode())
+        self.assertEqual((table(*words), entry.is_file()), (text, True))
+        os.close(pipe)
         os.truncate(entry, 3 << 30)
         self.assertEqual((table(*words), entry.read_text().count("film_hash")), (text, 1))
         self.assertEqual((swept("--vary=nodes:2", f"--runs={victim}", renders=counting)[0], self.calls.exists()), (1, False))
@@ -298,6 +301,10 @@ class PlotTest(FolderTest):
         self.assertEqual((sorted(os.listdir(self.folder / "plots")), (self.folder / "plots/sweep.csv").read_text()), (names, text))
         self.assertEqual((page.read_text().count("<svg"), page.read_text().count("<tr>")), (2, 5))
         self.assertIn("<h1>Study sweep of balls-1: --resolution=8x8 --nodes=2 --runner=virtual</h1>", page.read_text())
+        (self.folder / "plots/sweep.csv").unlink()
+        (self.folder / "plots/sweep.csv").mkdir()
+        status, again, said = swept("--vary=nodes:1", "--columns=faults", f"--plots={self.folder}/plots")
+        self.assertEqual((status, again, "sweep.csv: Is a directory" in said), (1, "nodes,pages.faults\n1,0\n", True), said)
 
 
 class FiguresTest(unittest.TestCase):
@@ -307,7 +314,7 @@ class FiguresTest(unittest.TestCase):
 
     def test_a_word_means_the_figure_that_ends_in_it_of_all_nodes_before_the_hosts_and_options(self):
         for typed, name in (("faults", "pages.faults"), ("virtual_seconds", "virtual_seconds.total"), ("film_hash", "film_hash"),
-                            ("rays", "rays.total"), ("node_memory", "options.node_memory")):
+                            ("sending", "virtual_seconds.sending"), ("node_memory", "options.node_memory")):
             self.assertEqual(figures.figure_meant(typed, self.known), name)
         self.assertEqual([self.known[name] for name in ("pages.faults", "film_hash", "virtual_seconds.total")], [True, False, True])
 

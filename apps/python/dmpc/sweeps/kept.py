@@ -48,8 +48,7 @@ class Kept:
         """The counters of a run, if there are any that can be read."""
         try:
             with open(os.open(self._path(words), os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY), "rb") as file:
-                status = os.fstat(file.fileno())
-                if stat.S_ISREG(status.st_mode) and status.st_size <= _COUNTERS_BYTES_MAX:
+                if stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                     found = json.loads(file.read(_COUNTERS_BYTES_MAX))
                     return found if isinstance(found, dict) and found.get("format") == program.FORMAT else None
         except (OSError, ValueError, RecursionError):
