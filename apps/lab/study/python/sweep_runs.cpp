@@ -87,14 +87,8 @@ void check_values(const VariedOption& variation, const std::string& text) {
 
 /// A value that contains commas, such as a camera's position, ends with a semicolon.
 std::vector<std::string> values_in(const std::string& text) {
-  if (text.find(';') == std::string::npos) {
-    return words_between(text, ',');
-  }
-  std::vector<std::string> values = words_between(text, ';');
-  if (values.back().empty()) {
-    values.pop_back();
-  }
-  return values;
+  const std::string whole = text.substr(0, text.size() - (text.ends_with(';') ? 1 : 0));
+  return words_between(whole, text.find(';') == std::string::npos ? ',' : ';');
 }
 
 /// Returns `runs` with every value of `variation` appended to each.
@@ -123,15 +117,29 @@ void check_count(const SweepStudy& study) {
   }
 }
 
+/// Returns whether any of these options is given.
+bool gives_any(const std::vector<std::string>& words, const std::set<std::string>& names) {
+  return std::ranges::any_of(words, [&](const std::string& word) { return names.contains(word.substr(0, word.find('='))); });
+}
+
 void check_options(const SweepStudy& study) {
   std::set<std::string> varied;
   for (const VariedOption& variation : study.variations) {
-    const auto is_it = [&](const std::string& word) { return word.substr(0, word.find('=')) == variation.option; };
-    if (std::any_of(study.fixed.begin(), study.fixed.end(), is_it)) {
+    if (gives_any(study.fixed, {variation.option})) {
       throw core::UsageError(variation.option + " is given, and varied, too: expected one of them");
     }
     if (!varied.insert(variation.option).second) {
       throw core::UsageError("--vary=" + variation.option.substr(2) + " is given twice: give all its values at once");
+    }
+  }
+}
+
+/// A sweep measures the cost of a picture, so a mesh file is shown as other scenes are, unless an option says otherwise.
+void add_words_of_mesh(std::vector<std::string>& words) {
+  if (!gives_any(words, {"--transport"})) {
+    words.emplace_back("--transport=whitted");
+    if (!gives_any(words, {"--samples", "--quality", "--error"})) {
+      words.emplace_back("--samples=1");
     }
   }
 }
@@ -192,14 +200,6 @@ std::vector<std::string> build_words(const SweepRun& run) {
   return words;
 }
 
-/// Returns whether any of these options of `render` is fixed or varied.
-bool gives_any(const SweepStudy& study, const std::set<std::string>& names) {
-  const auto is_one = [&](const std::string& word) { return names.contains(word.substr(0, word.find('='))); };
-  return std::any_of(study.fixed.begin(), study.fixed.end(), is_one) ||
-         std::any_of(study.variations.begin(), study.variations.end(),
-                     [&](const VariedOption& variation) { return is_one(variation.option); });
-}
-
 }  // namespace
 
 const std::vector<OptionDescription>& sweepable_options() {
@@ -227,20 +227,15 @@ VariedOption parse_variation(const std::string& text) {
 std::vector<SweepRun> sweep_runs(const SweepStudy& study) {
   check_count(study);
   check_options(study);
-  std::vector<std::string> words = {"render", study.scene};
-  words.insert(words.end(), study.fixed.begin(), study.fixed.end());
-  // A sweep measures the cost of a picture, so a mesh file is shown as other scenes are, unless an option says otherwise.
-  if (is_mesh(study.scene) && !gives_any(study, {"--transport"})) {
-    words.emplace_back("--transport=whitted");
-    if (!gives_any(study, {"--samples", "--quality", "--error"})) {
-      words.emplace_back("--samples=1");
-    }
-  }
-  std::vector<SweepRun> runs = {{.varied = {}, .words = words, .options = {}}};
+  std::vector<SweepRun> runs = {{.varied = {}, .words = {"render", study.scene}, .options = {}}};
+  runs.front().words.insert(runs.front().words.end(), study.fixed.begin(), study.fixed.end());
   for (const VariedOption& variation : study.variations) {
     runs = varied(runs, variation);
   }
   for (SweepRun& run : runs) {
+    if (is_mesh(study.scene)) {
+      add_words_of_mesh(run.words);
+    }
     run.options = options_of(run);
   }
   return runs;
