@@ -6,7 +6,7 @@
 #include "apps/lab/bench/stability/command.h"
 #include "apps/lab/check/command.h"
 #include "apps/lab/compare/command.h"
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 #include "apps/lab/study/python/python_study.h"
 #include "apps/lab/study/python/sweep.h"
 #include "apps/lab/study/references/command.h"
@@ -22,16 +22,18 @@ void declare_all(Commands& commands) {
   commands.add("compare", "Measure the difference of two pictures, or compare the counters of two runs", CompareOptions(),
                compare_command);
   commands.begin("study", "Render a scene on several computers and print a table");
-  commands.add(BalanceStudy::name, BalanceStudy::description, StudyOptions{.study = BalanceStudy()}, study_command);
-  commands.add(TrafficStudy::name, TrafficStudy::description, StudyOptions{.study = TrafficStudy()}, study_command);
-  commands.add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
-  commands.add("speedup", "How much faster a modelled machine gets by more nodes", speedup_study(), python_study_command);
-  commands.add("systems", "The systems that the 1994 article classifies, side by side on one machine", systems_study(),
+  commands.add("balance", "How evenly the work of rays that travel is shared out", python_study("balance"), python_study_command);
+  commands.add("traffic", "What travels when rays do, beside what travels when pages do", python_study("traffic"),
                python_study_command);
-  commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
-  commands.add("paper", "Regenerate the tables and claims of the 1994 article", paper_study(), python_study_command);
-  commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025", decades_study(),
+  commands.add("cache", "How often pages are missed with caches of every size and policy", StudyOptions(), study_command);
+  commands.add("speedup", "How much faster a modelled machine gets by more nodes", python_study("speedup"), python_study_command);
+  commands.add("systems", "The systems that the 1994 article classifies, side by side on one machine", python_study("systems"),
                python_study_command);
+  commands.add("frames", "What frames of a moving camera fetch and send, with caches warm and cold", python_study("frames"),
+               python_study_command);
+  commands.add("paper", "Regenerate the tables and claims of the 1994 article", python_study("paper"), python_study_command);
+  commands.add("decades", "Find what should travel, pages, rays or questions, on machines of 1988 to 2025",
+               python_study("decades"), python_study_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
   commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", SweepStudy(),

@@ -263,7 +263,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     settle_instances(options, {render.system, render.tracer, render.rays.tested_objects}, render.database,
                      render.picture.scene_setup.mesh);
     render.is_node_count_given = options.is_given("--nodes");
-    render.has_several_frames = render.frames.are_several();
+    render.has_several_frames = render.frames.range.has_value();  // a frame by itself, too: its counters are those of a first one
     check(options, render);
     choose_pool(render.runner.kind, render.computer);
   });

@@ -161,6 +161,15 @@ std::vector<BalanceRow> make_balance_rows() {
        .reported = [](const dataflow::Plan& plan) -> OptionValue {
          return balance_of(plan).has_several_regions() ? balance_of(plan).regions_a_node : 1;
        }},
+      {.name = "--subsample",
+       .takes = number<&BalanceOptions::subsample>(1, 65'536, "8"),
+       .help = "The subsampled picture, which estimates loads, has one pixel of every NxN",
+       .why = share_out_pixels,
+       .key = "subsample",
+       .reported =
+           [](const dataflow::Plan& plan) {
+             return balance_of(plan).is_by_load() ? static_cast<std::uint64_t>(balance_of(plan).subsample) : OptionValue();
+           }},
   };
 }
 

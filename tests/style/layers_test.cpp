@@ -133,7 +133,7 @@ const std::vector<Foreign> foreign = {
       "apps/frontend/web/", "apps/modules/http.cpp", "apps/lab/bench/speed/plain_renderer.cpp"}},
     {"mutex",
      {"nodes/", "tests/", "apps/frontend/line/shown_text.h", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/",
-      "apps/modules/http.cpp", "apps/lab/study/runs.cpp", "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},
+      "apps/modules/http.cpp", "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable",
      {"nodes/", "tests/", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/", "apps/modules/http.cpp"}},
@@ -331,14 +331,14 @@ TEST_CASE("a room uses only those below it") {
 }
 
 TEST_CASE("a library uses only those below it, and none itself by way of others") {
-  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/lab/study/runs.h\"").size() == 1);
+  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/lab/study/cache.h\"").size() == 1);
   CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/main/commands.h\"").size() == 1);
-  CHECK(violations_in("apps/render/command.cpp", "#include \"apps/lab/study/runs.h\"").size() == 1);
+  CHECK(violations_in("apps/render/command.cpp", "#include \"apps/lab/study/cache.h\"").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include \"svm/packets.h\"").size() == 1);
   CHECK(violations_in("svm/plan.cpp", "#include \"svm/forest/forest.h\"").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/film/film.h\"").size() == 1);
   CHECK(violations_in("apps/computer/run.cpp", "#include \"apps/run/report.h\"").size() == 1);
-  CHECK(violations_in("apps/main/main.cpp", "#include \"apps/lab/study/runs.h\"").empty());
+  CHECK(violations_in("apps/main/main.cpp", "#include \"apps/lab/study/cache.h\"").empty());
   for (const auto& [library, unused] : stands_on) {
     CAPTURE(library);
     CHECK_FALSE(stands_below(library, library));

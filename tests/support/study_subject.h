@@ -1,13 +1,11 @@
 // A small scene to study, and the rows that a study finds.
 #pragma once
 
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include "apps/frontend/system/interrupt.h"
 #include "apps/frontend/table/table.h"
-#include "apps/lab/study/runs.h"
+#include "apps/lab/study/cache.h"
 #include "apps/scene/subject.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/table_cells.h"
@@ -19,8 +17,7 @@ struct StudySubject {
   explicit StudySubject(const std::string& name, int size = 32)
       : subject(apps::build_subject(built_in(name), {.scene = name, .resolution = apps::Resolution{size, size}})) {}
 
-  template <class Study>
-  apps::Table measure(const Study& study) {
+  apps::Table measure(const apps::CacheStudy& study) {
     apps::Table table("", study.columns());
     study.measure(runs, table);
     return table;
@@ -28,8 +25,7 @@ struct StudySubject {
 
   apps::Subject subject;
   apps::Interrupt interrupt;
-  std::ostringstream progress;
-  apps::StudyRuns runs{subject.database, subject.settings, {progress, true}, interrupt};
+  apps::CacheRuns runs{subject.database, subject.settings, interrupt};
 };
 
 }  // namespace dmpc::tests

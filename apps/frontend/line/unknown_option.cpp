@@ -50,7 +50,6 @@ constexpr Gone gone[] = {
     {"--preview", "--serve shows the picture in a browser while it is rendered"},
     {"--ray-places", "--ray-slots=N is its name now"},
     {"--strip", "--heatmap=done:FILE.png shows when each pixel was done, and the page of --report plays it"},
-    {"--subsample", "one pixel of every 8x8 says how regions are cut; dmpc study balance --subsample=N shows what others do"},
     {"--topology", "the machine's topology is used, on threads a hypercube; dmpc study balance --topology=KIND compares"},
     {"--trace-every", "--trace-window=FROM,TO records all pixels, of a part of the run"},
     {"--trace-events", "a million events are kept, spread over the run; --trace-window=FROM,TO records all of a part of it"},
@@ -63,10 +62,13 @@ constexpr Gone gone[] = {
     {"bench error --references", "each run makes its own references"},
     {"bench speed --plots", "-o FILE.csv --format=csv has all comparisons, to be drawn"},
     {"bench stability --resume", "a long run may be made of several with another --seed each, whose counts add up"},
+    {"study balance --report", "-o FILE has its table, --plots=FOLDER its pictures"},
+    {"study frames --report", "-o FILE has its table, --plots=FOLDER its pictures"},
     {"study speedup --report", "-o FILE has its table, --plots=FOLDER its pictures"},
     {"study systems --report", "-o FILE has its table, --plots=FOLDER its pictures"},
     {"study scale",
      "examples/scale.py of the Python module has costs and their growth over scenes, dmpc study sweep those of one"},
+    {"study traffic --report", "-o FILE has its table, --plots=FOLDER its pictures"},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

@@ -249,8 +249,6 @@ Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std:
   return bars_by_node(std::move(name), std::move(title), std::move(y), std::move(series), true);
 }
 
-PlotAxis node_axis() { return {.label = "nodes", .scale = PlotScale::powers_of_2}; }
-
 PlotAxis percent_axis(const std::string& what) { return {.label = what + " (%)", .least = 0, .most = 105}; }
 
 std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file) {

@@ -62,8 +62,7 @@ Plot curves(std::string name, std::string title, std::string place, PlotAxis x, 
 Plot bars_by_node(std::string name, std::string title, PlotAxis y, std::vector<PlotSeries> series, bool is_stacked = false);
 /// Returns a plot in which all columns except the first are stacked.
 Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std::vector<Column>& columns);
-/// Axes for numbers of nodes, and for percent from 0.
-PlotAxis node_axis();
+/// An axis for percent from 0.
 PlotAxis percent_axis(const std::string& what);
 
 /// Returns a gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg

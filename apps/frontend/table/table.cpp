@@ -146,8 +146,6 @@ std::string markdown_rule(const std::vector<Layout>& layouts, const Fold& fold) 
   return text + "\n";
 }
 
-std::string caption(const std::string& text) { return folded("**" + text + "**", markdown_width_max, "  ") + "\n"; }
-
 /// Returns the rows in parts that fit a line.
 std::string markdown_rows(const Table& table) {
   std::vector<Line> lines = markdown_cells(table);
@@ -168,30 +166,8 @@ std::string markdown_rows(const Table& table) {
   return text;
 }
 
-/// Returns the rows below each heading, as a table without that column, in the order of the headings' first occurrences.
-std::vector<Table> parts_of(const Table& table) {
-  const std::vector<Column> columns(table.columns().begin() + 1, table.columns().end());
-  std::vector<Table> parts;
-  for (const std::vector<Cell>& row : table.rows()) {
-    const std::string title = table.columns()[0].name + " " + std::get<std::string>(row[0]);
-    auto part = std::find_if(parts.begin(), parts.end(), [&](const Table& other) { return other.title() == title; });
-    if (part == parts.end()) {
-      part = parts.emplace(parts.end(), title, columns);
-    }
-    part->add_row({row.begin() + 1, row.end()});
-  }
-  return parts;
-}
-
 std::string markdown(const Table& table) {
-  std::string text = caption(table.title());
-  if (!table.columns().empty() && table.columns().front().is_heading) {
-    for (const Table& part : parts_of(table)) {
-      text += "\n" + caption(part.title()) + markdown_rows(part);
-    }
-  } else {
-    text += markdown_rows(table);
-  }
+  std::string text = folded("**" + table.title() + "**", markdown_width_max, "  ") + "\n" + markdown_rows(table);
   text += table.notes().empty() ? "" : "\n";
   for (const std::string& note : table.notes()) {
     text += folded("- " + note, markdown_width_max, "  ") + "\n";

@@ -20,8 +20,6 @@ struct Column {
   std::string name;  ///< in words, unique within the table: "average load"
   std::string unit;  ///< "%", "bytes"; empty for dimensionless numbers and texts
   int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all digits
-  /// For a first column of texts: in Markdown, rows with the same text form a separate table below it.
-  bool is_heading = false;
 };
 
 /// Returns the heading in CSV and Markdown: "average load (%)".

@@ -34,11 +34,12 @@ def render(
     resident: int | None = None, replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None
     = None, work_donor: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None
     = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
-    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None =
-    None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False,
-    tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, aov: Text | Sequence[Text] | None = None, trace: Text |
-    None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint:
-    Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int | None = None
+    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, ray_batch: int | None =
+    None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None,
+    no_backpressure: bool = False, tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, aov: Text | Sequence[Text] |
+    None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool |
+    Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None,
+    passes: int | None = None
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -71,10 +72,10 @@ def sweep(
     work_donor: Literal["ring", "host"] | Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] | None =
     None, workers: int | Sequence[int] | None = None, count_pages: bool | Sequence[bool] = False, balance: Literal["subsampled",
     "equal-size", "scattered", "moving"] | Sequence[Text] | None = None, cuts: Literal["longer-side", "alternating"] | Sequence[Text] | None
-    = None, regions: int | Sequence[int] | None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] |
-    None = None, ray_slots: int | Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int |
-    Sequence[int] | None = None, no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid", "embree"] | Sequence[Text] | None =
-    None, time: Text | Sequence[Text] | None = None, passes: int | Sequence[int] | None = None
+    = None, regions: int | Sequence[int] | None = None, subsample: int | Sequence[int] | None = None, ray_batch: int | Sequence[int] | None
+    = None, ray_credits: int | Sequence[int] | None = None, ray_slots: int | Sequence[int] | None = None, ray_queue: int | Sequence[int] |
+    None = None, tested_objects: int | Sequence[int] | None = None, no_backpressure: bool | Sequence[bool] = False, tracer: Literal["grid",
+    "embree"] | Sequence[Text] | None = None, time: Text | Sequence[Text] | None = None, passes: int | Sequence[int] | None = None
 ) -> pandas.DataFrame:
     """Render all combinations of chosen options, and print chosen counters."""
     return sweeping.sweep(locals())
@@ -100,12 +101,12 @@ def references(
     replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor:
     Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages:
     bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side",
-    "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int |
-    None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid",
-    "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, aov: Text
-    | Sequence[Text] | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, serve: bool | Text =
-    False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int
-    | None = None
+    "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, ray_batch: int | None = None, ray_credits: int |
+    None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool =
+    False, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text |
+    Sequence[Text] | None = None, aov: Text | Sequence[Text] | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] |
+    None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False,
+    time: Text | None = None, passes: int | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -131,12 +132,12 @@ def trace(
     replacement: Text | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor:
     Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages:
     bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side",
-    "alternating"] | None = None, regions: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int |
-    None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, tracer: Literal["grid",
-    "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, aov: Text
-    | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text =
-    False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, time: Text | None = None, passes: int
-    | None = None
+    "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, ray_batch: int | None = None, ray_credits: int |
+    None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool =
+    False, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text |
+    Sequence[Text] | None = None, aov: Text | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None = None, references:
+    Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool =
+    False, time: Text | None = None, passes: int | None = None
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())

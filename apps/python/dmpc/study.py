@@ -28,8 +28,7 @@ def balance(
     "bundles", "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
     bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None,
     clamp: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None,
-    plots: Text | None = None
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -46,8 +45,7 @@ def traffic(
     "idle-nodes", "equal-frames", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int
     | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, clamp: Text |
     None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid",
-    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None =
-    None
+    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -87,9 +85,9 @@ def speedup(
     None = None, homes: Literal["spread", "host", "tree"] | None = None, resident: int | None = None, replacement: Text | None = None,
     in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_donor: Literal["ring", "host"] | None = None,
     pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, balance: Literal["subsampled", "equal-size",
-    "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch:
-    int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int | None = None, tested_objects: int |
-    None = None, no_backpressure: bool = False
+    "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample:
+    int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_slots: int | None = None, ray_queue: int | None =
+    None, tested_objects: int | None = None, no_backpressure: bool = False
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -127,7 +125,7 @@ def frames(
     Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None =
     None, light_radius: Text | None = None, clamp: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
     "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None =
-    None, report: Text | None = None, plots: Text | None = None
+    None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())

@@ -10,7 +10,7 @@
 #include "apps/lab/bench/precision/command.h"
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/stability/command.h"
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
@@ -54,7 +54,7 @@ struct TableCase {
 };
 
 std::vector<TableCase> table_cases() {
-  return {{{"study", "traffic", "balls-1", "--resolution=8x8", "--nodes=1"}, "traffic.csv", true},
+  return {{{"study", "cache", "balls-1", "--resolution=8x8", "--nodes=2"}, "cache.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
            "error_tetra-1.csv"},
@@ -95,7 +95,7 @@ TEST_CASE("a table that cannot be written keeps none of its pictures") {
   make_unwritable(folder / "table.md");
   const Words outputs = {"-o", folder / "table.md", "--plots", folder / "plots", "--report", folder / "page.html"};
   CHECK(run_table(table_cases()[0].words, outputs).status == 1);
-  CHECK(std::filesystem::exists(folder / "plots" / "traffic.csv"));
+  CHECK(std::filesystem::exists(folder / "plots" / "cache.csv"));
   CHECK(contains(file_text(folder / "page.html"), "</html>"));
 }
 

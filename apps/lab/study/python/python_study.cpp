@@ -2,25 +2,15 @@
 
 #include <ostream>
 
+#include "apps/frontend/line/option_values.h"
+#include "apps/frontend/line/words.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/python_program.h"
 #include "apps/frontend/table/table_files.h"
 #include "apps/scene/load_scene.h"
+#include "nodes/node_id.h"
 
 namespace dmpc::apps {
-namespace {
-
-/// Throws for a table or plots that cannot be written, or would replace what the study reads.
-void check_files(const TableOutput& table, const PythonStudy& study) {
-  std::vector<NamedFile> inputs;
-  add_scene_file(study.picture, inputs);
-  if (find_machine_preset(study.machine_name) == nullptr) {
-    inputs.push_back({"--machine", study.machine_name});
-  }
-  static_cast<void>(TableFiles(table, {}, {.inputs = std::move(inputs)}));
-}
-
-}  // namespace
 
 void add_options(OptionSet set, PythonStudy& study) {
   study.declare(set, study);
@@ -32,6 +22,14 @@ void add_options(OptionSet set, PythonStudy& study) {
       study.words.push_back(study.picture.scene);
     }
   });
+}
+
+void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts) {
+  const std::string listed = joined(counts, ",", [&](const std::uint32_t count) { return std::to_string(count); });
+  set.add_text(
+      "--nodes", "N,N,... [" + listed + "]",
+      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", nodes::node_count_max); },
+      "Nodes of the computers, one after the other");
 }
 
 void add_scene_options(OptionSet set, PythonStudy& study) {
@@ -52,10 +50,15 @@ void add_run_options(OptionSet set, PythonStudy& study) {
 
 int python_study_command(const PythonStudy& study, std::ostream& output) {
   if (study.table) {
-    check_files(*study.table, study);
+    std::vector<NamedFile> inputs;
+    add_scene_file(study.picture, inputs);
+    if (find_machine_preset(study.machine_name) == nullptr) {
+      inputs.push_back({"--machine", study.machine_name});
+    }
+    static_cast<void>(TableFiles(*study.table, {}, {.inputs = std::move(inputs)}));
   }
   output.flush();
-  become_python(study.module, std::string("study ") + study.name, study.words);
+  become_python(study.module, "study " + study.name, study.words);
 }
 
 }  // namespace dmpc::apps

@@ -17,7 +17,7 @@ namespace dmpc::apps {
 
 /// A study as a command. It declares what it needs of the options below, by which dmpc checks them.
 struct PythonStudy {
-  const char* name;
+  std::string name;
   const char* module;  ///< its main(words): "systems.command" of the package dmpc
   void (*declare)(OptionSet set, PythonStudy& study);
   PictureOptions picture = {};
@@ -26,7 +26,7 @@ struct PythonStudy {
   StrategyOptions run = {};
   std::string machine_name = "ipsc2";
   std::vector<std::uint32_t> node_counts = {};
-  std::uint32_t draws = 0;
+  std::uint32_t number = 0;  ///< of draws, or of frames
   std::uint32_t side = 512;  ///< of square pictures, in pixels
   std::optional<std::filesystem::path> report = {};
   bool is_set = false;                  ///< of any flag that is passed on
@@ -34,15 +34,15 @@ struct PythonStudy {
   std::vector<std::string> words = {};  ///< defaults; once a line is read, with what it gives in their place
 };
 
-PythonStudy decades_study();
-PythonStudy paper_study();
-PythonStudy speedup_study();
-PythonStudy systems_study();
+/// The study of this name.
+PythonStudy python_study(const std::string& name);
 
 void add_options(OptionSet set, PythonStudy& study);
 
 /// For options whose values the program in Python checks.
 inline void passed_on(const std::string&) {}
+/// Declares --nodes: several numbers, whose defaults are in `counts`.
+void add_node_counts(OptionSet set, std::vector<std::uint32_t>& counts);
 /// Those of a study of one scene: its picture, its database if the study has one, its table and plots.
 void add_scene_options(OptionSet set, PythonStudy& study);
 /// Those of a study that keeps its runs: how many go side by side, and whether progress is shown.

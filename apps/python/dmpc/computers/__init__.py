@@ -1,1 +1,1 @@
-"""The studies of one scene on several computers: `dmpc study speedup`."""
+"""The studies of one scene on several computers: `dmpc study speedup`, `traffic`, `balance` and `frames`."""

@@ -9,7 +9,7 @@ from ..studies.texts import counted
 JOBS = CORES
 RUN = tuple("--" + name for name in (
     "strategy", "node-memory", "cache-pages", "homes", "resident", "replacement", "in-flight", "bundles", "work-item", "work-donor",
-    "pixels", "workers", "balance", "cuts", "regions", "ray-batch", "ray-credits", "ray-slots", "ray-queue", "tested-objects",
+    "pixels", "workers", "balance", "cuts", "regions", "subsample", "ray-batch", "ray-credits", "ray-slots", "ray-queue", "tested-objects",
     "no-backpressure"))
 _COLUMNS = (Column("nodes"), Column("virtual time", "s", 3), Column("speedup", digits=2), Column("efficiency", "%", 1),
             *(Column(part, "%", 1) for part in PARTS), Column("link wait", "s", 3), Column("node memory", "bytes"), Column("run hash"))

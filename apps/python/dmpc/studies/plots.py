@@ -9,7 +9,7 @@ from .. import program
 from .runs import PARTS
 
 _INK = "#010203"  # stands for the colour of what surrounds the plot
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255")
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#f0e442", "#555555", "#882255", "#88ccee")
 _MARKS = "os^Dv"
 
 
@@ -123,4 +123,5 @@ def _bars(axis, plot, table):
         axis.bar([at + offset for at in range(len(places))], heights, width, low if plot.is_stacked else 0.0,
                  color=_colour(series), label=series.label)
         low = [below + height for below, height in zip(low, heights)]
-    axis.set_xticks(range(len(places)), places, rotation=45 if len(places) > 6 else 0, ha="right" if len(places) > 6 else "center")
+    is_narrow = len(places) > 6 or max((len(str(place)) for place in places), default=0) > 15
+    axis.set_xticks(range(len(places)), places, rotation=45 if is_narrow else 0, ha="right" if is_narrow else "center")

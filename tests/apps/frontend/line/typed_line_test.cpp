@@ -152,7 +152,6 @@ constexpr Slip slips[] = {
     {"render a.obj --tree-arity=4 -o a.png", "--tree-arity is no option of dmpc render any more: --homes=tree has three"},
     {"render a.obj --topology=mesh -o a.png", "dmpc study balance --topology=KIND compares"},
     {"render a.obj --occlusion=2 -o a.png", "--occlusion is no option of dmpc render any more: --sky=1 --bounces=0 lights"},
-    {"info a.obj --subsample=4", "dmpc study balance --subsample=N shows what others do"},
     {"study speedup rings-3 --memory-port", "--machine=FILE.json names a machine whose has_memory_port is true"},
     {"study balance rings-3 --balance-grid=8", "loads are counted in 256x256 columns"},
     // arguments

@@ -80,22 +80,6 @@ TEST_CASE("the pieces of a wide table have numbered rows where much would be nee
   CHECK(text.find("|   2 | y ") != std::string::npos);
 }
 
-TEST_CASE("rows below a heading stand in a table of their own in Markdown, and have its column elsewhere") {
-  Table table("Title", {{.name = "on", .unit = "", .is_heading = true}, {"who"}, {"seconds", "s", 1}});
-  table.add_row({"land", "a", 1.0});
-  table.add_row({"sea", "a", 2.0});
-  table.add_row({"land", "longer", 3.0});
-  table.add_note("note");
-  CHECK(text_of(table, TableFormat::markdown) ==
-        "**Title**\n"
-        "\n**on land**\n"
-        "\n| who    | seconds (s) |\n|--------|------------:|\n| a      |         1.0 |\n| longer |         3.0 |\n"
-        "\n**on sea**\n"
-        "\n| who | seconds (s) |\n|-----|------------:|\n| a   |         2.0 |\n"
-        "\n- note\n");
-  CHECK(text_of(table, TableFormat::csv) == "on,who,seconds (s)\nland,a,1\nsea,a,2\nland,longer,3\n");
-}
-
 TEST_CASE("a row that is added is told of, as much as fits a line") {
   Table table("two runs", {{"nodes"}, {"kind"}, {"average load", "%", 1}, {std::string(80, 'x')}});
   std::vector<std::string> reported;

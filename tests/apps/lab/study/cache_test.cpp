@@ -1,8 +1,11 @@
-#include "apps/lab/study/studies.h"
+#include "apps/lab/study/cache.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/frontend/machine/machines.h"
@@ -26,7 +29,7 @@ std::uint64_t faults_on_threads(StudySubject& subject, std::uint32_t cache_pages
   const svm::RunOptions options{
       .computer = {.node_count = 4},
       .pages = {.cache_pages = cache_pages, .replacement = replacement, .in_flight = 1, .work_item_side = 0}};
-  return subject.runs.run("threads", options).pages().faults;
+  return subject.runs.run(options).pages().faults;
 }
 
 }  // namespace
@@ -83,10 +86,10 @@ TEST_CASE("by default the sizes go from one page to all that are not at home, wh
 TEST_CASE("misses are faults over references, those at home included") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(CacheStudy{.node_count = 4, .cache_pages = {5}});
-  const auto pages = subject.runs
-                         .run("again", svm::RunOptions{.computer = {.node_count = 4},
-                                                       .pages = {.cache_pages = 5, .in_flight = 1, .work_item_side = 0}})
-                         .pages();
+  const auto pages =
+      subject.runs
+          .run(svm::RunOptions{.computer = {.node_count = 4}, .pages = {.cache_pages = 5, .in_flight = 1, .work_item_side = 0}})
+          .pages();
   CHECK(real(table, 0, "misses lru") ==
         doctest::Approx(100 * static_cast<double>(pages.misses) / static_cast<double>(pages.references)));
 }
@@ -95,9 +98,9 @@ TEST_CASE("on a machine the times are those of its own runs") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(CacheStudy{.node_count = 4, .cache_pages = {4, 1000}, .machine = ipsc2()});
   const svm::RunOptions options{.computer = {.node_count = 4, .machine = ipsc2()}, .pages = {.cache_pages = 4, .in_flight = 1}};
-  const svm::Report report = subject.runs.run("again", options);
+  const svm::Report report = subject.runs.run(options);
   const svm::Report one =
-      subject.runs.run("one", svm::RunOptions{.computer = {.node_count = 1, .machine = ipsc2()}, .pages = {.in_flight = 1}});
+      subject.runs.run(svm::RunOptions{.computer = {.node_count = 1, .machine = ipsc2()}, .pages = {.in_flight = 1}});
   const double seconds = static_cast<double>(report.virtual_time->total_ns) * 1e-9;
   const auto bytes = static_cast<double>(report.sent()[svm::number_of(svm::Kind::page_reply)].bytes);
   CHECK(real(table, 0, "virtual time") == doctest::Approx(seconds));
@@ -140,6 +143,15 @@ TEST_CASE("a study that an error ends has the rows that were finished before") {
   CHECK(table.rows().size() == 1);
 }
 
+TEST_CASE("runs are counted, and a film unlike the first is a broken invariant") {
+  StudySubject subject("balls-1");
+  CHECK_FALSE(subject.runs.film_hash);
+  subject.measure(CacheStudy{.node_count = 2, .cache_pages = {1, 5}, .machine = ipsc2()});
+  CHECK(subject.runs.count == 4);
+  CHECK(subject.runs.film_hash);
+  CHECK_THROWS_AS(subject.runs.take(core::Film(32, 32)), core::InternalError);
+}
+
 TEST_CASE("two studies of the same scene find the same") {
   const CacheStudy study{.node_count = 3, .machine = ipsc2()};
   const Table one = StudySubject("balls-2").measure(study), other = StudySubject("balls-2").measure(study);
@@ -150,6 +162,28 @@ TEST_CASE("what the article found stands below its own scenes only") {
   const CacheStudy study;
   CHECK(study.notes("rings-4-t1").size() == study.notes("rings-3-t1").size() + 1);
   CHECK(study.notes("tetra-9").back().find("Tetra9") != std::string::npos);
+}
+
+TEST_CASE("caches are concluded with the size from which lru is good, and without rows not at all") {
+  const CacheStudy study;
+  Table table("Study", study.columns());
+  CHECK(study.conclusion(table).empty());
+  for (const auto& [pages, lru, optimum] : {std::array{1U, 1000U, 1000U}, {4U, 500U, 300U}, {16U, 105U, 100U}}) {
+    std::vector<apps::Cell> row(table.columns().size());
+    const auto set = [&](const char* name, apps::Cell cell) {
+      const auto found =
+          std::find_if(table.columns().begin(), table.columns().end(), [&](const auto& column) { return column.name == name; });
+      row.at(static_cast<std::size_t>(found - table.columns().begin())) = std::move(cell);
+    };
+    set("cache pages", std::uint64_t{pages});
+    set("share of database", double{1.0 * pages});
+    set("faults lru", std::uint64_t{lru});
+    set("faults optimum", std::uint64_t{optimum});
+    table.add_row(row);
+  }
+  CHECK(study.conclusion(table) ==
+        "From caches of 16 pages on (16.0 % of the database) lru is within 10 % of the best that any policy could do; it faults "
+        "10.5 % as often as with 1 page.");
 }
 
 }  // namespace dmpc::tests::study_cache_test

@@ -1,10 +1,9 @@
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 
 #include <doctest/doctest.h>
 
 #include <chrono>
 #include <csignal>
-#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -12,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/frontend/machine/machines.h"
 #include "apps/frontend/show/page/escaped.h"
-#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -26,7 +25,7 @@ namespace {
 using apps::StudyOptions;
 
 StudyOptions small_study(const std::string& scene = "balls-1") {
-  return {.study = apps::TrafficStudy{.node_counts = {1, 2}},
+  return {.study = {.node_count = 2, .cache_pages = {2, 8}, .machine = apps::find_machine_preset("hdr")->machine},
           .picture = {.scene = scene, .resolution = apps::Resolution{16, 16}}};
 }
 
@@ -47,10 +46,11 @@ std::string endless(const std::string& option, const std::string& number) {
   return list;
 }
 
-/// `dmpc study traffic` with so many rows that it does not end by itself.
+/// `dmpc study cache` with so many rows that it does not end by itself.
 std::vector<std::string> endless_study(const std::string& resolution, const std::string& samples = "--samples=1") {
-  return {DMPC_PROGRAM,           "study", "traffic", "balls-1", "--format=csv", "--resolution=" + resolution, samples,
-          endless("--nodes", "1")};
+  return {DMPC_PROGRAM, "study",           "cache",
+          "balls-1",    "--format=csv",    "--resolution=" + resolution,
+          samples,      "--machine=ipsc2", endless("--cache-pages", "1")};
 }
 
 constexpr const char* rows_are_kept = "interrupted, the table has the rows finished before";
@@ -80,10 +80,18 @@ Ended ended_by(int signal, const std::vector<std::string>& arguments) {
 
 TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
   const std::string text = output_of(small_study());
-  CHECK(contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, record order "));
-  CHECK(count(text, "\n|") == 4 * count(text, "\n| nodes |"));  // each piece of the table has its heading, a rule and two rows
-  CHECK(contains(text, "Film of every run, 6 in all: "));
+  CHECK(contains(text, "Study cache of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, record order "));
+  CHECK(count(text, "\n|") ==
+        4 * count(text, "\n| cache pages |"));  // each piece of the table has its heading, a rule and two rows
+  CHECK(contains(text, "Film of every run, 4 in all: "));
   CHECK_FALSE(contains(text, "Interrupted"));
+}
+
+TEST_CASE("a machine with prices for another structure than the scene's is noted") {
+  StudyOptions options = small_study();
+  CHECK_FALSE(contains(output_of(options), " has prices for other structures "));
+  options.study.machine = apps::find_machine_preset("ipsc2-1994")->machine;
+  CHECK(contains(output_of(options), "- ipsc2-1994 has prices for other structures (voxels) than grid"));
 }
 
 TEST_CASE("a study by paths says how light got about, and gives the one film of paths") {
@@ -93,7 +101,7 @@ TEST_CASE("a study by paths says how light got about, and gives the one film of 
   options.picture.depth = options.picture.transport.depth();
   const std::string paths = output_of(options);
   CHECK(contains(paths, "1 sample a pixel, paths, 1 bounce, convention haines"));
-  CHECK(contains(paths, "Film of every run, 6 in all: "));
+  CHECK(contains(paths, "Film of every run, 4 in all: "));
   CHECK(whitted.substr(whitted.find("Film of")) != paths.substr(paths.find("Film of")));
 }
 
@@ -126,23 +134,12 @@ TEST_CASE("pictures of a study go to a folder that is made for them, beside the 
   options.table.plots = folder / "new" / "plots";
   options.table.format = apps::TableFormat::csv;
   const std::string table = output_of(options);
-  CHECK(file_text(*options.table.plots / "traffic.csv") == table);
-  for (const char* name : {"traffic_bytes.gnuplot", "traffic_memory.gnuplot"}) {
-    CHECK(contains(file_text(*options.table.plots / name), "traffic.csv"));
+  CHECK(file_text(*options.table.plots / "cache.csv") == table);
+  for (const char* name : {"cache_efficiency.gnuplot", "cache_traffic.gnuplot"}) {
+    CHECK(contains(file_text(*options.table.plots / name), "cache.csv"));
   }
-  options.table.plots = folder / "new" / "plots" / "traffic.csv";
+  options.table.plots = folder / "new" / "plots" / "cache.csv";
   CHECK_THROWS_AS(output_of(options), core::InputError);
-}
-
-TEST_CASE("pictures and a page of a study are made of regions whose names have commas") {
-  const TemporaryFolder folder;
-  StudyOptions options = small_study();
-  options.study = apps::BalanceStudy{.node_counts = {1, 2}};
-  options.table.plots = folder / "plots";
-  options.table.report = folder / "page.html";
-  output_of(options);
-  CHECK(contains(file_text(*options.table.plots / "balance_load.gnuplot"), "'scattered, 16 a node, achieved'"));
-  CHECK(contains(file_text(folder / "page.html"), "Plot: Average load of the nodes. "));
 }
 
 TEST_CASE("a page of a study has its table and pictures, and no place where another output goes") {
@@ -151,9 +148,9 @@ TEST_CASE("a page of a study has its table and pictures, and no place where anot
   options.table.report = folder / "page.html";
   output_of(options);
   const std::string page = file_text(folder / "page.html");
-  CHECK(contains(page, "Study traffic of balls-1"));
-  CHECK(contains(page, "Plot: Bytes that travel. "));
-  CHECK(contains(page, "<li>Film of every run, 6 in all"));
+  CHECK(contains(page, "Study cache of balls-1"));
+  CHECK(contains(page, "Plot: Efficiency. "));
+  CHECK(contains(page, "<li>Film of every run, 4 in all"));
   options.table.file = options.table.report;
   CHECK_THROWS_AS(output_of(options), core::UsageError);
 }
@@ -165,44 +162,21 @@ TEST_CASE("a table may lie in the folder of its pictures, but not in place of on
   options.table.file = folder / "plots" / "table.md";
   CHECK(output_of(options).empty());
   CHECK(contains(file_text(*options.table.file), "Film of every run"));
-  options.table.file = folder / "plots" / "traffic.csv";
+  options.table.file = folder / "plots" / "cache.csv";
   CHECK_THROWS_AS(output_of(options), core::UsageError);
   options.table.plots = options.table.file = folder / "other";
   CHECK_THROWS_AS(output_of(options), core::InputError);
 }
 
-TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
-  const apps::CacheStudy timed{.machine = nodes::Machine()};
-  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::FramesStudy()};
-  std::set<std::string> names;
-  for (const apps::Study& study : studies) {
-    const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
-    apps::Table table("", columns);
-    table.add_row(std::vector<apps::Cell>(columns.size(), std::uint64_t{1}));
-    for (const apps::Plot& plot : plots) {
-      CHECK(names.insert(plot.name).second);
-      CHECK_NOTHROW(apps::script_of(plot, table, "t.csv"));
-    }
-    CHECK_FALSE(plots.empty());
-  }
-}
-
-TEST_CASE("every study draws its pictures and its page, of rows as they come") {
-  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{{"balance", "--nodes=1,2", "--per-node"},
-                                                                              {"traffic", "--nodes=1,2"},
-                                                                              {"cache", "--nodes=2", "--cache-pages=2,8"},
-                                                                              {"frames", "--nodes=2,3", "--frames=2"}}) {
-    CAPTURE(words[0]);
-    const TemporaryFolder folder;
-    words.insert(words.begin(), "study");
-    words.insert(words.end(), {"balls-1", "--resolution=16x16", "--plots=" + (folder / "plots").string(),
-                               "--report=" + (folder / "page.html").string()});
-    const StudyOptions options = apps::parse_command_line(words).options<StudyOptions>();
-    output_of(options);
-    for (const apps::Plot& plot : std::visit([](const auto& study) { return study.plots(); }, options.study)) {
-      CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
-      CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
-    }
+TEST_CASE("a study draws all its pictures, there and on its page, of rows as they come") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.table.plots = folder / "plots";
+  options.table.report = folder / "page.html";
+  output_of(options);
+  for (const apps::Plot& plot : options.study.plots()) {
+    CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+    CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
   }
 }
 
@@ -213,7 +187,7 @@ TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
     const Ended study = ended_by(signal, endless_study("8x8"));
     CHECK(study.status == 130);
     CHECK(contains(study.errors, rows_are_kept));
-    CHECK(contains(study.output, "nodes,"));
+    CHECK(contains(study.output, "cache pages,"));
     CHECK(contains(study.output, "\n1,"));
     CHECK(study.output.back() == '\n');
   }

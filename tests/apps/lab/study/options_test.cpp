@@ -1,4 +1,4 @@
-#include "apps/lab/study/command.h"
+#include "apps/lab/study/cache.h"
 
 #include <doctest/doctest.h>
 
@@ -15,87 +15,55 @@ namespace dmpc::apps::study_options_test {
 
 namespace {
 
-using Counts = std::vector<std::uint32_t>;
-
 /// `study NAME teapot-12` and more.
-StudyOptions study(const std::string& name, std::initializer_list<std::string> more = {}) {
+Command line(const std::string& name, std::initializer_list<std::string> more = {}) {
   std::vector<std::string> arguments = {"study", name, "teapot-12"};
   arguments.insert(arguments.end(), more);
-  return parse_command_line(arguments).options<StudyOptions>();
+  return parse_command_line(arguments);
 }
 
-BalanceStudy balance(std::initializer_list<std::string> more = {}) {
-  return std::get<BalanceStudy>(study("balance", more).study);
-}
+CacheStudy cache(std::initializer_list<std::string> more) { return line("cache", more).options<StudyOptions>().study; }
 
 }  // namespace
 
-TEST_CASE("a study and a scene are all that study needs") {
-  const StudyOptions options = study("balance");
-  CHECK(options.picture.scene == "teapot-12");
-  CHECK(options.table.format == TableFormat::markdown);
-  CHECK_FALSE(options.table.file);
-  CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
-  CHECK(balance().subsample == 8);
-  CHECK(balance().topology == nodes::TopologyKind::hypercube);
-  CHECK_FALSE(balance().per_node);
-  CHECK(std::get<TrafficStudy>(study("traffic").study).node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
-}
-
-TEST_CASE("options of a study are taken") {
-  const StudyOptions options = study("traffic", {"--nodes=3", "--depth=2", "--format=json", "-o", "a.json"});
-  CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
+TEST_CASE("a study and a scene are all that study needs, and other options are taken") {
+  const auto plain = line("cache").options<StudyOptions>(),
+             options = line("cache", {"--depth=2", "--format=json", "-o", "a.json"}).options<StudyOptions>();
+  CHECK(plain.picture.scene == "teapot-12");
+  CHECK(plain.table.format == TableFormat::markdown);
+  CHECK_FALSE(plain.table.file);
   CHECK(options.picture.depth == 2);
   CHECK(options.table.format == TableFormat::json);
   CHECK(options.table.file == "a.json");
-  const BalanceStudy taken = balance({"--subsample=4", "--topology=fat-tree", "--per-node"});
-  CHECK(taken.subsample == 4);
-  CHECK(taken.topology == nodes::TopologyKind::fat_tree);
-  CHECK(taken.per_node);
 }
 
 TEST_CASE("every study goes along paths, too, with the options that render has") {
-  for (const std::string name : {"balance", "traffic", "cache"}) {
-    CAPTURE(name);
-    const PictureOptions picture = study(name, {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"}).picture;
+  const auto check = [](const PictureOptions& picture) {
     CHECK(text_of(picture.transport) == "paths, 3 bounces, sky 1,1,1/0,0,1");
     CHECK(picture.depth == 4);
     CHECK(picture.scene_setup.background == core::Vec3d{1, 1, 1});
+  };
+  const std::initializer_list<std::string> paths = {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"};
+  check(line("cache", paths).options<StudyOptions>().picture);
+  for (const std::string name : {"balance", "traffic", "speedup", "frames"}) {
+    CAPTURE(name);
+    check(line(name, paths).options<PythonStudy>().picture);
   }
-  CHECK_FALSE(study("traffic").picture.transport.is_by_paths());
-  const std::vector<std::string> mesh = {"study", "traffic", "a.glb"};
+  const std::vector<std::string> mesh = {"study", "cache", "a.glb"};
   const PictureOptions shown = parse_command_line(mesh).options<StudyOptions>().picture;
   CHECK_FALSE(shown.transport.is_by_paths());
   CHECK(shown.samples == 1);
 }
 
-TEST_CASE("node counts are taken in the order given, equal ones too") {
-  CHECK(balance({"--nodes=64,1,64,1024"}).node_counts == Counts{64, 1, 64, 1024});
-}
-
 TEST_CASE("the options of the study of caches are taken") {
-  const auto cache = [](std::initializer_list<std::string> more) { return std::get<CacheStudy>(study("cache", more).study); };
   CHECK(cache({}).node_count == 32);
   CHECK(cache({}).cache_pages.empty());
   CHECK_FALSE(cache({}).machine);
   const CacheStudy taken = cache({"--nodes=5", "--cache-pages=204,1", "--machine=ipsc2"});
   CHECK(taken.node_count == 5);
-  CHECK(taken.cache_pages == Counts{204, 1});
+  CHECK(taken.cache_pages == std::vector<std::uint32_t>{204, 1});
   CHECK(taken.machine->name == "ipsc2");
   CHECK_THROWS_AS(cache({"--machine=abacus"}), core::InputError);
-}
-
-TEST_CASE("frames are studied on one machine, or several that have names, by more than a node") {
-  const auto frames = [](std::initializer_list<std::string> more) {
-    return std::get<apps::FramesStudy>(study("frames", more).study);
-  };
-  CHECK(frames({}).machines.size() == 1);
-  CHECK(frames({}).machines.front().name == "ipsc2");
-  CHECK(frames({"--machine=hdr"}).machines.front().name == "hdr");
-  const apps::FramesStudy several = frames({"--machines=hdr,paragon", "--nodes=16,64"});
-  REQUIRE(several.machines.size() == 2);
-  CHECK(several.machines.back().name == "paragon");
-  CHECK(several.node_counts == Counts{16, 64});
 }
 
 TEST_CASE("the help of the study of speedup tells its own defaults") {
@@ -115,7 +83,11 @@ TEST_CASE("a study in Python gets the options of the line as words, and its scen
   CHECK(words_of({"study", "decades", "--quick", "-o", "out"}) == std::vector<std::string>{"--output=out", "--quick"});
   CHECK(words_of({"study", "speedup", "--bundles", "--cache-pages=9", "balls-1", "--page-size=4KiB"}) ==
         std::vector<std::string>{"speedup", "--page-size=4KiB", "--cache-pages=9", "--bundles", "balls-1"});
-  for (const char* const name : {"systems", "speedup"}) {
+  CHECK(words_of({"study", "balance", "balls-1", "--per-node", "--topology=mesh", "--nodes=64,1,64"}) ==
+        std::vector<std::string>{"balance", "--nodes=64,1,64", "--topology=mesh", "--per-node", "balls-1"});
+  CHECK(words_of({"study", "frames", "balls-1", "--machines=hdr,paragon", "--turntable=-5"}) ==
+        std::vector<std::string>{"frames", "--turntable=-5", "--machines=hdr,paragon", "balls-1"});
+  for (const char* const name : {"systems", "speedup", "frames"}) {
     CHECK_THROWS_AS(words_of({"study", name, "balls-1", "--machine=abacus"}), core::InputError);
   }
 }

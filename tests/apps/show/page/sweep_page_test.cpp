@@ -24,7 +24,11 @@ Table sweep_table() {
 
 TEST_CASE("a page of a sweep has its texts, plots, tables and notes") {
   const Table table = sweep_table();
-  const SweepPart part{"Growth", table, {curves("time", "Time", "nodes", node_axis(), {}, {{"time", "time"}})}, "It grows."};
+  const SweepPart part{
+      "Growth",
+      table,
+      {curves("time", "Time", "nodes", {.label = "nodes", .scale = PlotScale::powers_of_2}, {}, {{"time", "time"}})},
+      "It grows."};
   const std::string text = sweep_page({"Sweep", {"A text."}, {part}, {{"film", "1daa"}}}, {.program = "dmpc 1"});
   for (const char* const word : {"<h1>Sweep</h1>", "<p>A text.</p>", "Growth</h2>", "Plot: Time. ", "<td>8.0</td>",
                                  "<li>A note.</li>", "<p class=\"conclusion\">It grows.</p>", "dmpc 1, , film 1daa."}) {

@@ -42,7 +42,8 @@ TEST_CASE("bars have names of places, in the table's order and without those tha
 
 TEST_CASE("curves have limits and ticks along both axes, at powers of two where they are asked for") {
   const Plot plot = curves(
-      "times", "Times", "nodes", node_axis(), {.label = "t", .scale = PlotScale::powers_of_10},
+      "times", "Times", "nodes", {.label = "nodes", .scale = PlotScale::powers_of_2},
+      {.label = "t", .scale = PlotScale::powers_of_10},
       {{.title = "a", .column = "time", .where = {{"scene", "a"}}, .mark = PlotMark::intervals, .low = "low", .high = "high"}});
   const json data = data_of(plot);
   CHECK_FALSE(data.contains("places"));
