@@ -8,8 +8,8 @@
 #include "apps/lab/compare/command.h"
 #include "apps/lab/study/cache.h"
 #include "apps/lab/study/python/python_study.h"
+#include "apps/lab/study/python/sweep.h"
 #include "apps/lab/study/references/command.h"
-#include "apps/lab/study/sweep/command.h"
 
 namespace dmpc::apps {
 
@@ -36,7 +36,7 @@ void declare_all(Commands& commands) {
                python_study("decades"), python_study_command);
   commands.add("references", "Simulate page caches on recorded references, and count misses", ReferencesOptions(),
                study_references_command);
-  commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", StudySweepOptions(),
+  commands.add("sweep", "Render all combinations of chosen options, and print chosen counters", SweepStudy(),
                study_sweep_command);
   commands.begin("bench", "Test accuracy and speed of the renderer and print a table");
   commands.add("stability", "Stress tests of numerical stability, with Embree on the same rays", StabilityOptions(),

@@ -14,18 +14,10 @@ namespace dmpc::apps {
 /// exception of either is rethrown when the started ones have ended. Not for work that starts its own threads.
 void side_by_side(std::size_t count, const std::function<std::function<void()>(std::size_t)>& work);
 
-enum class Turns { one_by_one, side_by_side };
-
 /// Calls take(i, measure(i)) for each i below `count`: one take() at a time and in order, on any thread. An exception of
 /// measure(i) is thrown in its turn: take() has then been called for all before it, and for none after it.
 template <class Measure, class Take>
-void measure_each(std::size_t count, Turns turns, const Measure& measure, const Take& take) {
-  if (turns == Turns::one_by_one) {
-    for (std::size_t i = 0; i < count; ++i) {
-      take(i, measure(i));
-    }
-    return;
-  }
+void measure_each(std::size_t count, const Measure& measure, const Take& take) {
   side_by_side(count, [&](std::size_t i) -> std::function<void()> {
     try {
       return [&take, i, result = std::make_shared<decltype(measure(i))>(measure(i))] { take(i, std::move(*result)); };

@@ -106,26 +106,10 @@ bool is_within(std::string_view name, std::string_view key) {
   return true;
 }
 
-const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name) {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& figure) { return figure.name == name; });
-  return found == figures.end() ? nullptr : &found->value;
-}
-
 std::optional<double> number_of(const FigureValue& value) {
   const auto* const whole = std::get_if<std::uint64_t>(&value);
   const auto* const real = std::get_if<double>(&value);
   return whole != nullptr ? std::optional(static_cast<double>(*whole)) : real != nullptr ? std::optional(*real) : std::nullopt;
-}
-
-std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name) {
-  const FigureValue* const value = find_value(figures, name);
-  return value == nullptr ? std::nullopt : number_of(*value);
-}
-
-double needed_number(const std::vector<Figure>& figures, const std::string& name) {
-  const std::optional<double> number = number_of(figures, name);
-  core::expect(number.has_value(), "the statistics of a render have all that they always have");
-  return *number;
 }
 
 }  // namespace dmpc::apps

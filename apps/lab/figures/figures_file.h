@@ -36,11 +36,7 @@ std::string text_of(const FigureValue& value);
 /// "nodes.3.pages.faults".
 bool is_within(std::string_view name, std::string_view key);
 
-/// Returns nullptr if there is no figure of this name.
-const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name);
-/// Returns a figure's number; nothing if it is absent or no number. Throws core::InternalError for a required one.
+/// Returns the number of a value; nothing if it is absent or no number.
 std::optional<double> number_of(const FigureValue& value);
-std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name);
-double needed_number(const std::vector<Figure>& figures, const std::string& name);
 
 }  // namespace dmpc::apps

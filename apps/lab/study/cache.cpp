@@ -65,7 +65,7 @@ void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uin
   std::uint64_t one_node_ns = 0;
   Progress progress(std::cerr, runs.shows_progress, "side by side: ", "runs");
   const auto measure = [&](std::size_t run) { return runs.run(options[run]); };
-  measure_each(options.size(), Turns::side_by_side, measure, [&](std::size_t run, const svm::Report& report) {
+  measure_each(options.size(), measure, [&](std::size_t run, const svm::Report& report) {
     runs.take(report.film);
     progress.update(run + 1, options.size());
     if (run == 0) {

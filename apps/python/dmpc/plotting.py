@@ -41,7 +41,8 @@ def drawn(data, name, is_in_page=False):
         text = io.StringIO()
         figure.savefig(text, format="svg", transparent=is_in_page, bbox_inches="tight", metadata={"Date": None})
         pyplot.close(figure)
-    return text.getvalue().replace(_INK, "currentColor" if is_in_page else "#000000")
+    svg = text.getvalue()
+    return svg[svg.index("<svg"):].replace(_INK, "currentColor") if is_in_page else svg.replace(_INK, "#000000")
 
 
 def _set_axis(axes, letter, data):

@@ -149,6 +149,8 @@ def run(line, passing=(), noted=lambda sentence: None):
         raise
     finally:
         _running.discard(process)
+    if process.returncode == -signal.SIGKILL:
+        raise CapacityError("this computer has no memory to spare, it seems: dmpc was killed")
     if process.returncode != 0 and process.returncode not in passing:
         said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
         raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")

@@ -12,8 +12,6 @@
 #include "apps/frontend/show/page/shares.h"
 #include "apps/frontend/table/table.h"
 #include "apps/run/report.h"
-#include "apps/show/page/page_data.h"
-#include "apps/show/page/typed_array.h"
 #include "core/base/ranges.h"
 
 namespace dmpc::apps::html {
@@ -22,7 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t sizes_max = 4096;         ///< limit when they are read back
 constexpr double reported_error_least = 0.001;  ///< smaller errors are not reported
 
 std::string why_wide(const CacheForecast& forecast, bool is_of_time) {
@@ -43,19 +40,10 @@ std::string why_wide(const CacheForecast& forecast, bool is_of_time) {
 
 double milliseconds(double ns) { return ns / 1e6; }
 
-/// Returns the entry with `pages` pages; nullptr if there is none.
-template <class Sized>
-const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
-  return core::find_in(all, pages, &Sized::cache_pages);
-}
-
 std::set<std::uint32_t> sizes_of(const ForecastView& view) {
-  std::set<std::uint32_t> sizes;
+  std::set<std::uint32_t> sizes = {view.cache_pages};
   for (const TimeBand& size : view.sizes) {
     sizes.insert(size.cache_pages);
-  }
-  for (const MadeRun& run : view.runs) {
-    sizes.insert(run.cache_pages);
   }
   return sizes;
 }
@@ -67,14 +55,14 @@ Table forecast_table(const ForecastView& view) {
   for (const std::uint32_t pages : sizes_of(view)) {
     std::vector<Cell> row = {std::uint64_t{pages}};
     row.resize(table.columns().size());
-    if (const TimeBand* const size = of_size(view.sizes, pages)) {
+    if (const TimeBand* const size = core::find_in(view.sizes, pages, &TimeBand::cache_pages)) {
       row[1] = static_cast<std::uint64_t>(std::llround(size->faults));
       row[4] = 100 * size->width();
       row[2] = milliseconds(size->least_ns);
       row[3] = milliseconds(size->most_ns);
     }
-    if (const MadeRun* const run = of_size(view.runs, pages)) {
-      row[5] = milliseconds(run->total_ns);
+    if (pages == view.cache_pages) {
+      row[5] = milliseconds(view.total_ns);
     }
     table.add_row(std::move(row));
   }
@@ -118,51 +106,20 @@ std::optional<ForecastView> forecast_view(const RenderRecord& record) {
     return std::nullopt;
   }
   const std::string why = why_wide(forecast, is_of_time);
-  return ForecastView{is_of_time, run.cache_pages, why, std::move(forecast.sizes), {{run.cache_pages, run.total_ns()}}};
+  return ForecastView{is_of_time, run.cache_pages, why, std::move(forecast.sizes), run.total_ns()};
 }
 
 json json_of(const ForecastView& view) {
-  json points = json::array(), made = json::array();
+  json points = json::array();
   for (const TimeBand& size : view.sizes) {
     points.push_back({size.cache_pages, std::llround(size.faults), std::llround(size.least_ns), std::llround(size.most_ns)});
-  }
-  for (const MadeRun& run : view.runs) {
-    made.push_back({run.cache_pages, std::llround(run.total_ns)});
   }
   return {{"unit", view.is_of_time ? "ns" : "faults"},
           {"cache", view.cache_pages},
           {"widest", TimeBand::width_max},
           {"why", view.why},
           {"points", std::move(points)},
-          {"runs", std::move(made)}};
-}
-
-std::optional<ForecastView> forecast_in(std::string_view page, const std::string& file) {
-  const std::optional<json> data = data_in(page, file);
-  if (!data || !data->contains("forecast")) {
-    return std::nullopt;
-  }
-  const DataPart forecast = DataPart(*data, file + ": data").at("forecast");
-  if (forecast.has("unit") && forecast.at("unit").text() != "ns") {
-    return std::nullopt;
-  }
-  const auto cache = [](const DataPart& list) {
-    return static_cast<std::uint32_t>(list.at(std::size_t{0}).whole(~std::uint32_t{0}, 1));
-  };
-  const auto number = [](const DataPart& list, std::size_t place) {
-    return static_cast<double>(list.at(place).whole(exact_number_max));
-  };
-  ForecastView view{
-      true, static_cast<std::uint32_t>(forecast.at("cache").whole(~std::uint32_t{0}, 1)), forecast.at("why").text(), {}, {}};
-  for (std::size_t i = 0; i < forecast.at("points").size(sizes_max); ++i) {
-    const DataPart point = forecast.at("points").at(i);
-    view.sizes.push_back(
-        {.cache_pages = cache(point), .faults = number(point, 1), .least_ns = number(point, 2), .most_ns = number(point, 3)});
-  }
-  for (std::size_t i = 0; i < forecast.at("runs").size(sizes_max); ++i) {
-    view.runs.push_back({.cache_pages = cache(forecast.at("runs").at(i)), .total_ns = number(forecast.at("runs").at(i), 1)});
-  }
-  return view;
+          {"runs", json::array({{view.cache_pages, std::llround(view.total_ns)}})}};
 }
 
 void add_forecast(Page& page, const ForecastView& view) {
@@ -171,14 +128,6 @@ void add_forecast(Page& page, const ForecastView& view) {
   if (view.is_of_time) {
     page.add_table(forecast_table(view));
   }
-}
-
-void add_forecast_alone(Page& page, const ForecastView& view) {
-  page.begin_section("What if the caches had another size");
-  add_forecast(page, view);
-  page.add_style(what_if_style);
-  page.add_data("data", json({{"forecast", json_of(view)}}).dump());
-  page.add_script(what_if_script);
 }
 
 }  // namespace dmpc::apps::html

@@ -11,7 +11,6 @@
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/stability/command.h"
 #include "apps/lab/study/cache.h"
-#include "apps/lab/study/sweep/command.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
@@ -24,20 +23,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// For those commands that call dmpc themselves: another one than the test's.
-template <class Options>
-Options with_program(const apps::Command& command) {
-  auto options = command.options<Options>();
-  options.settings.program = DMPC_PROGRAM;
-  return options;
-}
-
 int run_by(const Words& words, const apps::Command& command, apps::Interrupt& interrupt, std::ostream& output) {
-  if (words[1] == "sweep") {
-    return apps::study_sweep_command(with_program<apps::StudySweepOptions>(command), interrupt, output);
-  }
-  if (words[1] == "speed") {
-    return apps::bench_speed_command(with_program<apps::SpeedOptions>(command), interrupt, output);
+  if (words[1] == "speed") {  // which calls dmpc itself: another one than the test's
+    auto options = command.options<apps::SpeedOptions>();
+    options.settings.program = DMPC_PROGRAM;
+    return apps::bench_speed_command(options, interrupt, output);
   }
   return command.run(interrupt, output);
 }
@@ -65,7 +55,6 @@ struct TableCase {
 
 std::vector<TableCase> table_cases() {
   return {{{"study", "cache", "balls-1", "--resolution=8x8", "--nodes=2"}, "cache.csv", true},
-          {{"study", "sweep", "balls-1", "--resolution=8x8", "--vary=nodes:1,2"}, "sweep.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
            "error_tetra-1.csv"},

@@ -6,14 +6,22 @@
 #include <utility>
 
 #include "apps/frontend/show/page/origin.h"
-#include "apps/show/page/sweep_page.h"
+#include "apps/frontend/show/page/page.h"
 
 namespace dmpc::apps {
 namespace {
 
 std::string page_of(const StudyFindings& findings) {
-  const html::SweepPart part{"", findings.table, findings.plots, findings.conclusion};
-  return html::sweep_page({findings.title, {}, {part}, findings.facts, findings.forecast}, this_origin(findings.scene_digest));
+  const Origin origin = this_origin(findings.scene_digest);
+  html::Page page(findings.title);
+  page.add_text(origin.program + ", " + origin.date);
+  page.add_conclusion(findings.conclusion);
+  for (const Plot& plot : findings.plots) {
+    page.add_plot(plot, findings.table);
+  }
+  page.add_table(findings.table);
+  page.add_origin(origin, findings.facts);
+  return page.text();
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // The common part of commands that measure for a while and produce a table.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,8 +12,6 @@
 #include "apps/frontend/system/interrupt.h"
 #include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table_files.h"
-#include "apps/show/page/forecast_view.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 
@@ -46,16 +43,7 @@ struct StudyFindings {
   std::string conclusion = {};  ///< a sentence; empty: none
   html::Facts facts = {};       ///< identify another study with the same findings
   std::optional<std::uint64_t> scene_digest = {};
-  std::optional<html::ForecastView> forecast = {};  ///< from one of the study's runs, shown beside all of them
 };
 TableResult study_result(StudyFindings findings, TableFormat format);
-
-/// Throws core::CapacityError with the first result's `misfit` if none of the results has `figures`.
-template <class Results>
-void check_any_fits(const Results& results) {
-  if (std::none_of(results.begin(), results.end(), [](const auto& result) { return result.figures.has_value(); })) {
-    throw core::CapacityError(results.front().misfit);
-  }
-}
 
 }  // namespace dmpc::apps

@@ -37,7 +37,7 @@ class Report:
         parts = [page.paragraph(text, "" if at else "first") for at, text in enumerate(self.texts)]
         for name, table in self.tables.items():
             parts += [page.heading(table.title), page.paragraph(conclusion(name, table))]
-            parts += [svg[svg.index("<svg"):] for svg in (self.drawn[plot.name] for plot in self._plots(name))]
+            parts += [self.drawn[plot.name] for plot in self._plots(name)]
             parts += [page.rows([column.header for column in table.columns], map(table.texts, table.rows)),
                       *(page.paragraph(note, "note") for note in table.notes)]
         return page.document(TITLE, parts)

@@ -1,15 +1,19 @@
 """The common part of studies that print a table: what is said meanwhile, where the table goes, and the exit status."""
 
+import contextlib
 import os
 import pathlib
 import signal
+import subprocess
 import sys
+import tempfile
 
 from .. import program
 from . import plots, table
 
 INTERRUPTED = 130
 _CLEAR = "\r\x1b[K"
+_HEIR = 'read -r nothing; for n in 1 2 3 4 5 6 7 8 9; do rm -rf -- "$1"; sleep 0.2; [ -e "$1" ] || break; done'
 
 
 def add_options(parser):
@@ -70,9 +74,28 @@ def run(measure, rows, options, messages, closing=lambda: (), draw=lambda: None)
         for note in closing():
             rows.note(note)
         status = write(rows.text(options.format), options.output, messages) or status
-        if options.plots:
-            draw()
+        try:
+            if options.plots:
+                draw()
+        except OSError as error:
+            messages.say(f"--plots: {error.filename}: {error.strerror}")
+            status = status or program.status_of(program.InputError())
     return status
+
+
+@contextlib.contextmanager
+def scratch_folder():
+    """For all temporary files of this program, which go with it even if it is killed: then by a shell, which waits for its end."""
+    with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
+        heir = subprocess.Popen(["/bin/sh", "-c", _HEIR, "dmpc-heir", folder], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, start_new_session=True)
+        tempfile.tempdir = folder
+        try:
+            yield
+        finally:
+            tempfile.tempdir = None
+            heir.kill()
+            heir.communicate()
 
 
 def take_signals():
@@ -89,8 +112,8 @@ def take_signals():
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
 
 
-def write(text, path, messages):
-    """To the file, which is replaced at once, or to the standard output; the exit status."""
+def write(text, path, messages, option="-o"):
+    """To the file of an option, which is replaced at once, or to the standard output; the exit status."""
     try:
         if path is None:
             print(text, end="", flush=True)
@@ -103,7 +126,7 @@ def write(text, path, messages):
         new.write_text(text)
         os.replace(new, target)
     except OSError as error:
-        where = f"-o {path}" if path else "the table could not be written to the standard output"
+        where = f"{option} {path}" if path else "the table could not be written to the standard output"
         messages.say(f"{where}: {error.strerror}")
         return program.status_of(program.InputError())
     return 0

@@ -1,6 +1,9 @@
 """Pages of studies: one file, for light and dark screens and for paper, without scripts."""
 
 import html
+import importlib.util
+
+from . import plots
 
 _HEAD = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -41,3 +44,10 @@ def heading(text):
 
 def paragraph(text, kind=""):
     return f"<p{f' class={kind}' if kind else ''}>{html.escape(text)}</p>"
+
+
+def of_table(table, drawn):
+    """A table with its notes, below its plots, where there is matplotlib to draw them."""
+    pictures = [plots.draw(plot, table, True) for plot in drawn] if importlib.util.find_spec("matplotlib") else []
+    return document(table.title, [*pictures, rows([column.header for column in table.columns], map(table.texts, table.rows)),
+                                  *(paragraph(note, "note") for note in table.notes)])

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from .. import program
 from .runs import PARTS
 
+SERIES_MAX = 16  # that look unlike in one plot
+
 
 @dataclass(frozen=True)
 class Series:

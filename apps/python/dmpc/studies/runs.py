@@ -63,22 +63,16 @@ class Runs:
         side. A result has the line, figures, and as "notes" what had to be reduced to fit, or the reason why there was no room in the nodes
         as "misfit". Raises in its place a program.Error with what else dmpc says; an exception, such as KeyboardInterrupt, ends the runs
         before it goes on."""
-        missing, position = [line for line in dict.fromkeys(lines) if line not in self._kept], 0
+        missing = {line for line in lines if line not in self._kept}
         for line in missing:
             self._prepare(line)
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            runs = {line: pool.submit(self._run, line) for line in missing}
-            try:
-                for count, _ in enumerate(concurrent.futures.as_completed(runs.values()), 1):
-                    self._progress(count, len(missing))
-                    while position < len(lines) and (lines[position] not in runs or runs[lines[position]].done()):
-                        yield runs[lines[position]].result() if lines[position] in runs else self._kept[lines[position]]
-                        position += 1
-            except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                program.end_all()
-                raise
-        yield from map(self.kept, lines[position:])
+        fresh = side_by_side(self._run, [line for line in dict.fromkeys(lines) if line in missing], self.jobs, self._progress)
+        for line in lines:
+            if line in missing:
+                missing.discard(line)
+                yield next(fresh)
+            else:
+                yield self._kept[line]
 
     def database(self, name):
         """The path of the database of this name, which is built if there is none."""
@@ -119,6 +113,23 @@ class Runs:
             with open(self._file, "a") as file:
                 file.write(json.dumps(one) + "\n")
         return one
+
+
+def side_by_side(work, items, jobs, progress):
+    """Yields what work() returns for each, in their order, as soon as it is there; `jobs` at a time. An exception, such as KeyboardInterrupt,
+    ends the runs before it goes on."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        results, position = [pool.submit(work, item) for item in items], 0
+        try:
+            for count, _ in enumerate(concurrent.futures.as_completed(results), 1):
+                progress(count, len(results))
+                while position < len(results) and results[position].done():
+                    yield results[position].result()
+                    position += 1
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            program.end_all()
+            raise
 
 
 def at(tree, path):

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/show/page/render_page.h"
-#include "apps/show/page/sweep_page.h"
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/watched.h"
 #include "tests/support/browser.h"
@@ -29,16 +28,11 @@ TimeBand from_to(std::uint32_t pages, double least_ms, double most_ms) {
   return {.cache_pages = pages, .faults = 1000.0 / pages, .least_ns = 1e6 * least_ms, .most_ns = 1e6 * most_ms};
 }
 
-/// Runs of 2, 4 and 16 pages beside what is predicted from that of 4; with 8 pages that is too uncertain to be shown.
+/// A run with 4 pages, and what is predicted from it; with 8 pages that is vague.
 ForecastView four_pages() {
-  ForecastView view{true, 4, "It is so wide.", {}, {}};
+  ForecastView view{true, 4, "It is so wide.", {}, 10e6};
   view.sizes = {from_to(2, 20, 21), from_to(4, 10, 10), from_to(8, 5, 6), from_to(16, 4, 4.1)};
-  view.runs = {{2, 20.5e6}, {4, 10e6}, {16, 4.05e6}};
   return view;
-}
-
-std::string sweep_page_of(const ForecastView& view) {
-  return sweep_page({.title = "Sweep", .texts = {}, .parts = {}, .forecast = view}, {});
 }
 
 /// What the page says of the size that its address asks for, and how many dots there are.
@@ -60,8 +54,7 @@ TEST_CASE("the page of a run says in a table what its data say: the run itself, 
   const ForecastView view = forecast_view(watched.record()).value();
   const auto& report = std::get<svm::Report>(*watched.report);
   CHECK(view.cache_pages == report.plan.frames);
-  REQUIRE(view.runs.size() == 1);
-  CHECK(view.runs[0].total_ns == doctest::Approx(static_cast<double>(report.virtual_time->total_ns)));
+  CHECK(view.total_ns == doctest::Approx(static_cast<double>(report.virtual_time->total_ns)));
   const std::string page = page_of(watched);
   const json data = json::parse(tests::data_in(page))["forecast"];
   CHECK(data == json_of(view));
@@ -76,20 +69,11 @@ TEST_CASE("the page of a run says in a table what its data say: the run itself, 
   }
 }
 
-TEST_CASE("what a page says is read back from it, and of a page without it nothing") {
-  const Watched watched(starved(modelled()));
-  const std::string page = page_of(watched);
-  const ForecastView read = forecast_in(page, "a.html").value();
-  CHECK(json_of(read) == json_of(forecast_view(watched.record()).value()));
-  CHECK_FALSE(forecast_in(page_of(Watched(modelled(Strategy::dataflow))), "a.html").has_value());
-  CHECK_FALSE(forecast_in("<p>No data.</p>", "a.html").has_value());
-}
-
 TEST_CASE("of threads faults are predicted, and no time") {
   const Watched watched(starved(small()));
   const ForecastView view = forecast_view(watched.record()).value();
   CHECK_FALSE(view.is_of_time);
-  CHECK(view.runs[0].total_ns == static_cast<double>(std::get<svm::Report>(*watched.report).pages().faults));
+  CHECK(view.total_ns == static_cast<double>(std::get<svm::Report>(*watched.report).pages().faults));
   for (const TimeBand& size : view.sizes) {
     CHECK(size.least_ns <= doctest::Approx(size.faults));
     CHECK(size.most_ns >= doctest::Approx(size.faults));
@@ -98,26 +82,28 @@ TEST_CASE("of threads faults are predicted, and no time") {
   CHECK(contains(page, "id=\"what-if\""));
   CHECK(contains(page, "the run would have "));
   CHECK_FALSE(contains(page, ">Run time by the size of the caches<"));
-  CHECK_FALSE(forecast_in(page, "a.html").has_value());
 }
 
 TEST_CASE("a band that is wider than a tenth is in the table, too, and called vague") {
-  const std::string page = sweep_page_of(four_pages());
-  CHECK(contains(page, "20.000</td><td>21.000</td><td>5.0</td><td>20.500"));
+  Page of_forecast("Forecast");
+  add_forecast(of_forecast, four_pages());
+  const std::string page = of_forecast.text();
+  CHECK(contains(page, "10.000</td><td>10.000</td><td>0.0</td><td>10.000"));
   CHECK(contains(page, "5.000</td><td>6.000</td><td>20.0<"));
   CHECK(contains(page, "the run would take 5.00 ms to 6.00 ms, which is vague: the ends lie 20 % apart."));
 }
 
 TEST_CASE("by script a page says in words what is asked for in its address, with dots that a switch hides" *
           doctest::test_suite("slow")) {
-  const std::string page = sweep_page_of(four_pages());
-  CHECK(reported(page, "") == "4 pages: the run from which all else is predicted, 10 ms. 3 dots, 3 bands");
-  CHECK(reported(page, "#cache=2") == "2 pages: predicted 20 to 21 ms, with 500 faults; a run took 20.5 ms. 3 dots, 3 bands");
-  CHECK(reported(page, "#cache=2&dots=0") == "2 pages: predicted 20 to 21 ms, with 500 faults. 0 dots, 3 bands");
-  CHECK(reported(page, "#cache=9") ==
-        "8 pages: predicted 5 to 6 ms, with 125 faults, which is vague: the ends lie 20.0 % apart. 3 dots, 3 bands");
-  CHECK(contains(reported(page, "#cache=nan&dots=-1&__proto__=1"), "4 pages: the run"));
-  CHECK(contains(reported(page_of(Watched(starved(modelled()))), "#cache=1e9"), " 1 dots, "));
+  const Watched watched(starved(modelled()));
+  const std::string page = page_of(watched), own = std::to_string(forecast_view(watched.record()).value().cache_pages);
+  for (const char* const address : {"", "#cache=nan&dots=-1&__proto__=1"}) {
+    CHECK(contains(reported(page, address), " from which all else is predicted, "));
+    CHECK(reported(page, address).starts_with(own + " page"));
+  }
+  CHECK(contains(reported(page, "#cache=1e9"), ": predicted "));
+  CHECK(contains(reported(page, "#cache=1e9"), " 1 dots, "));
+  CHECK(contains(reported(page, "#cache=1e9&dots=0"), " 0 dots, "));
 }
 
 }  // namespace dmpc::apps::html::forecast_view_test

@@ -12,7 +12,6 @@
 #include "apps/show/page/play_data.h"
 #include "apps/show/page/player.h"
 #include "apps/show/page/render_page.h"
-#include "apps/show/page/sweep_page.h"
 #include "core/base/expect.h"
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/watched.h"
