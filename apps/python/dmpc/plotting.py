@@ -46,10 +46,10 @@ def drawn(data, name, is_in_page=False):
 
 
 def _set_axis(axes, letter, data):
-    """Without limits and ticks matplotlib chooses them."""
+    """Limits and ticks that there are none of are matplotlib's own."""
     axes.set(**{f"{letter}label": data["label"], f"{letter}scale": "log" if data.get("log") else "linear"})
-    if "most" in data:
-        axes.set(**{f"{letter}lim": (data["least"], data["most"])})
+    if "least" in data:
+        axes.set(**{f"{letter}lim": (data["least"], data.get("most"))})
     if ticks := data.get("ticks"):
         axis = getattr(axes, f"{letter}axis")
         axis.set_ticks([place for place, _ in ticks], [text for _, text in ticks])

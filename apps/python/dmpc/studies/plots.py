@@ -71,14 +71,14 @@ def points(plot, series, table):
 
 
 def data(plot, table):
-    """What plotting.drawn() takes: series without a row are left out."""
+    """What plotting.drawn() takes, of numbers from 0 on: series without a row are left out."""
     found = [(series, rows) for series in plot.series if (rows := points(plot, series, table))]
     places = list(dict.fromkeys(place for _, rows in found for place, _ in rows))
     ticks = [[place, str(place)] for place in sorted(places)] if plot.x and plot.log_x == 2 else []
     mark = {True: "points", False: "line"} if plot.x else {False: "bars"}
     return {"title": plot.title, "stacked": plot.is_stacked, "width": 0, "places": [] if plot.x else list(map(str, places)),
             "x": {"label": (plot.x_label or plot.x), "log": bool(plot.x and plot.log_x), "ticks": ticks},
-            "y": {"label": plot.y, "log": plot.is_log, "ticks": []},
+            "y": {"label": plot.y, "log": plot.is_log, "ticks": [], **({} if plot.is_log else {"least": 0})},
             "series": [{"name": series.label, "color": series.colour, "mark": mark[series.is_printed],
                         "rows": [(place if plot.x else places.index(place), number) for place, number in rows]} for series, rows in found]}
 
