@@ -165,7 +165,7 @@ def counters(line, noted=lambda sentence: None):
     are_frames = any(word.startswith("--frames=") for word in line)
     name = "%06d" if are_frames else "film"
     with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
-        run([*line, f"--stats={folder}/{name}.json", "-o", f"{folder}/{name}.png"], noted=noted)
+        run([*line, f"--stats={folder}/{name}.json", f"--output={folder}/{name}.png"], noted=noted)
         found = [json.loads(path.read_bytes()) for path in sorted(pathlib.Path(folder).glob("*.json"))]
     return found if are_frames else found[0]
 

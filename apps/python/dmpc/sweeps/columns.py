@@ -26,13 +26,13 @@ def names(options, variations, known):
     return found
 
 
-def of(variations, names, runs):
+def of(variations, most):
+    """`most` has the largest magnitude in each column of a figure, 0 if it has no fractions."""
     return [*(Column(variation.name, variation.unit) for variation in variations),
-            *(Column(name, figures.unit(name), _digits(run.figures[name] for run in runs if run.figures)) for name in names)]
+            *(Column(name, figures.unit(name), _digits(value)) for name, value in most.items())]
 
 
-def _digits(values):
-    most = max((abs(value) for value in values if isinstance(value, float)), default=0)
+def _digits(most):
     return min(max(_DIGITS - 1 - math.floor(math.log10(most)), 0), 9) if most else 0
 
 

@@ -29,10 +29,8 @@ class Run:
 
     def take(self, stats, names):
         """Raises a KeyError, TypeError or ValueError for counters that do not have all that they should."""
-        structure = stats["options"]["structure"]
-        self.figures, self.prices = {name: figures.value(stats, name) for name in names}, []
-        if stats["runner"] == "virtual":
-            self.prices = price_notes(stats["machine"], [structure])
+        self.figures = {name: figures.value(stats, name) for name in names}
+        self.prices = price_notes(stats["machine"], [stats["options"]["structure"]]) if stats["runner"] == "virtual" else []
 
 
 class Sweep:
@@ -44,16 +42,14 @@ class Sweep:
         self.variations = [Variation(text) for text in options.vary]
         values = itertools.product(*(variation.cells for variation in self.variations))
         self.runs = [Run([os.fsdecode(word) for word in plan.split(b"\0")], each) for plan, each in zip(plans, values)]
-        self._schema, self.table, self.done = schema, Table(options.title, (), messages.row), []
+        self._known, self.table, self.done = figures.known(schema), Table(options.title, (), messages.row), []
 
     def measure(self):
         """Adds the rows as their runs end. Raises NothingFits once all rows are there, if none has figures."""
-        known = figures.known(self._schema)
         try:
-            self.names = columns.names(self._options, self.variations, known)
+            self._most = dict.fromkeys(columns.names(self._options, self.variations, self._known), 0)
         except program.UsageError as error:
             raise program.UsageError(f"{error}\nTry: dmpc study sweep --help") from error
-        self.numbers = [name for name in self.names if known[name]]
         kept = Kept(self._options.runs, self._options.source, self._messages.say) if self._options.runs else None
         for run in self.runs if kept else ():
             self._find(run, kept)
@@ -65,7 +61,7 @@ class Sweep:
 
     def _find(self, run, kept):
         try:
-            run.take(kept.find(run.line[1:]), self.names)
+            run.take(kept.find(run.line[1:]), self._most)
             run.is_kept = True
         except (KeyError, TypeError, ValueError, AttributeError):
             run.figures = None
@@ -83,15 +79,21 @@ class Sweep:
             return run
         except program.InputError as error:
             raise program.InputError(f"the run with {run.varied} failed: {error}") from error
-        run.take(stats, self.names)
+        run.take(stats, self._most)
         if kept:
             kept.keep(run.line[1:], stats)
         return run
 
     def _add(self, run):
         self.done.append(run)
-        self.table.columns = columns.of(self.variations, self.names, self.done)
-        self.table.add([*run.values, *(run.figures[name] if run.figures else None for name in self.names)])
+        cells = [run.figures[name] if run.figures else None for name in self._most]
+        for name, cell in zip(self._most, cells):
+            self._most[name] = max(self._most[name], abs(cell) if isinstance(cell, float) else 0)
+        self.table.columns = columns.of(self.variations, self._most)
+        self.table.add([*run.values, *cells])
+
+    def plots(self):
+        return list(columns.plots(self._options.scene, self.variations, [name for name in self._most if self._known[name]]))
 
     def notes(self):
         """Below the table."""
@@ -107,11 +109,10 @@ def main(words):
     messages = output.Messages(options)
     with output.scratch_folder():
         sweep = Sweep(options, messages)
-        drawn = lambda: list(columns.plots(options.scene, sweep.variations, sweep.numbers))  # noqa: E731
         status = output.run(sweep.measure, sweep.table, options, messages, sweep.notes,
-                            lambda: plots.write(options.plots, "sweep", sweep.table, drawn()))
+                            lambda: plots.write(options.plots, "sweep", sweep.table, sweep.plots()))
         if options.report and sweep.done:
-            status = output.write(page.of_table(sweep.table, drawn()), options.report, messages, "--report") or status
+            status = output.write(page.of_table(sweep.table, sweep.plots()), options.report, messages, "--report") or status
     return status
 
 

@@ -64,10 +64,10 @@ class Kept:
         """Builds the database of this name by these words, unless it is kept, or small. Raises a program.Error as dmpc build does."""
         path = self._folder / name
         if name not in self._databases and not _is_current(path):
-            for old in self._folder.glob(name.rpartition("-")[0] + "-*.pages"):  # of what the scene was before, or odd
-                self._say(f"{old}: it is built again")
-                old.unlink()
             with self._replacing(path) as new:
+                for old in self._folder.glob(name.rpartition("-")[0] + "-*.pages"):  # of what the scene was before, or odd
+                    self._say(f"{old}: it is built again")
+                    old.unlink()
                 program.run(["build", scene, *words, "--quiet", "-o", str(new)])
                 if new.stat().st_size < DATABASE_BYTES_MIN:
                     new.unlink()
