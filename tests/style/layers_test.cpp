@@ -108,7 +108,7 @@ const std::vector<Foreign> foreign = {
     {"nlohmann/",
      {"apps/frontend/show/stats/", "apps/frontend/show/page/map_data.", "apps/frontend/line/description_json.cpp",
       "apps/show/stats/", "apps/show/page/", "apps/frontend/machine/machine_file.", "apps/frontend/table/table.cpp",
-      "apps/frontend/table/plot_data.cpp", "apps/lab/compare/command.cpp", "apps/lab/figures/",
+      "apps/frontend/table/plot_data.", "apps/lab/compare/command.cpp", "apps/lab/figures/",
       "apps/lab/oracle/places/gltf_places.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
       "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/", "tests/mpi/launched/"}},
     {"oneapi/",

@@ -28,19 +28,16 @@ class DrawnPlot {
   PlotExtent span_of_x() const;
   PlotExtent span_of_y() const;
 
- protected:
+ private:
   static std::vector<std::string> ends_of(const PlotSeries& series);
-  const std::string& unit_of(const std::string& column) const { return table_.columns()[number_of_column(table_, column)].unit; }
+  bool is_any_meant(const std::vector<Cell>& row) const;
+  std::string place_in(const std::vector<Cell>& row) const;
 
   const Plot& plot_;
   const Table& table_;
   bool is_bars_ = false;
   std::vector<const PlotSeries*> drawn_;  ///< series that have a row
   std::vector<std::string> places_;       ///< names of bars
-
- private:
-  bool is_any_meant(const std::vector<Cell>& row) const;
-  std::string place_in(const std::vector<Cell>& row) const;
 };
 
 }  // namespace dmpc::apps

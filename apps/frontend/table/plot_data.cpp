@@ -20,14 +20,6 @@ json axis_of(const std::string& label, const Column& column) {
   return {{"label", label}, {"unit", column.unit}, {"digits", column.digits}};
 }
 
-json json_of(const std::vector<Tick>& ticks) {
-  json all = json::array();
-  for (const Tick& tick : ticks) {
-    all.push_back({tick.position, tick.text});
-  }
-  return all;
-}
-
 json axis_of(const PlotAxis& axis, const Column& column, const ShownAxis& shown) {
   json made = axis_of(axis.label, column);
   made.update(
@@ -48,6 +40,14 @@ json row_of(const DrawnPlot& drawn, const PlotSeries& series, const std::vector<
 std::string text_of(const json& data) { return data.dump(-1, ' ', true, json::error_handler_t::replace); }
 
 }  // namespace
+
+json json_of(const std::vector<Tick>& ticks) {
+  json all = json::array();
+  for (const Tick& tick : ticks) {
+    all.push_back({tick.position, tick.text});
+  }
+  return all;
+}
 
 std::optional<std::string> plot_data(const Plot& plot, const Table& table) {
   const DrawnPlot drawn(plot, table);

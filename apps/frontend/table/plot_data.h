@@ -1,9 +1,12 @@
 // A plot as a page's script (plot.js) and Python (dmpc.plotting) draw it.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "apps/frontend/line/amount.h"
 #include "apps/frontend/table/plot.h"
 #include "apps/frontend/table/table.h"
 
@@ -16,5 +19,8 @@ namespace dmpc::apps {
 /// - series: [{name, color, mark, unit, digits, rows}]; a row: x, or the number of its place, y, and for intervals and bands the
 ///   two ends, for bands also those of the box
 std::optional<std::string> plot_data(const Plot& plot, const Table& table);
+
+/// Returns [[position, text]].
+nlohmann::json json_of(const std::vector<Tick>& ticks);
 
 }  // namespace dmpc::apps

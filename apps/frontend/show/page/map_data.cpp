@@ -7,6 +7,7 @@
 
 #include "apps/frontend/line/amount.h"
 #include "apps/frontend/system/base64.h"
+#include "apps/frontend/table/plot_data.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::html {
@@ -14,14 +15,6 @@ namespace dmpc::apps::html {
 namespace {
 
 using nlohmann::json;
-
-json json_of(const std::vector<Tick>& ticks) {
-  json all = json::array();
-  for (const Tick& tick : ticks) {
-    all.push_back({tick.position, tick.text});
-  }
-  return all;
-}
 
 /// Round times within a map's columns.
 std::vector<Tick> column_ticks(const NumberMap& map, double column_ns) {
