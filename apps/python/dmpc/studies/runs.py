@@ -102,7 +102,7 @@ class Runs:
         try:
             one = {"line": line, **self._figures(program.counters(words, notes.append))}
         except program.CapacityError as error:
-            why = str(error).splitlines()[-1].removeprefix("dmpc: ").rstrip(".")
+            why = reason_of(error)
             if why.startswith(_OF_THIS_COMPUTER):
                 raise
             one = {"line": line, "misfit": why}
@@ -142,6 +142,11 @@ def at(tree, path):
 def line_of(words):
     """A command line as it is kept: words that have blanks or marks are quoted as a shell wants them."""
     return shlex.join(words)
+
+
+def reason_of(error):
+    """Of a CapacityError, as part of a sentence: what dmpc says last, below its notes."""
+    return str(error).splitlines()[-1].removeprefix("dmpc: ").rstrip(".")
 
 
 def seconds_of(result):

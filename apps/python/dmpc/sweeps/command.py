@@ -7,7 +7,7 @@ import pathlib
 
 from .. import program
 from ..studies import output, page, plots
-from ..studies.runs import CORES, side_by_side
+from ..studies.runs import CORES, reason_of, side_by_side
 from ..studies.subject import price_notes
 from ..studies.table import Table
 from . import columns, figures
@@ -75,7 +75,7 @@ class Sweep:
         try:
             stats = program.counters(["render", str(scene), *run.line[2:], "--quiet"])
         except program.CapacityError as error:
-            run.misfit = str(error).splitlines()[-1].removeprefix("dmpc: ").rstrip(".")
+            run.misfit = reason_of(error)
             return run
         except program.InputError as error:
             raise program.InputError(f"the run with {run.varied} failed: {error}") from error

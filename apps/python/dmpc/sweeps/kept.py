@@ -31,6 +31,7 @@ class Kept:
         companions = [each for place in places for pattern in _COMPANIONS for each in sorted(place.glob(pattern))]
         self._common = [source.encode(), *map(_digest, [path, *companions])]
         self._databases = {}  # None for one that is small
+        self._named = {}  # digests of files by their names in options: several runs name one
 
     def _path(self, words):
         """Of a run's counters."""
@@ -41,8 +42,13 @@ class Kept:
             if named.startswith("python:"):
                 named = named.removeprefix("python:").rpartition(":")[0]
             if os.path.isfile(named) and os.access(named, os.R_OK):
-                digest.update(_digest(named))
+                digest.update(self._digest_of(named))
         return self._folder / f"{digest.hexdigest()[:32]}.json"
+
+    def _digest_of(self, named):
+        if named not in self._named:
+            self._named[named] = _digest(named)
+        return self._named[named]
 
     def find(self, words):
         """The counters of a run, if there are any that can be read."""
