@@ -128,7 +128,7 @@ class TableTest(FolderTest):
             self.assertTrue(note.startswith(f"{machine} has prices for other structures"))
 
     def test_models_run_side_by_side_and_threads_one_after_the_other(self):
-        for runner, are_beside in (("virtual", kept.os.sched_getaffinity(0) != {0}), ("threads", False)):
+        for runner, are_beside in (("virtual", len(os.sched_getaffinity(0)) > 1), ("threads", False)):
             self.calls.write_text("")
             table("--vary=depth:1,2,3", f"--runner={runner}", start=TINY[:2], renders=self.calling("sleep 0.3"))
             self.assertEqual("begin render\nbegin" in self.calls.read_text(), are_beside)

@@ -7,7 +7,6 @@ runs at a time; `notes` above what the runs say; and `plots`.
 
 import argparse
 import importlib
-import tempfile
 
 from ..studies import output, plots
 from ..studies.subject import Subject
@@ -22,7 +21,7 @@ def main(words):
     messages = output.Messages(options)
     table = Table("", study.columns(options), messages.row)
     picture = [word for word in given if word.split("=")[0] not in (*_DATABASE, *study.RUN)]
-    with tempfile.TemporaryDirectory(prefix="dmpc-study-") as folder:
+    with output.scratch_folder() as folder:
         subject = Subject(options.scene, picture, options.machine, folder, messages, study.figures, study.JOBS)
         subject.databases["scene"] = [word for word in given if word.split("=")[0] in _DATABASE]
         options.run = [word for word in given if word.split("=")[0] in study.RUN]

@@ -6,10 +6,9 @@ import copy
 import json
 import pathlib
 import re
-import tempfile
 
 from .. import program
-from ..studies.output import INTERRUPTED, Messages, take_signals
+from ..studies.output import INTERRUPTED, Messages, scratch_folder, take_signals
 from ..studies.runs import CORES, Runs
 from . import catalogue, price_tables, sensitivity, tables
 from .claims import claims
@@ -29,7 +28,7 @@ def main(words):
     kept = ()
     with contextlib.ExitStack() as stack:
         try:
-            folder = _own(options.output or stack.enter_context(tempfile.TemporaryDirectory(prefix="dmpc-")))
+            folder = _own(options.output or stack.enter_context(scratch_folder()))
             kept = Runs(folder, options.jobs, figures_of, catalogue.database_words, messages.say, messages.progress)
             report = study(kept, options.resolution, options.sensitivity)
             print(report.markdown(), end="", flush=True)

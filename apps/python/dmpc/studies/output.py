@@ -85,13 +85,13 @@ def run(measure, rows, options, messages, closing=lambda: (), draw=lambda: None)
 
 @contextlib.contextmanager
 def scratch_folder():
-    """For all temporary files of this program, which go with it even if it is killed: then by a shell, which waits for its end."""
+    """For all temporary files of this program, which go with it even if it is killed: then by a shell, which waits for its end. The path."""
     with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
         heir = subprocess.Popen(["/bin/sh", "-c", _HEIR, "dmpc-heir", folder], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL, start_new_session=True)
         tempfile.tempdir = folder
         try:
-            yield
+            yield folder
         finally:
             tempfile.tempdir = None
             heir.kill()

@@ -35,8 +35,8 @@ class Plot:
     is_log: bool = False
 
 
-_PART_WORDS = {"data_wait": "page wait", "other_wait": "other waits", "service_busy": "service while busy by others' requests",
-               "service_idle": "lent to others' requests"}
+_PART_WORDS = {"data_wait": "page wait", "other_wait": "other waits", "service_busy": "service while busy",
+               "service_idle": "service while idle"}
 
 
 def of_parts(name, title, places, parts=PARTS):

@@ -1,7 +1,6 @@
 """The command line of dmpc study systems: its table, and what its notes say."""
 
 import argparse
-import tempfile
 
 from .. import program
 from ..studies import output, plots
@@ -16,7 +15,7 @@ def main(words):
     options, picture = _parse(words)
     messages = output.Messages(options)
     table = Table("", rows.COLUMNS, messages.row)
-    with tempfile.TemporaryDirectory(prefix="dmpc-study-") as folder:
+    with output.scratch_folder() as folder:
         subject = Subject(options.scene, picture, options.machine, folder, messages)
         return output.run(lambda: _measure(options, subject, table), table, options, messages,
                           lambda: [*subject.price_notes(), subject.film_note()],
