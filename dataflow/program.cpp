@@ -382,7 +382,7 @@ class RayProgram final : public NodeProgram {
   void go_on() {
     if (!task_.has_rays() && !task_.has_ended()) {
       task_.next_children(
-          tracer_, constants_->settings, operations_, [this](const auto& make) { shoot(make); },
+          tracer_, constants_->settings, operations_, [this](const auto& make) { this->shoot(make); },
           [this](const core::Ray& ray, const core::Color& light) { leave_light(ray, light); });
     }
     trace();

@@ -19,7 +19,6 @@ using Rows = std::array<std::array<float, leaf_lanes>, 9>;
 PlacedMesh::PlacedMesh(const InstanceRecord& instance, const GridFrame& frame)
     : world_(transform_of(instance)),
       world_normals_(world_.of_normals()),
-      frame_(frame),
       placing_(world_, frame),
       unit_(double{instance.unit}),
       first_(instance.first),

@@ -29,7 +29,6 @@ class PlacedMesh {
 
  private:
   Transform world_, world_normals_;
-  const GridFrame& frame_;
   Placing placing_;
   double unit_;
   std::uint32_t first_;
