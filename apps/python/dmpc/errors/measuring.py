@@ -1,0 +1,167 @@
+"""The renders of one scene: every setting once a round, and its picture against the scene's reference."""
+
+import json
+import math
+import pathlib
+from array import array
+from dataclasses import dataclass, field
+
+from .. import program
+from . import curves, pictures
+from .points import Setting, Sweep
+
+_OF_RUNS = ("--strategy", "--nodes")  # which dmpc build does not take
+_DATABASES = {"forest": ["--structure=extents", "--page-size=4KiB"]}  # by strategy, as dmpc render has it by default
+
+
+@dataclass
+class Measurement:
+    """Of one setting. `seconds` are those of processor time in the phase `render`, by round: without one nothing is measured yet. `error`
+    is against the reference, whose own error is a part of it; `deterministic`, if there is one, against the base point's picture, if that
+    has the same samples."""
+    setting: Setting
+    seconds: list = field(default_factory=list)
+    rays: int = 0
+    samples: int = 0  # of all pixels
+    film: str = ""
+    error: dict = None
+    squares: list = None
+    deterministic: dict = None
+
+    @property
+    def least(self):
+        """Other processes can only add to it."""
+        return min(self.seconds)
+
+
+class Reference:
+    """The file that dmpc has made of a scene (apps/lab/bench/error/command.cpp)."""
+
+    def __init__(self, path, samples_a_side):
+        with open(path, "rb") as file:
+            told = dict(word.split("=") for word in file.readline().decode().split())
+            floats = array("f", file.read())
+        self.samples_a_side = samples_a_side
+        self.width, self.height, self.rays, self.emitters = (int(told[name]) for name in ("width", "height", "rays", "emitters"))
+        self.seconds, self.own_error, self.own_relative = (float(told[name]) for name in
+                                                           ("seconds", "own_error", "own_relative_mean_square"))
+        self.tessellations = tuple(map(int, filter(None, told["tessellations"].split(","))))
+        count = 3 * self.pixels
+        self.mean, self.half_difference, self.in_double = (floats[count * part:count * (part + 1)] for part in range(3))
+
+    @property
+    def pixels(self):
+        return self.width * self.height
+
+
+class Result:
+    """Of one scene: `points`, and the `measurements` of their settings by setting, in the order in which they are made."""
+
+    def __init__(self, scene, reference, base):
+        self.scene, self.reference, self.base = scene, reference, base
+        self.points, self.measurements, self.arithmetic = [], {}, None
+
+    def of(self, point):
+        return self.measurements[point.setting]
+
+    def done(self):
+        return [one for one in self.measurements.values() if one.seconds]
+
+    def is_told(self, measurement):
+        """Errors below the reference's own are not drawn, compared or on a front."""
+        error = curves.error_of(measurement.squares) if measurement.seconds else 0
+        return math.isfinite(error) and error > 0 and error >= self.reference.own_error
+
+
+class Bench:
+    """`words` are those of all renders, `folder` is for databases and pictures, `reported` is called with each measurement once it is
+    there."""
+
+    def __init__(self, result, options, words, folder, messages, reported):
+        self._result, self._options, self._messages, self._reported = result, options, messages, reported
+        self._run = [word for word in words if word.split("=")[0] in _OF_RUNS]
+        self._picture = [word for word in words if word not in self._run]
+        self._folder, self._databases, self._has_base = pathlib.Path(folder), {}, False
+        reference = result.reference
+        self._groups = pictures.groups_of(reference.pixels)
+        for name, floats in (("reference", reference.mean), ("double", reference.in_double)):
+            if floats:
+                pictures.write_pfm(self._folder / f"{name}.pfm", reference.width, reference.height, floats)
+
+    def measure(self):
+        result, reference = self._result, self._result.reference
+        sweep = Sweep(result.base, reference.tessellations, reference.emitters, self._options.quick)
+        self._add(sweep.points(self._options.knobs & {"samples"}))
+        for measurement in list(result.measurements.values()):
+            self._measure(measurement)
+        self._add(sweep.points(self._options.knobs - {"samples"}, self._least_error()))
+        count = len(result.measurements)
+        for turn in range(self._options.repeat):
+            for index, measurement in enumerate(result.measurements.values()):
+                self._messages.progress(turn * count + index, self._options.repeat * count)
+                if len(measurement.seconds) <= turn:
+                    self._measure(measurement)
+        self._messages.progress(1, 1)
+
+    def _add(self, points):
+        """The base point is measured first, if it is among the first points: others are compared with its picture."""
+        measurements = self._result.measurements
+        settings = [point.setting for point in points]
+        if not measurements and self._result.base in settings:
+            settings.insert(0, self._result.base)
+        for setting in settings:
+            measurements.setdefault(setting, Measurement(setting))
+        self._result.points += points
+
+    def _least_error(self):
+        """Adaptive sampling is asked for no error that the reference cannot tell, or that uniform samples do not reach."""
+        told = [curves.error_of(one.squares) for one in self._result.measurements.values() if self._result.is_told(one)]
+        return max(min(told, default=0) / curves.REACH, self._result.reference.own_error)
+
+    def _measure(self, measurement):
+        picture = self._folder / "picture.exr"
+        stats = self._render(measurement.setting, picture)
+        if not measurement.seconds:
+            measurement.rays, measurement.samples = stats["rays"]["total"], stats["sampling"]["samples"]
+            measurement.film = stats["film_hash"]
+            self._judge(measurement, picture)
+        elif measurement.film != stats["film_hash"]:
+            raise program.InternalError(f"this is a bug in dmpc, please report it: {measurement.setting} gives several films")
+        measurement.seconds.append(stats["seconds"]["render_user"] + stats["seconds"]["render_system"])
+        if len(measurement.seconds) == 1:
+            self._reported(measurement)
+
+    def _judge(self, measurement, picture):
+        setting, reference, base = measurement.setting, self._result.reference, self._folder / "base.exr"
+        if setting == self._result.base:
+            picture = picture.rename(base)
+            self._has_base = True
+            if reference.in_double:
+                self._result.arithmetic = pictures.difference(picture, self._folder / "double.pfm")
+        measurement.error = pictures.difference(picture, self._folder / "reference.pfm")
+        measurement.squares = pictures.square_errors(pictures.read_exr(picture), reference.mean, reference.half_difference,
+                                                     self._groups)
+        if self._has_base and not setting.is_by_paths and not setting.is_refined and setting.samples == self._result.base.samples:
+            measurement.deterministic = pictures.difference(picture, base)
+
+    def _render(self, setting, picture):
+        """Its counters."""
+        stats = self._folder / "stats.json"
+        program.run(["render", str(self._database(setting)), *self._of_picture(setting), *setting.words(), *self._run, "--quiet",
+                     f"--stats={stats}", f"--output={picture}"])
+        return json.loads(stats.read_bytes())
+
+    def _of_picture(self, setting):
+        return [*self._picture, *([f"--emitters={setting.emitters}"] if setting.is_by_paths else [])]
+
+    def _database(self, setting):
+        """The path of the setting's database, which is built if there is none; what dmpc notes of the scene is said once."""
+        key = setting.tessellation, setting.emitters
+        if key not in self._databases:
+            path = self._folder / f"scene-{len(self._databases)}.pages"
+            scene = self._result.scene + (f"-t{setting.tessellation}" if setting.tessellation else "")
+            layout = _DATABASES.get(self._options.strategy, [])
+            noted = {} if self._databases else {"noted": self._messages.say}
+            program.run(["build", scene, *self._of_picture(setting), *self._result.base.words(), *layout, "--quiet", "-o", str(path)], **noted)
+            self._databases[key] = path
+        return self._databases[key]
