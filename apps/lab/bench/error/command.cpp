@@ -14,6 +14,7 @@
 #include "apps/frontend/system/real_load.h"
 #include "apps/frontend/table/table_files.h"
 #include "apps/lab/bench/error/path_reference.h"
+#include "apps/picture/image_file.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -174,9 +175,7 @@ Words words_of(const OptionSet& set, const ErrorOptions& options) {
   return words;
 }
 
-std::string bytes_of(const Image& image) {
-  return {reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size() * sizeof(float)};
-}
+std::string file_of(const Image& image) { return file_for_python(encoded_picture("picture.exr", image)); }
 
 /// Computes the references of one scene.
 class ReferenceMaker {
@@ -189,18 +188,21 @@ class ReferenceMaker {
         interrupt_(interrupt),
         subject_(build_subject_quietly(scene, picture, usual_database(options.strategy.strategy))) {}
 
-  /// Returns a line of figures by name, and then floats row by row from the top left: the reference, half the difference of its
-  /// halves, and with the knob `arithmetic` the base point in double precision, sample by sample.
-  std::string file() const {
+  /// Returns figures by name, and files of pictures: the reference, half the difference of its halves, and with the knob
+  /// `arithmetic` the base point in double precision, sample by sample.
+  std::string figures() const {
     const Reference found = reference();
-    const std::string text =
-        "width=" + std::to_string(found.picture.width) + " height=" + std::to_string(found.picture.height) +
-        " rays=" + std::to_string(found.rays) + " seconds=" + shortest(found.seconds) +
-        " own_error=" + shortest(found.own_error) + " own_relative_mean_square=" + shortest(found.own_relative_mean_square) +
-        " emitters=" + std::to_string(subject_.settings.header.emitter_count) + " tessellations=" +
-        joined(tessellations_of(picture_.scene, options_.is_quick), ",", [](int n) { return std::to_string(n); }) + "\n";
-    return text + bytes_of(found.picture) + bytes_of(found.difference) +
-           (is_among(options_.knobs, "arithmetic") ? bytes_of(in_double()) : "");
+    Words files = {file_of(found.picture), file_of(found.difference)};
+    if (is_among(options_.knobs, "arithmetic")) {
+      files.push_back(file_of(in_double()));
+    }
+    const std::vector<int> tessellations = tessellations_of(picture_.scene, options_.is_quick);
+    return "width=" + std::to_string(found.picture.width) + " height=" + std::to_string(found.picture.height) +
+           " rays=" + std::to_string(found.rays) + " seconds=" + shortest(found.seconds) +
+           " own_error=" + shortest(found.own_error) + " own_relative=" + shortest(found.own_relative_mean_square) +
+           " emitters=" + std::to_string(subject_.settings.header.emitter_count) +
+           " tessellations=" + joined(tessellations, ",", [](int n) { return std::to_string(n); }) +
+           " pictures=" + joined(files, ",");
   }
 
  private:
@@ -240,15 +242,15 @@ class ReferenceMaker {
 };
 
 /// Messages about the scene are left to the build of its database, in Python.
-std::string reference_file(const std::string& name, const ErrorOptions& options, const std::vector<NamedFile>& outputs,
-                           const Interrupt& interrupt) {
+std::string reference_figures(const std::string& name, const ErrorOptions& options, const std::vector<NamedFile>& outputs,
+                              const Interrupt& interrupt) {
   PictureOptions picture = options.picture;
   picture.scene = name;
   OpenedFiles opened;
   const core::Scene scene = load_scene(picture, LoadNotes::silent, &opened);
   check_not_read(opened, outputs);
   picture.resolution = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
-  return file_for_python(ReferenceMaker(scene, picture, options, interrupt).file());
+  return ReferenceMaker(scene, picture, options, interrupt).figures();
 }
 
 /// Declares the options for what is varied and what is not.
@@ -338,7 +340,7 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
   words.push_back("--load=" + fixed(machine_load(), 1));
   words.push_back("--title=" + title_of(options));
   for (const std::string& scene : options.scenes) {
-    words.push_back("--reference=" + reference_file(scene, options, files.names(), interrupt));
+    words.push_back("--reference=" + reference_figures(scene, options, files.names(), interrupt));
   }
   words.insert(words.end(), options.scenes.begin(), options.scenes.end());
   output.flush();

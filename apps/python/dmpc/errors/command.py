@@ -2,7 +2,6 @@
 
 import argparse
 import os
-import pathlib
 import re
 import tempfile
 
@@ -12,8 +11,8 @@ from .measuring import Bench, Reference, Result
 from .points import KNOBS, Setting
 from .table import ErrorTable, plots_of
 
-_EXPLAINED = "Errors are RMSEs without the reference's own, whose square is subtracted, with an interval of 95 % by how much 64 groups of " \
-             "pixels differ; an error below the reference's own is not told, drawn or compared."
+_EXPLAINED = "Errors are RMSEs without the reference's own, whose square is subtracted, with an interval of 95 % by how much 64 groups " \
+             "of pixels differ; an error below the reference's own is not told, drawn or compared."
 _TIMED = "Seconds are processor time. Shares at equal error are interpolated in logarithms; their intervals have the groups' differences " \
          "and the rounds' least and most."
 _ASKED = "Adaptive sampling is asked for no error below the reference's own, or that uniform samples do not reach."
@@ -31,8 +30,8 @@ def main(words):
 
     def measure():
         try:
-            for scene, path in zip(options.scene, options.reference):
-                results.append(result := Result(scene, Reference(path, options.reference_samples), base))
+            for scene, figures in zip(options.scene, options.reference):
+                results.append(result := Result(scene, Reference(figures, options.reference_samples), base))
                 with tempfile.TemporaryDirectory(prefix="dmpc-error-") as folder:
                     Bench(result, options, render, folder, messages, shown(result)).measure()
         finally:
@@ -42,7 +41,7 @@ def main(words):
 
     def notes():
         load = f"Load of the machine, whose cores are {os.cpu_count()}: {options.load} before, {os.getloadavg()[0]:.1f} after."
-        return [*_explanations(are_by_paths), *(text for result in results if result.done() for text in findings_of(result)), load]
+        return [*_explanations(are_by_paths), *(text for result in results for text in findings_of(result)), load]
 
     def draw():
         for result in results:
@@ -70,7 +69,7 @@ def _parse(words):
     parser = argparse.ArgumentParser(prog="dmpc bench error", allow_abbrev=False)
     parser.add_argument("--knobs", type=lambda text: {knob for knob in KNOBS if knob in text.split(",")})
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--reference", action="append", type=pathlib.Path)
+    parser.add_argument("--reference", action="append")
     for name in ("samples", "repeat", "reference-samples", "depth", "bounces", "emitters"):
         parser.add_argument("--" + name, type=int)
     for name in ("title", "load"):

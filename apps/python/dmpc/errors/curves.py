@@ -16,7 +16,8 @@ def error_of(squares, left_out=None):
 
 
 def interval(squares):
-    """Low, middle and high of an error above 0: in proportion, of 95 % of the groups' sum, two standard deviations by how much they differ."""
+    """Low, middle and high of an error above 0, in proportion of 95 % of the groups' sum: two standard deviations, by how much they
+    differ."""
     error = error_of(squares)
     mean = error * error / GROUPS
     variance = sum((square - mean) * (square - mean) * GROUPS / (GROUPS - 1) for square in squares)

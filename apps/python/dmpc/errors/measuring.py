@@ -3,7 +3,7 @@
 import json
 import math
 import pathlib
-from array import array
+import shutil
 from dataclasses import dataclass, field
 
 from .. import program
@@ -35,19 +35,15 @@ class Measurement:
 
 
 class Reference:
-    """The file that dmpc has made of a scene (apps/lab/bench/error/command.cpp)."""
+    """What dmpc has made of a scene and told: figures by name, and files of pictures (apps/lab/bench/error/command.cpp)."""
 
-    def __init__(self, path, samples_a_side):
-        with open(path, "rb") as file:
-            told = dict(word.split("=") for word in file.readline().decode().split())
-            floats = array("f", file.read())
+    def __init__(self, figures, samples_a_side):
+        told = dict(figure.split("=") for figure in figures.split(" "))
         self.samples_a_side = samples_a_side
         self.width, self.height, self.rays, self.emitters = (int(told[name]) for name in ("width", "height", "rays", "emitters"))
-        self.seconds, self.own_error, self.own_relative = (float(told[name]) for name in
-                                                           ("seconds", "own_error", "own_relative_mean_square"))
+        self.seconds, self.own_error, self.own_relative = (float(told[name]) for name in ("seconds", "own_error", "own_relative"))
         self.tessellations = tuple(map(int, filter(None, told["tessellations"].split(","))))
-        count = 3 * self.pixels
-        self.mean, self.half_difference, self.in_double = (floats[count * part:count * (part + 1)] for part in range(3))
+        self.files = told["pictures"].split(",")  # it, half the difference of its halves, and the base point in double precision
 
     @property
     def pixels(self):
@@ -84,9 +80,10 @@ class Bench:
         self._folder, self._databases, self._has_base = pathlib.Path(folder), {}, False
         reference = result.reference
         self._groups = pictures.groups_of(reference.pixels)
-        for name, floats in (("reference", reference.mean), ("double", reference.in_double)):
-            if floats:
-                pictures.write_pfm(self._folder / f"{name}.pfm", reference.width, reference.height, floats)
+        self._references = [self._folder / f"reference-{part}.exr" for part in range(len(reference.files))]
+        for file, copy in zip(reference.files, self._references):  # which other processes can read
+            shutil.copyfile(file, copy)
+        self._halves = [pictures.read_exr(copy) for copy in self._references[:2]]
 
     def measure(self):
         result, reference = self._result, self._result.reference
@@ -132,15 +129,14 @@ class Bench:
             self._reported(measurement)
 
     def _judge(self, measurement, picture):
-        setting, reference, base = measurement.setting, self._result.reference, self._folder / "base.exr"
+        setting, base = measurement.setting, self._folder / "base.exr"
         if setting == self._result.base:
             picture = picture.rename(base)
             self._has_base = True
-            if reference.in_double:
-                self._result.arithmetic = pictures.difference(picture, self._folder / "double.pfm")
-        measurement.error = pictures.difference(picture, self._folder / "reference.pfm")
-        measurement.squares = pictures.square_errors(pictures.read_exr(picture), reference.mean, reference.half_difference,
-                                                     self._groups)
+            for in_double in self._references[2:]:
+                self._result.arithmetic = pictures.difference(picture, in_double)
+        measurement.error = pictures.difference(picture, self._references[0])
+        measurement.squares = pictures.square_errors(pictures.read_exr(picture), *self._halves, self._groups)
         if self._has_base and not setting.is_by_paths and not setting.is_refined and setting.samples == self._result.base.samples:
             measurement.deterministic = pictures.difference(picture, base)
 
@@ -155,13 +151,15 @@ class Bench:
         return [*self._picture, *([f"--emitters={setting.emitters}"] if setting.is_by_paths else [])]
 
     def _database(self, setting):
-        """The path of the setting's database, which is built if there is none; what dmpc notes of the scene is said once."""
+        """The path of the setting's database, which is built if there is none; what dmpc notes of the scene is said once. It keeps the
+        options that it is built with, which --quality would not replace."""
         key = setting.tessellation, setting.emitters
         if key not in self._databases:
             path = self._folder / f"scene-{len(self._databases)}.pages"
             scene = self._result.scene + (f"-t{setting.tessellation}" if setting.tessellation else "")
             layout = _DATABASES.get(self._options.strategy, [])
             noted = {} if self._databases else {"noted": self._messages.say}
-            program.run(["build", scene, *self._of_picture(setting), *self._result.base.words(), *layout, "--quiet", "-o", str(path)], **noted)
+            program.run(["build", scene, *self._of_picture(setting), f"--samples={self._result.base.samples}", *layout,
+                         f"--output={path}"], **noted)
             self._databases[key] = path
         return self._databases[key]

@@ -15,7 +15,7 @@ _BITS = (1 << 64) - 1
 
 
 def read_exr(path):
-    """A file that dmpc render wrote: channels B, G and R of floats, in blocks of rows that zlib has packed where that saved room."""
+    """A file that dmpc wrote: channels B, G and R of floats, in blocks of rows that zlib has packed where that saved room."""
     data, at, found = path.read_bytes(), 8, {}
     while data[at]:
         name, kind, _ = data[at:at + 512].split(b"\0", 2)
@@ -45,12 +45,6 @@ def _joined(split):
     return bytes(whole)
 
 
-def write_pfm(path, width, height, floats):
-    """From the lowest row up, as that format has it."""
-    rows = [floats[3 * width * row:3 * width * (row + 1)].tobytes() for row in reversed(range(height))]
-    path.write_bytes(b"PF\n%d %d\n-1.0\n" % (width, height) + b"".join(rows))
-
-
 def groups_of(pixels):
     """The group of each channel of so many pixels."""
     return [group for pixel in range(pixels) for group in [_mixed(pixel) % GROUPS] * 3]
@@ -65,8 +59,8 @@ def _mixed(value):
 
 def square_errors(picture, mean, half_difference, groups):
     """The mean square error by group, without the reference's own error: sums of (P - A)(P - B) over channels, divided by the number of all
-    channels, for a reference with the halves A and B. Both have independent errors, so the groups' sum is on average that of P alone; it can
-    be below 0."""
+    channels, for a reference with the halves A and B. Both have independent errors, so the groups' sum is on average that of P alone; it
+    can be below 0."""
     squares, channels = [0.0] * GROUPS, len(groups)
     for group, value, middle, off in zip(groups, picture, mean, half_difference):
         squares[group] += ((value - middle) * (value - middle) - off * off) / channels

@@ -9,7 +9,7 @@ _QUICK_ERRORS = 5  # the smallest
 _CUTOFFS = ("1/64", "1/255", "1/512", "1/1024", "1/4096", "0")
 _DEPTHS = (1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64, 128)
 _BOUNCES = (0, 1, 2, 3, 4, 6, 8, 12, 16, 32, 64, 128)
-_SAMPLES_MAX = "--samples-max=4096"  # of a mesh file, too
+_SAMPLES_MAX = ["--samples-max=4096"]  # of a mesh file, too
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,10 @@ class Setting:
 
     def words(self):
         """Those of dmpc render, but for the scene's."""
-        if self.quality:
-            return [f"--quality={self.quality}", _SAMPLES_MAX, f"--depth={self.depth}"]
-        samples = ["--samples=auto", f"--error={self.error}", _SAMPLES_MAX] if self.error else [f"--samples={self.samples}"]
-        light = [f"--bounces={self.bounces}"] if self.is_by_paths else [f"--depth={self.depth}", f"--cutoff={self.cutoff}"]
-        return [*samples, *light]
+        asked = [f"--quality={self.quality}"] if self.quality else [f"--error={self.error}"]
+        samples = ["--samples=auto", *_SAMPLES_MAX, *asked] if self.is_refined else [f"--samples={self.samples}"]
+        cutoff = [] if self.quality else [f"--cutoff={self.cutoff}"]
+        return [*samples, *([f"--bounces={self.bounces}"] if self.is_by_paths else [f"--depth={self.depth}", *cutoff])]
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ class ErrorTable(Table):
 
     def add_results(self, result):
         """The rows of all points that are measured, in their order."""
-        fronts = _fronts(result)
+        fronts = list(_fronts(result))
         for point in result.points:
             if result.of(point).seconds:
                 self.add(self._row(result, point, ["yes" if point.setting in front else "" for front in fronts]))

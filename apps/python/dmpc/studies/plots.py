@@ -84,7 +84,8 @@ def data(plot, table):
             "x": {"label": (plot.x_label or plot.x), "log": bool(plot.x and plot.log_x), "ticks": ticks},
             "y": {"label": plot.y, "log": plot.is_log, "ticks": [], **({} if plot.is_log else {"least": 0})},
             "series": [{"name": series.label, "color": series.colour, "mark": "intervals" if series.low else mark[series.is_printed],
-                        "rows": [(place if plot.x else places.index(place), *numbers) for place, *numbers in rows]} for series, rows in found]}
+                        "rows": [(place if plot.x else places.index(place), *numbers) for place, *numbers in rows]}
+                       for series, rows in found]}
 
 
 def draw(plot, table, is_in_page=False):
