@@ -25,15 +25,13 @@ def main(words):
     base = Setting(options.samples, depth=options.depth, bounces=options.bounces, emitters=options.emitters)
     table, results = ErrorTable(options.title, are_by_paths), []
 
-    def shown(result):
-        return lambda measurement: ErrorTable("", are_by_paths, messages.row).add_first(result, measurement)
-
     def measure():
         try:
             for scene, figures in zip(options.scene, options.reference):
                 results.append(result := Result(scene, Reference(figures, options.reference_samples), base))
+                shown = ErrorTable("", are_by_paths, messages.row)
                 with tempfile.TemporaryDirectory(prefix="dmpc-error-") as folder:
-                    Bench(result, options, render, folder, messages, shown(result)).measure()
+                    Bench(result, options, render, folder, messages, lambda one: shown.add_first(result, one)).measure()
         finally:
             for result in results:
                 table.add_results(result)
@@ -75,6 +73,4 @@ def _parse(words):
     for name in ("title", "load"):
         parser.add_argument("--" + name)
     output.add_options(parser, "+")
-    options, render = parser.parse_known_args(words)
-    options.strategy = next(word.split("=")[1] for word in render if word.startswith("--strategy="))
-    return options, render
+    return parser.parse_known_args(words)

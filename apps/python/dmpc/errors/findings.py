@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from operator import attrgetter
 
 from ..studies.texts import counted
 from . import curves
@@ -9,6 +10,7 @@ from .pictures import GROUPS
 from .points import value_of
 
 _GOOD = 0.25 / 255  # a deterministic error below which nobody sees it
+_seconds, _rays = attrgetter("least"), attrgetter("rays")  # costs
 
 
 @dataclass(frozen=True)
@@ -24,14 +26,6 @@ class AdaptiveShare:
     @property
     def is_undecided(self):
         return self.low <= 1 <= self.high
-
-
-def _rays(measurement):
-    return measurement.rays
-
-
-def _seconds(measurement):
-    return measurement.least
 
 
 def _curve(result, knob, cost, left_out=None):
@@ -59,27 +53,21 @@ def adaptive_shares(result):
             return abs(math.log((_share(result, error, cost, left_out) or middle) / middle))
 
         variance = sum(distance(_seconds, group) ** 2 for group in range(GROUPS)) * (GROUPS - 1) / GROUPS
-        spread = max(distance(lambda one: one.seconds[min(turn, len(one.seconds) - 1)]) for turn in range(_rounds(result)))
+        spread = max(distance(lambda one: one.seconds[min(turn, len(one.seconds) - 1)]) for turn in range(result.rounds))
         factor = math.exp(math.hypot(2 * math.sqrt(variance), spread))
         shares.append(AdaptiveShare(point.text, middle / factor, middle, middle * factor, _share(result, error, _rays) or 0))
     return shares
 
 
-def _rounds(result):
-    return len(next(iter(result.measurements.values())).seconds)
-
-
 def shares_text(shares):
     """adaptive takes 0.83 of uniform's time at 1/255 (0.79 to 0.88); undecided ones are told as no difference."""
-    decided, undecided = [], []
-    for share in shares:
-        place = f"at {share.error} ({share.low:.2f} to {share.high:.2f})"
-        if share.is_undecided:
-            undecided.append(place.removeprefix("at ") if undecided else "no difference that this run can tell " + place)
-        else:
-            decided.append(f"{share.middle:.2f} {place}" if decided else f"adaptive takes {share.middle:.2f} of uniform's time {place}")
-    between = [("" if decided else "between adaptive and uniform ") + ", ".join(undecided)] if undecided else []
-    return "; ".join([*([", ".join(decided)] if decided else []), *between])
+    places = [f"at {share.error} ({share.low:.2f} to {share.high:.2f})" for share in shares]
+    decided = ", ".join(f"{share.middle:.2f} {place}" for share, place in zip(shares, places) if not share.is_undecided)
+    undecided = ", ".join(place.removeprefix("at ") for share, place in zip(shares, places) if share.is_undecided)
+    sentences = ["adaptive takes " + decided.replace(" at", " of uniform's time at", 1)] if decided else []
+    if undecided:
+        sentences.append(("" if decided else "between adaptive and uniform ") + "no difference that this run can tell at " + undecided)
+    return "; ".join(sentences)
 
 
 def _adaptive_text(result):

@@ -11,7 +11,7 @@ from . import curves, pictures
 from .points import Setting, Sweep
 
 _OF_RUNS = ("--strategy", "--nodes")  # which dmpc build does not take
-_DATABASES = {"forest": ["--structure=extents", "--page-size=4KiB"]}  # by strategy, as dmpc render has it by default
+_OF_FOREST = ["--structure=extents", "--page-size=4KiB"]  # as dmpc render has it by default
 
 
 @dataclass
@@ -41,13 +41,10 @@ class Reference:
         told = dict(figure.split("=") for figure in figures.split(" "))
         self.samples_a_side = samples_a_side
         self.width, self.height, self.rays, self.emitters = (int(told[name]) for name in ("width", "height", "rays", "emitters"))
+        self.pixels = self.width * self.height
         self.seconds, self.own_error, self.own_relative = (float(told[name]) for name in ("seconds", "own_error", "own_relative"))
         self.tessellations = tuple(map(int, filter(None, told["tessellations"].split(","))))
         self.files = told["pictures"].split(",")  # it, half the difference of its halves, and the base point in double precision
-
-    @property
-    def pixels(self):
-        return self.width * self.height
 
 
 class Result:
@@ -60,8 +57,18 @@ class Result:
     def of(self, point):
         return self.measurements[point.setting]
 
+    def deterministic(self, point):
+        """The error of the point's knob alone, if it has one."""
+        own = self.of(point).deterministic if point.knob in ("cutoff", "depth", "tessellation") else None
+        return self.arithmetic if point.knob == "arithmetic" else own
+
     def done(self):
         return [one for one in self.measurements.values() if one.seconds]
+
+    @property
+    def rounds(self):
+        """That have begun."""
+        return len(next(iter(self.measurements.values())).seconds)
 
     def is_told(self, measurement):
         """Errors below the reference's own are not drawn, compared or on a front."""
@@ -86,18 +93,16 @@ class Bench:
         self._halves = [pictures.read_exr(copy) for copy in self._references[:2]]
 
     def measure(self):
-        result, reference = self._result, self._result.reference
-        sweep = Sweep(result.base, reference.tessellations, reference.emitters, self._options.quick)
-        self._add(sweep.points(self._options.knobs & {"samples"}))
-        for measurement in list(result.measurements.values()):
+        options, measurements, reference = self._options, self._result.measurements, self._result.reference
+        sweep = Sweep(self._result.base, reference.tessellations, reference.emitters, options.quick)
+        self._add(sweep.points(options.knobs & {"samples"}))
+        for measurement in measurements.values():
             self._measure(measurement)
-        self._add(sweep.points(self._options.knobs - {"samples"}, self._least_error()))
-        count = len(result.measurements)
-        for turn in range(self._options.repeat):
-            for index, measurement in enumerate(result.measurements.values()):
-                self._messages.progress(turn * count + index, self._options.repeat * count)
-                if len(measurement.seconds) <= turn:
-                    self._measure(measurement)
+        self._add(sweep.points(options.knobs - {"samples"}, self._least_error()))
+        missing = [one for turn in range(options.repeat) for one in measurements.values() if len(one.seconds) <= turn]
+        for done, measurement in enumerate(missing):
+            self._messages.progress(done, len(missing))
+            self._measure(measurement)
         self._messages.progress(1, 1)
 
     def _add(self, points):
@@ -157,7 +162,7 @@ class Bench:
         if key not in self._databases:
             path = self._folder / f"scene-{len(self._databases)}.pages"
             scene = self._result.scene + (f"-t{setting.tessellation}" if setting.tessellation else "")
-            layout = _DATABASES.get(self._options.strategy, [])
+            layout = _OF_FOREST if "--strategy=forest" in self._run else []
             noted = {} if self._databases else {"noted": self._messages.say}
             program.run(["build", scene, *self._of_picture(setting), f"--samples={self._result.base.samples}", *layout,
                          f"--output={path}"], **noted)

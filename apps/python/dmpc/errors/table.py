@@ -17,7 +17,6 @@ _COLUMNS = (Column("scene"), Column("knob"), Column("setting"), Column("samples 
             Column("error low", "1/255", 3), Column("error high", "1/255", 3), Column("remark"), *map(Column, _FRONTS))
 _SAMPLING = ("samples", "adaptive")
 _COLOURS = {"samples": 0, "adaptive": 1, "cutoff": 2, "depth": 3, "tessellation": 4, "quality": 5, "bounces": 2, "emitters": 4}
-_FRONT_COLOUR = 6
 _TITLES = {"samples": "uniform sampling", "adaptive": "adaptive sampling"}
 
 
@@ -46,11 +45,10 @@ class ErrorTable(Table):
     def _row(self, result, point, fronts):
         one, pixels = result.of(point), result.reference.pixels
         is_told = result.is_told(one)
-        errors = [_STEPS * end for end in curves.interval(one.squares)] if is_told else [None] * 3
-        middle, low, high = errors[1], errors[0], errors[2]
+        low, middle, high = [_STEPS * end for end in curves.interval(one.squares)] if is_told else [None] * 3
         return [result.scene, point.knob, point.text, one.samples / pixels, one.rays, one.rays / pixels, one.least, max(one.seconds),
                 middle, low, high, "" if is_told else "less than the reference's own error", *fronts, *_measures(one.error),
-                *([] if self._are_by_paths else _measures(_deterministic(result, point)))]
+                *([] if self._are_by_paths else _measures(result.deterministic(point)))]
 
     def text(self, form):
         summary = folded(self.summary, WIDTH, "") + "\n\n" if self.summary and form == "markdown" else ""
@@ -61,11 +59,6 @@ def _measures(error):
     """Empty for infinity, which a table cannot hold."""
     values = [(_STEPS if unit else 1) * error[key] if error else math.inf for _, unit, _, key in _MEASURES]
     return [value if math.isfinite(value) else None for value in values]
-
-
-def _deterministic(result, point):
-    return result.arithmetic if point.knob == "arithmetic" else (
-        result.of(point).deterministic if point.knob in ("cutoff", "depth", "tessellation") else None)
 
 
 def _fronts(result):
@@ -82,7 +75,7 @@ def plots_of(result, name):
     """Errors over processor time: of uniform and adaptive sampling alone, and of the other knobs, if there are any. Points that nothing
     beats in the same plot are marked."""
     def plot(name, title, series, front):
-        on_front = Series("on the front", "error", {front: "yes"}, _FRONT_COLOUR, is_printed=True)
+        on_front = Series("on the front", "error", {front: "yes"}, 6, is_printed=True)
         size = f"{result.reference.width}x{result.reference.height}"
         return Plot(name, f"{result.scene}: {title}", "error without the reference's own (RMSE, 1/255)", (*series, on_front),
                     "seconds least", f"processor time of {size} pixels (s, least of the rounds)", 10, is_log=True)
