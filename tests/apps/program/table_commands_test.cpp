@@ -126,9 +126,8 @@ TEST_CASE("no command's output replaces a file that its scene is read from") {
     CHECK_THROWS_AS(run_table(words, {"-o", mtl}), core::UsageError);
     CHECK(file_text(mtl) == material);
     if (!one.data_file.empty()) {
-      const std::string data = words[1] == "error" ? "error_" + apps::file_text(obj) + ".csv" : one.data_file;
       std::filesystem::create_directory(folder / "plots");
-      std::filesystem::create_hard_link(obj, folder / "plots" / data);
+      std::filesystem::create_hard_link(obj, folder / "plots" / one.data_file);
       CHECK_THROWS_AS(run_table(words, {"--plots", folder / "plots", "-o", folder / "b.md"}), core::UsageError);
     }
   }
