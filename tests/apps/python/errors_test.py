@@ -150,6 +150,9 @@ class PicturesTest(unittest.TestCase):
             groups = pictures.groups_of(37 * 35)
             squares = pictures.square_errors(few, many, [0.0] * len(many), groups)
             self.assertAlmostEqual(math.sqrt(sum(squares)), pictures.difference(*paths)["root_mean_square"], places=12)
+            nothing = ["--camera=9,9,9/20,20,20", "--background=0.25,0.5,1"]
+            program.run(["render", "balls-1", *nothing, "--resolution=3x17", f"--output={path}"])
+            self.assertEqual(list(pictures.read_exr(path)), [0.25, 0.5, 1] * 3 * 17)
         self.assertEqual((len(squares), set(groups)), (64, set(range(64))))
         self.assertEqual(groups[:18:3], [0, 37, 10, 48, 20, 28])  # by core's mix()
 
@@ -329,10 +332,9 @@ class CommandTest(unittest.TestCase):
             line = [PROGRAM, "bench", "error", "tetra-2", "--resolution=16x16", "--quick", "--repeat=1000", "--knobs=samples"]
             running = subprocess.Popen([*line, "--format=csv", "-o", f"{folder}/table"], stderr=subprocess.PIPE, text=True,
                                        env={**os.environ, "TMPDIR": folder})
-            while not list(pathlib.Path(folder).glob("dmpc-*/dmpc-error-*/base.exr")):
+            while not any((path.parent / "picture.exr").exists() for path in pathlib.Path(folder).glob("dmpc-*/dmpc-error-*/base.exr")):
                 self.assertIsNone(running.poll())
                 time.sleep(0.1)
-            time.sleep(2)
             running.send_signal(signal.SIGINT)
             said = running.communicate()[1]
             self.assertEqual((running.returncode, said), (130, "dmpc: interrupted, the table has the rows finished before\n"))
