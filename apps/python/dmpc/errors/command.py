@@ -15,7 +15,6 @@ _EXPLAINED = "Errors are RMSEs without the reference's own, whose square is subt
              "of pixels differ; an error below the reference's own is not told, drawn or compared."
 _TIMED = "Seconds are processor time. Shares at equal error are interpolated in logarithms; their intervals have the groups' differences " \
          "and the rounds' least and most."
-_ASKED = "Adaptive sampling is asked for no error below the reference's own, or that uniform samples do not reach."
 
 
 def main(words):
@@ -59,7 +58,8 @@ def _explanations(are_by_paths):
             "Fewer bounces make the picture darker, an error that samples do not reduce; BSDF sampling alone causes no such error."
             if are_by_paths else
             "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
-            "position; for arithmetic, against the same samples in double precision.", _ASKED]
+            "position; for arithmetic, against the same samples in double precision.",
+            "Adaptive sampling is asked for no error below the reference's own, or that uniform samples do not reach."]
 
 
 def _parse(words):

@@ -53,7 +53,7 @@ def adaptive_shares(result):
             return abs(math.log((_share(result, error, cost, left_out) or middle) / middle))
 
         variance = sum(distance(_seconds, group) ** 2 for group in range(GROUPS)) * (GROUPS - 1) / GROUPS
-        spread = max(distance(lambda one: one.seconds[min(turn, len(one.seconds) - 1)]) for turn in range(result.rounds))
+        spread = max(distance(lambda one: one.seconds[min(turn, len(one.seconds) - 1)]) for turn in range(len(result.done()[0].seconds)))
         factor = math.exp(math.hypot(2 * math.sqrt(variance), spread))
         shares.append(AdaptiveShare(point.text, middle / factor, middle, middle * factor, _share(result, error, _rays) or 0))
     return shares

@@ -65,11 +65,6 @@ class Result:
     def done(self):
         return [one for one in self.measurements.values() if one.seconds]
 
-    @property
-    def rounds(self):
-        """That have begun."""
-        return len(next(iter(self.measurements.values())).seconds)
-
     def is_told(self, measurement):
         """Errors below the reference's own are not drawn, compared or on a front."""
         error = curves.error_of(measurement.squares) if measurement.seconds else 0

@@ -11,14 +11,12 @@ SERIES_MAX = 16  # that look unlike in one plot
 
 @dataclass(frozen=True)
 class Series:
-    """Numbers that have intervals have columns of their ends."""
-
     label: str
     column: str  # of its numbers
     where: dict = field(default_factory=dict)  # what its rows have, by column
     colour: int = 0
     is_printed: bool = False
-    low: str = ""
+    low: str = ""  # and high: of intervals, the columns of their ends
     high: str = ""
 
 
