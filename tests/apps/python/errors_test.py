@@ -278,10 +278,13 @@ class CommandTest(unittest.TestCase):
                      "Load of the machine"):
             self.assertIn(part, notes)
 
-    def test_a_quality_has_its_own_cutoff(self):
-        for row in bench("balls-1", "--knobs=quality", "--quick", "--repeat=1", "--resolution=24x24")[1]["rows"]:
-            stats = program.counters(["render", "balls-1", "--resolution=24x24", "--depth=8", f"--quality={row['setting']}"])
-            self.assertEqual(row["rays"], stats["rays"]["total"])
+    def test_a_cutoff_saves_rays_and_a_quality_has_its_own(self):
+        found = bench("balls-1", "--knobs=quality,cutoff", "--quick", "--repeat=1", "--resolution=24x24")[1]["rows"]
+        rays = [row["rays"] for row in found]
+        self.assertLess(rays[0], rays[2])
+        for row, count in zip(found, rays):
+            words = [f"--quality={row['setting']}"] if row["knob"] == "quality" else ["--samples=16", f"--cutoff={row['setting']}"]
+            self.assertEqual(count, program.counters(["render", "balls-1", "--resolution=24x24", "--depth=8", *words])["rays"]["total"])
 
     def test_by_paths_samples_adaptive_samples_bounces_and_emitters_are_turned_and_no_other_knob(self):
         status, found, said = bench("balls-1", "--transport=paths", "--bounces=2", "--sky=1", "--light-radius=3", "--resolution=12x12",
