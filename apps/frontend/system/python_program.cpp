@@ -1,5 +1,6 @@
 #include "apps/frontend/system/python_program.h"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -7,6 +8,7 @@
 #include <filesystem>
 
 #include "apps/frontend/system/companion_path.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -37,6 +39,16 @@ std::vector<std::string> python_words(const std::string& name, const std::string
   std::vector<std::string> line = {"-P", "-X", "utf8", "-c", driver, name, what};
   line.insert(line.end(), words.begin(), words.end());
   return line;
+}
+
+std::string file_for_python(std::string_view bytes) {
+  const int file = ::memfd_create("dmpc-for-python", 0);
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    core::expect(count > 0, "a file in memory takes what is written to it");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return "/proc/self/fd/" + std::to_string(file);
 }
 
 void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words) {

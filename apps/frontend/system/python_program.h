@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dmpc::apps {
@@ -11,6 +12,9 @@ std::string python();
 /// The arguments with which Python calls main(words) of the module `dmpc.NAME`. If a module is missing, that says by which
 /// package it comes, as `what` needs it.
 std::vector<std::string> python_words(const std::string& name, const std::string& what, const std::vector<std::string>& words);
+
+/// Returns the path of a nameless file with these bytes, for become_python(): it is there until that Python ends.
+std::string file_for_python(std::string_view bytes);
 
 /// Becomes Python with these arguments, and this dmpc for its renders. Throws InstallationError if there is no Python.
 [[noreturn]] void become_python(const std::string& name, const std::string& what, const std::vector<std::string>& words);

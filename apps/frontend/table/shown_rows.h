@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <iosfwd>
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,13 +23,13 @@ class ShownRows {
   bool is_shown() const { return is_shown_; }
 
   /// Writes the table's new rows, each as a line above the progress line, which is rewritten below them. Rows count as the same
-  /// if their first `key_count` cells have the same texts.
-  void show(const Table& table, std::size_t key_count = std::numeric_limits<std::size_t>::max());
+  /// if their cells have the same texts.
+  void show(const Table& table);
 
  private:
   bool is_shown_;
   std::ostream& messages_;
-  std::set<std::vector<std::string>> shown_;  ///< titles of tables, and keys
+  std::set<std::vector<std::string>> shown_;  ///< rows, each with its table's title
 };
 
 }  // namespace dmpc::apps

@@ -289,7 +289,7 @@ const Refusal pairs[] = {
     {"bench speed --ablation --parts=kernel", "--parts"},
     {"bench speed --ablation --threads=1", "--threads"},
     {"bench error balls-1 --transport=paths --knobs=cutoff", "--knobs=cutoff does not go with --transport=paths"},
-    {"bench error balls-1 --knobs=roulette", "--knobs=roulette goes with"},
+    {"bench error balls-1 --knobs=bounces", "--knobs=bounces goes with"},
     {"compare a.exr b.json", "expected two pictures, two files of counters"},
     {"compare a.html b.json", "or two pages of renders, which end in .html"},
     {"compare a.html b.html --flip=f.png", "--flip goes with pictures"},

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/bench/error/command.h"
 #include "apps/lab/bench/precision/command.h"
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/stability/command.h"
@@ -56,8 +55,6 @@ struct TableCase {
 std::vector<TableCase> table_cases() {
   return {{{"study", "cache", "balls-1", "--resolution=8x8", "--nodes=2"}, "cache.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
-          {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
-           "error_tetra-1.csv"},
           {{"bench", "stability", "--tests=R5", "--rays=20"}, "", false, false},
           {{"bench", "precision", "tetra-1", "--resolution=8x8"}}};
 }
@@ -78,7 +75,7 @@ TEST_CASE("a picture or page that cannot be written keeps no command's table, an
       outputs.push_back("--report=" + (folder / "page.html").string());
     }
     CHECK(run_table(one.words, outputs).status == (one.data_file.empty() ? 0 : 1));
-    CHECK(contains("\n\n" + file_text(folder / "table.md"), "\n\n**"));  // bench error has a summary before its title
+    CHECK(file_text(folder / "table.md").starts_with("**"));
   }
 }
 
@@ -129,9 +126,8 @@ TEST_CASE("no command's output replaces a file that its scene is read from") {
     CHECK_THROWS_AS(run_table(words, {"-o", mtl}), core::UsageError);
     CHECK(file_text(mtl) == material);
     if (!one.data_file.empty()) {
-      const std::string data = words[1] == "error" ? "error_" + apps::file_text(obj) + ".csv" : one.data_file;
       std::filesystem::create_directory(folder / "plots");
-      std::filesystem::create_hard_link(obj, folder / "plots" / data);
+      std::filesystem::create_hard_link(obj, folder / "plots" / one.data_file);
       CHECK_THROWS_AS(run_table(words, {"--plots", folder / "plots", "-o", folder / "b.md"}), core::UsageError);
     }
   }

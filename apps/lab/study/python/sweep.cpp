@@ -1,8 +1,5 @@
 #include "apps/lab/study/python/sweep.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <ostream>
 #include <string_view>
@@ -117,7 +114,7 @@ std::uint64_t checked_source(const SweepStudy& study, const Runs& runs) {
   return source_of(opened);
 }
 
-/// Returns the path, for a child of this process, of a nameless file: the schema of --stats, and for each run, with a 0 behind
+/// Returns the path, for Python, of a nameless file: the schema of --stats, and for each run, with a 0 behind
 /// each text and two behind all, what varies, its database's name ("-": none is kept) and words, and its line.
 std::string plan_of(const Runs& runs, std::uint64_t source, bool keeps_databases) {
   std::string plan = stats_schema();
@@ -130,13 +127,7 @@ std::string plan_of(const Runs& runs, std::uint64_t source, bool keeps_databases
       }
     }
   }
-  const int file = ::memfd_create("dmpc-plan", 0);
-  for (std::string_view left = plan; !left.empty();) {
-    const ssize_t count = ::write(file, left.data(), left.size());
-    core::expect(count > 0, "a file in memory takes what is written to it");
-    left.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return "/proc/self/fd/" + std::to_string(file);
+  return file_for_python(plan);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ _CLEAR = "\r\x1b[K"
 _HEIR = 'read -r nothing; for n in 1 2 3 4 5 6 7 8 9; do rm -rf -- "$1"; sleep 0.2; [ -e "$1" ] || break; done'
 
 
-def add_options(parser):
-    """Those that dmpc has checked before it started this program."""
+def add_options(parser, scenes=None):
+    """Those that dmpc has checked before it started this program; `scenes` says how many there are, as argparse does."""
     parser.add_argument("--format", choices=table.FORMATS, default="markdown")
     parser.add_argument("-o", "--output")
     parser.add_argument("--quiet", action="store_true")
     parser.add_argument("--plots", type=pathlib.Path)
-    parser.add_argument("scene")
+    parser.add_argument("scene", nargs=scenes)
 
 
 class NothingFits(program.CapacityError):

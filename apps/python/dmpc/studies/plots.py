@@ -16,6 +16,8 @@ class Series:
     where: dict = field(default_factory=dict)  # what its rows have, by column
     colour: int = 0
     is_printed: bool = False
+    low: str = ""  # and high: of intervals, the columns of their ends
+    high: str = ""
 
 
 @dataclass(frozen=True)
@@ -60,27 +62,28 @@ def write(folder, name, table, plots):
 
 
 def points(plot, series, table):
-    """Place and number of each row that the series has a number in; places are numbers of the axis, or texts."""
+    """Place, number and ends of each row that the series has a number in; places are numbers of the axis, or texts."""
     found = []
     for row in table.rows:
         number = table.value(row, series.column)
         if number is not None and all(table.value(row, name) == value for name, value in series.where.items()):
             place = table.value(row, plot.x) if plot.x else " ".join(str(table.value(row, name)) for name in plot.places)
-            found.append((place, number))
+            found.append((place, number, *(table.value(row, end) for end in (series.low, series.high) if end)))
     return found
 
 
 def data(plot, table):
     """What plotting.drawn() takes, of numbers from 0 on: series without a row are left out."""
     found = [(series, rows) for series in plot.series if (rows := points(plot, series, table))]
-    places = list(dict.fromkeys(place for _, rows in found for place, _ in rows))
+    places = list(dict.fromkeys(place for _, rows in found for place, *_ in rows))
     ticks = [[place, str(place)] for place in sorted(places)] if plot.x and plot.log_x == 2 else []
     mark = {True: "points", False: "line"} if plot.x else {False: "bars"}
     return {"title": plot.title, "stacked": plot.is_stacked, "width": 0, "places": [] if plot.x else list(map(str, places)),
             "x": {"label": (plot.x_label or plot.x), "log": bool(plot.x and plot.log_x), "ticks": ticks},
             "y": {"label": plot.y, "log": plot.is_log, "ticks": [], **({} if plot.is_log else {"least": 0})},
-            "series": [{"name": series.label, "color": series.colour, "mark": mark[series.is_printed],
-                        "rows": [(place if plot.x else places.index(place), number) for place, number in rows]} for series, rows in found]}
+            "series": [{"name": series.label, "color": series.colour, "mark": "intervals" if series.low else mark[series.is_printed],
+                        "rows": [(place if plot.x else places.index(place), *numbers) for place, *numbers in rows]}
+                       for series, rows in found]}
 
 
 def draw(plot, table, is_in_page=False):

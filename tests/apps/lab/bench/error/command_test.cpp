@@ -2,22 +2,24 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "apps/lab/bench/error/measure.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
-#include "tests/support/painted_square.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
-#include "tests/support/usage.h"
 
 namespace dmpc::tests::error_command_test {
 
 using apps::ErrorOptions;
+using apps::tessellations_of;
 
 namespace {
 
@@ -28,134 +30,94 @@ ErrorOptions error_options(Words arguments) {
   return apps::parse_command_line(arguments).options<ErrorOptions>();
 }
 
-/// The errors of tetra-2 at 16x16 against a rough reference.
-ErrorOptions tiny_error(Words more = {}) {
-  more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2"});
-  return error_options(more);
-}
-
-std::string output_of(const ErrorOptions& options) {
+/// Of what ends before a render: otherwise the test would become Python.
+int ended_early(Words arguments) {
+  arguments.insert(arguments.end(), {"--resolution=8x8", "--reference-samples=2"});
   apps::Interrupt interrupt;
   std::ostringstream output;
-  CHECK(apps::bench_error_command(options, interrupt, output) == 0);
-  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
+  return apps::bench_error_command(error_options(std::move(arguments)), interrupt, output);
 }
+
+bool is_told(const ErrorOptions& options, const std::string& word) { return std::ranges::count(options.words, word) == 1; }
 
 }  // namespace
 
-TEST_CASE("bench error prints a row for each point, and what they say") {
-  const std::string table = output_of(tiny_error());
-  for (const char* part :
-       {"| samples ", "| adaptive ", "| cutoff ", "| depth ", "| arithmetic ", "the reference has 12x12 samples a pixel",
-        "cheapest with a deterministic RMSE", "Load of the machine"}) {
-    CAPTURE(std::string(part));
-    CHECK(contains(table, part));
+TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples, and a smaller one if it is quick") {
+  for (const auto& [words, side, width] : {std::tuple(Words{"balls-1", "--transport=paths"}, 128U, 128),
+                                           {{"balls-1", "--transport=paths", "--quick"}, 32, 64},
+                                           {{"balls-1", "--quick"}, 12, 192},
+                                           {{"balls-1", "--quick", "--resolution=300x200", "--reference-samples=20"}, 20, 300}}) {
+    const ErrorOptions options = error_options(words);
+    CHECK(options.reference.samples_a_side == side);
+    CHECK(options.picture.resolution->width == width);
+    CHECK(is_told(options, "--reference-samples=" + std::to_string(side)));
   }
-  CHECK_FALSE(contains(table, "| tessellation "));
+  CHECK(error_options({"teapot-12"}).reference.samples_a_side == 32);
+  CHECK_FALSE(error_options({"teapot-12"}).picture.resolution);
 }
 
-TEST_CASE("bench error turns samples, adaptive samples, bounces, roulette and aims of a picture by paths, and no other knob") {
-  const std::string table = output_of(error_options({"balls-1", "--transport=paths", "--bounces=2", "--sky=1", "--light-radius=3",
-                                                     "--resolution=12x12", "--quick", "--reference-samples=16"}));
-  CHECK(contains(table, "16 samples a pixel, paths, 2 bounces, sky 1,1,1, lights of radius 3, convention"));
-  for (const char* part : {"| samples ", "| adaptive ", "| bounces ", "| roulette ", "never", "| emitters ", "none",
-                           "the reference has 16x16 samples a pixel, 2 bounces", "Seconds are processor time"}) {
-    CAPTURE(std::string(part));
-    CHECK(contains(table, part));
+TEST_CASE("Python is told each option once, with the defaults that dmpc render does not have") {
+  const ErrorOptions whitted = error_options({"rings-2", "tetra-2", "--samples=4", "--light=1,2,3", "--light=4,5,6"});
+  CHECK(whitted.scenes == Words{"rings-2", "tetra-2"});
+  for (const char* word : {"--knobs=samples,adaptive,cutoff,depth,tessellation,arithmetic,quality", "--samples=4", "--depth=8",
+                           "--transport=whitted", "--strategy=replicated", "--repeat=3", "--light=1,2,3", "--light=4,5,6"}) {
+    CAPTURE(std::string(word));
+    CHECK(is_told(whitted, word));
   }
-  for (const char* part : {"| cutoff ", "| depth ", "| arithmetic ", "| quality ", "deterministic"}) {
-    CAPTURE(std::string(part));
-    CHECK_FALSE(contains(table, part));
+  const ErrorOptions paths = error_options({"balls-1", "--transport=paths", "--bounces=3", "--repeat=2"});
+  for (const char* word : {"--knobs=samples,adaptive,bounces,emitters", "--bounces=3", "--emitters=1024", "--repeat=2"}) {
+    CAPTURE(std::string(word));
+    CHECK(is_told(paths, word));
   }
 }
 
-TEST_CASE("of a scene in which nothing shines bench error says that there is nothing to aim at") {
-  const std::string table = output_of(error_options({"balls-1", "--transport=paths", "--bounces=1", "--sky=1", "--quick",
-                                                     "--knobs=emitters", "--resolution=8x8", "--reference-samples=4"}));
-  CHECK_FALSE(contains(table, "| emitters "));
-  CHECK(contains(table, "balls-1: there is no emitter for light sampling"));
+TEST_CASE("knobs are those of the transport, and tessellation is asked for only of scenes that have it") {
+  CHECK(error_options({"tetra-2", "--knobs=cutoff,adaptive"}).knobs == Words{"cutoff", "adaptive"});
+  CHECK_NOTHROW(error_options({"rings-2", "--knobs=tessellation"}));
+  for (const char* text : {"", ",", "samples,", "sample", "samples adaptive", "roulette", "bounces"}) {
+    CAPTURE(std::string(text));
+    CHECK_THROWS_AS(error_options({"tetra-2", "--knobs=" + std::string(text)}), core::UsageError);
+  }
 }
 
-TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples") {
-  CHECK(error_options({"balls-1", "--transport=paths"}).measure.reference.samples_a_side == 128);
-  CHECK(error_options({"balls-1", "--transport=paths", "--quick"}).measure.reference.samples_a_side == 32);
-  CHECK(error_options({"balls-1", "--transport=paths"}).measure.picture.resolution->width == 128);
-  CHECK(error_options({"balls-1", "--transport=paths", "--quick"}).measure.picture.resolution->width == 64);
+TEST_CASE("scenes with spheres or cones are tessellated as far as a million triangles go") {
+  CHECK(tessellations_of("balls-2", false) == std::vector{1, 2, 4, 8, 16});
+  CHECK(tessellations_of("balls-4", false) == std::vector{1, 2});
+  CHECK(tessellations_of("jacks-1", false) == std::vector{1});
+  CHECK(tessellations_of("balls-2", true) == std::vector{1, 2});
+  for (const char* scene : {"tetra-2", "teapot-3", "rings-2-t1", "./rings-2", "file.nff"}) {
+    CAPTURE(std::string(scene));
+    CHECK(tessellations_of(scene, false).empty());
+  }
 }
 
-TEST_CASE("the base point of bench error has no deterministic error and float next to none") {
-  const ErrorOptions options = tiny_error({"--knobs=depth,arithmetic"});
-  apps::Interrupt interrupt;
-  apps::SceneResult result;
-  apps::measure_scene("tetra-2", options.measure, interrupt, result);
-  const apps::Measurement& base = result.measurements.front();
-  CHECK(base.setting == result.base);
-  CHECK(base.seconds.size() == 2);
-  CHECK(base.deterministic->root_mean_square == 0);
-  CHECK(result.arithmetic->root_mean_square < 1e-4);
-  CHECK(base.error.root_mean_square > result.arithmetic->root_mean_square);
-  CHECK(base.samples == 16U * 16 * 16);
-}
-
-TEST_CASE("bench error takes meshes with textures, seen and lit as one likes, and float is next to double") {
+TEST_CASE("a scene that cannot be read, and what is in the way of outputs, are said before anything is rendered") {
   const TemporaryFolder folder;
-  ErrorOptions options = tiny_error({"--knobs=samples,arithmetic", "--camera=0.5,0.4,1/0.5,0.5,0", "--light=3,4,5"});
-  apps::Interrupt interrupt;
-  apps::SceneResult result;
-  apps::measure_scene(write_painted_square(folder, 64), options.measure, interrupt, result);
-  CHECK(result.arithmetic->root_mean_square < 1e-4);
-  const apps::Measurement& base = result.measurements.front();
-  CHECK(base.error.root_mean_square > result.arithmetic->root_mean_square);
-  CHECK(base.error.root_mean_square < 0.1);
+  std::filesystem::create_directories(folder / "table.md");
+  std::filesystem::create_directories(folder / "plots" / "error_tetra-1.csv");
+  CHECK_THROWS_AS(ended_early({"tetra-1", (folder / "no.nff").string()}), core::InputError);
+  CHECK_THROWS_AS(ended_early({"tetra-1", "-o", (folder / "table.md").string()}), core::InputError);
+  CHECK_THROWS_AS(ended_early({"tetra-1", "--plots=" + (folder / "plots").string()}), core::InputError);
 }
 
-TEST_CASE("bench error writes its table and plots where they are asked for") {
+TEST_CASE("no output of bench error replaces a file that a scene is read from") {
   const TemporaryFolder folder;
-  CHECK(output_of(tiny_error({"--knobs=samples,depth", "--plots=" + (folder / "plots").string(), "--format=csv",
-                              "-o" + (folder / "table.csv").string()}))
-            .empty());
-  CHECK(contains(file_text(folder / "table.csv"), "RMSE (1/255)"));
-  CHECK(std::filesystem::exists(folder / "plots" / "error_tetra-2_knobs.json"));
+  const std::string obj = folder / "a.obj", mtl = folder / "a.mtl", material = "newmtl m\nKd 1 0 0\n";
+  write_text(obj, "mtllib a.mtl\nusemtl m\n" + triangle_obj);
+  write_text(mtl, material);
+  CHECK_THROWS_AS(ended_early({obj, "-o", obj}), core::UsageError);
+  CHECK_THROWS_AS(ended_early({obj, "-o", mtl}), core::UsageError);
+  CHECK(file_text(mtl) == material);
 }
 
-TEST_CASE("bench error writes what was measured before an error ended it") {
-  const TemporaryFolder folder;
-  apps::Interrupt interrupt;
-  std::ostringstream output;
-  ErrorOptions options = tiny_error({"--knobs=depth"});
-  options.scenes.push_back((folder / "no.nff").string());
-  CHECK_THROWS_AS(apps::bench_error_command(options, interrupt, output), core::InputError);
-  CHECK(contains(output.str(), "| tetra-2 | depth "));
-  CHECK(contains(output.str(), "Ended before its time"));
-}
-
-TEST_CASE("an interrupted bench error writes nothing before anything is measured") {
-  const TemporaryFolder folder;
-  ErrorOptions options = tiny_error();
-  options.table.file = folder / "table.md";
+TEST_CASE("an interrupted reference is no reference") {
   apps::Interrupt interrupt;
   interrupt.stop_once();
   std::ostringstream output;
-  CHECK_THROWS_AS(apps::bench_error_command(options, interrupt, output), apps::Interrupted);
-  CHECK_FALSE(std::filesystem::exists(folder / "table.md"));
-}
-
-TEST_CASE("bench error takes several scenes, and knobs that they have") {
-  CHECK(error_options({"rings-2", "tetra-2"}).scenes == Words{"rings-2", "tetra-2"});
-  CHECK_NOTHROW(error_options({"rings-2", "--knobs=tessellation"}));
-}
-
-TEST_CASE("a quick bench error is small, but for what is said otherwise") {
-  const ErrorOptions quick = error_options({"teapot-12", "--quick"});
-  CHECK(quick.measure.picture.resolution->width == 192);
-  CHECK(quick.measure.rounds == 3);
-  CHECK(quick.measure.reference.samples_a_side == 12);
-  const ErrorOptions own =
-      error_options({"teapot-12", "--quick", "--resolution=300x200", "--repeat=2", "--reference-samples=20"});
-  CHECK(own.measure.picture.resolution->width == 300);
-  CHECK(own.measure.rounds == 2);
-  CHECK(own.measure.reference.samples_a_side == 20);
-  CHECK_FALSE(error_options({"teapot-12"}).measure.picture.resolution);
+  for (const char* transport : {"whitted", "paths"}) {
+    const ErrorOptions options = error_options({"balls-1", "--resolution=8x8", "--transport=" + std::string(transport)});
+    CHECK_THROWS_AS(apps::bench_error_command(options, interrupt, output), apps::Interrupted);
+  }
 }
 
 }  // namespace dmpc::tests::error_command_test
