@@ -12,7 +12,7 @@ namespace dmpc::apps::text_table_test {
 using Parts = std::vector<std::string_view>;
 
 TEST_CASE("a table's rows are its lines but for comments and empty ones, their cells without the blanks around them") {
-  const auto rows = table_rows("# of what\n\none | two words |\n  | | three|", 3);
+  const auto rows = table_rows("# of what\n\none | two words |\n  | | three", 3);
   CHECK(rows == std::vector<Parts>{{"one", "two words", ""}, {"", "", "three"}});
   CHECK(table_rows("a => b|c", 2, "=>") == std::vector<Parts>{{"a", "b|c"}});
   CHECK(table_rows("", 1).empty());
