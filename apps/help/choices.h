@@ -1,7 +1,9 @@
 // What there is to choose from, by the words that the command line takes: scenes, machines, policies and others.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dmpc::apps {
@@ -19,7 +21,9 @@ struct ChoiceList {
   std::vector<Choice> entries;
 };
 
-/// scenes, machines, strategies, systems, policies, topologies, heatmaps, skips, formats.
+inline constexpr std::array<std::string_view, 9> choice_kinds = {"scenes",     "machines", "strategies", "systems", "policies",
+                                                                 "topologies", "heatmaps", "skips",      "formats"};
+/// One list for each of choice_kinds.
 std::vector<ChoiceList> all_choices();
 
 }  // namespace dmpc::apps

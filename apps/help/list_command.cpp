@@ -16,7 +16,7 @@
 namespace dmpc::apps {
 namespace {
 
-std::vector<std::string> kinds() { return core::mapped<std::string>(all_choices(), &ChoiceList::kind); }
+std::vector<std::string> kinds() { return std::vector<std::string>(choice_kinds.begin(), choice_kinds.end()); }
 
 std::string kind_named(const std::string& word) {
   const std::vector<std::string> all = kinds();

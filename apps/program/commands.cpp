@@ -159,15 +159,11 @@ void Commands::declare_values() {
   for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
     scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));
   }
-  for (const ChoiceList& list : all_choices()) {
-    kinds.words.push_back(list.kind);
-  }
+  kinds.words.assign(choice_kinds.begin(), choice_kinds.end());
   for (const std::string_view heat : core::heat_kind_names) {
     heats.words.push_back(std::string(heat) + ":");
   }
-  for (const MachineDescription& preset : machine_presets()) {
-    machines.words.push_back(preset.machine.name);
-  }
+  machines.words.assign(machine_names.begin(), machine_names.end());
   line_.suggest("SCENE", scenes);
   line_.suggest("FAMILY", families);
   line_.suggest("MACHINE", machines);

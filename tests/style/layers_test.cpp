@@ -14,7 +14,10 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/frontend/line/text_table.h"
+#include "core/base/expect.h"
 #include "tests/style/sources.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::layers_test {
 
@@ -23,140 +26,37 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
-/// The libraries, each a folder, and those whose headers each may include beside its own. Of nested folders the inner one counts.
-const std::map<std::string, Names> stands_on = {
-    {"core/base", {}},
-    {"core", {"core/base"}},
-    {"nodes", {"core/base"}},
-    {"svm/pages", {"nodes", "core/base"}},
-    {"nodes/pictures", {"nodes", "core", "core/base"}},
-    {"svm", {"svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
-    {"svm/forest", {"svm", "svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
-    {"dataflow", {"nodes/pictures", "nodes", "core", "core/base"}},
-    {"apps/frontend", {"svm/pages", "nodes", "core/base"}},
-    {"apps/policy", {"apps/frontend", "svm/pages", "nodes", "core/base"}},
-    {"apps/computer", {"apps/frontend", "svm/pages", "nodes", "core/base"}},
-    {"apps/computer/scenes", {"apps/computer", "apps/frontend", "svm/pages", "nodes", "core", "core/base"}},
-    {"apps/computer/examples", {}},
-    {"apps",
-     {"apps/policy", "apps/frontend", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core",
-      "core/base"}},
-    {"apps/modules", {"apps", "apps/frontend", "nodes", "core/base"}},
-    {"apps/foreign", {"apps", "apps/frontend", "core", "core/base"}},
-    {"apps/lab",
-     {"apps", "apps/policy", "apps/frontend", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core",
-      "core/base"}},
-    {"apps/main", {"apps/lab", "apps", "apps/frontend", "core", "core/base"}},
-    {"apps/manual", {"apps/main", "apps", "apps/frontend", "core/base"}},
-    {"tests",
-     {"apps/manual", "apps/main", "apps/lab", "apps/foreign", "apps/modules", "apps", "apps/policy", "apps/computer/scenes",
-      "apps/computer", "apps/frontend", "dataflow", "svm/forest", "svm", "svm/pages", "nodes/pictures", "nodes", "core",
-      "core/base"}},
-};
+/// Rows of a kind in layers.txt, which says what they mean.
+std::map<std::string, Names> rules(std::string_view kind) {
+  static const std::string text = file_text(fs::path(DMPC_SOURCE_DIR) / "tests/style/layers.txt");
+  std::map<std::string, Names> found;
+  for (const auto& row : apps::table_rows(text, 3)) {
+    if (row[0] == kind) {
+      const auto names = row[2].empty() ? std::vector<std::string_view>() : apps::parts_between(row[2], ",");
+      found[std::string(row[1])] = Names(names.begin(), names.end());
+    }
+  }
+  core::expect(!found.empty(), "layers.txt has rows of each kind");
+  return found;
+}
 
-/// What libraries that are installed without core may use of it: names and numbers, that need nothing of it when they are linked.
-const std::map<std::string, Names> words_of_core = {
-    {"svm/pages",
-     {"core/record/record.h", "core/record/records.h", "core/trace/charge.h", "core/trace/operations.h",
-      "core/trace/task_state.h", "core/picture/memory_use.h"}},
-    {"apps/frontend", {"core/database/structure.h", "core/trace/charge.h", "core/trace/work.h"}},
-    {"apps/computer", {"core/trace/charge.h"}},
-};
-
-/// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the library itself uses all.
-const std::map<std::string, Names> rooms = {
-    {"core", {"record", "scene", "database", "trace", "picture", "families"}},
-    {"apps/frontend", {"line", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
-    {"apps",
-     {"reader", "picture", "formats", "database", "scene", "oracle", "run", "help", "show", "render", "view", "info", "build",
-      "program"}},
-    {"apps/lab", {"crowd", "figures", "difference", "oracle", "check", "compare", "study", "bench"}},
-};
-
-/// Rooms of other libraries, and the files of their floor, by how they begin, that look down into them.
-const std::map<std::string, Names> looked_into_by = {
-    {"nodes/threads", {"nodes/runner.cpp"}},
-    {"nodes/ranks", {"nodes/runner.", "nodes/gathering."}},
-    {"nodes/virtual", {"nodes/runner."}},
-    {"nodes/observers", {"nodes/gathering."}},
-    {"svm/pages/observers", {"svm/pages/run_tasks."}},
-};
-
-/// What begins so may be included by files that begin so, and by no others.
-struct Foreign {
-  std::string_view header;
-  Names files;
-};
-const std::vector<Foreign> foreign = {
-    {"embree", {"apps/oracle/embree.h"}},
-    {"OpenImageIO/",
-     {"apps/foreign/picture_writer_main.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/",
-      "tests/fuzz/picture.cpp"}},
-    {"OpenEXR/", {"apps/picture/exr_file.cpp", "apps/foreign/exr_picture.cpp", "tests/apps/foreign/"}},
-    {"mpi.h", {"apps/modules/mpi.cpp"}},
-    {"gmpxx.h", {"apps/lab/oracle/exact.cpp"}},
-    {"png.h", {"apps/picture/png_file.cpp", "apps/foreign/png_picture.cpp", "tests/apps/foreign/"}},
-    {"jpeglib.h", {"apps/foreign/jpeg_picture.cpp", "tests/apps/foreign/"}},
-    {"libdeflate.h", {"apps/picture/deflater.cpp"}},
-    {"zlib.h", {"apps/foreign/pbrt/unpacked.cpp", "apps/lab/study/references/gzip_text.cpp"}},
-    {"httplib.h", {"apps/modules/http.cpp"}},
-    {"dlfcn.h", {"apps/frontend/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
-    {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
-    {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
-    {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
-    {"CLI/", {}},  // nobody wants it any more
-    {"nlohmann/",
-     {"apps/frontend/show/stats/", "apps/frontend/show/page/map_data.", "apps/frontend/line/description_json.cpp",
-      "apps/show/stats/", "apps/show/page/", "apps/frontend/machine/machine_file.", "apps/frontend/table/table.cpp",
-      "apps/frontend/table/plot_data.", "apps/lab/compare/command.cpp", "apps/lab/figures/",
-      "apps/lab/oracle/places/gltf_places.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
-      "apps/render/live_events.cpp", "apps/view/wishes.cpp", "tests/apps/", "tests/mpi/launched/"}},
-    {"oneapi/",
-     {"apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp", "apps/lab/oracle/reference/picture.cpp",
-      "tests/apps/lab/oracle/reference/"}},
-    {"tbb/",
-     {"core/database/parallel.cpp", "apps/lab/check/inspection.cpp", "apps/lab/crowd/side_by_side.cpp",
-      "apps/lab/oracle/reference/picture.cpp", "tests/apps/lab/oracle/reference/"}},
-    {"benchmark/", {"tests/bench/"}},
-    {"boost/", {"tests/bench/rivals.h"}},
-    {"hwy/",
-     {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/curved_reach.cpp",
-      "core/trace/kernel.cpp"}},
-    {"doctest/", {"tests/"}},
-    // Threads are the computer's; the edge has one that waits for signals, those that answer browsers, those on which rays are
-    // timed, some to see whether a library can have as many, and runs side by side that share their progress.
-    {"thread",
-     {"nodes/", "tests/", "apps/frontend/system/interrupt.", "apps/render/live_", "apps/frontend/web/", "apps/modules/http.cpp",
-      "apps/frontend/system/module.cpp"}},
-    {"atomic",
-     {"nodes/", "tests/", "apps/frontend/system/interrupt.", "apps/frontend/system/last_words.", "apps/render/live_",
-      "apps/frontend/web/", "apps/modules/http.cpp", "apps/lab/bench/speed/plain_renderer.cpp"}},
-    {"mutex",
-     {"nodes/", "tests/", "apps/frontend/line/shown_text.h", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/",
-      "apps/modules/http.cpp", "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},
-    {"shared_mutex", {"nodes/", "tests/"}},
-    {"condition_variable",
-     {"nodes/", "tests/", "apps/render/live_", "apps/view/wishes.", "apps/frontend/web/", "apps/modules/http.cpp"}},
-    {"future", {"nodes/", "tests/", "apps/lab/bench/speed/crew.h"}},
-    {"semaphore", {"nodes/", "tests/"}},
-    {"latch", {"nodes/", "tests/", "apps/frontend/system/module.cpp"}},
-    {"barrier", {"nodes/", "tests/"}},
-    {"pthread.h", {"nodes/", "tests/", "apps/frontend/system/interrupt."}},
-};
+const std::map<std::string, Names> stands_on = rules("stands on"), words_of_core = rules("words of core"), rooms = rules("rooms"),
+                                   looked_into_by = rules("looked into by"), foreign = rules("foreign");
 
 bool begins_with(std::string_view text, std::string_view beginning) { return text.substr(0, beginning.size()) == beginning; }
 
 std::string first_folder(std::string_view path) { return std::string(path.substr(0, path.find('/'))); }
 
 /// A word of `foreign` ending in a slash, or embree's numbered folder, is a beginning; any other is a whole header.
-bool is_header_of(std::string_view header, const Foreign& rule) {
-  return rule.header.back() == '/' || rule.header == "embree" ? begins_with(header, rule.header) : header == rule.header;
+bool is_header_of(std::string_view header, const std::string& word) {
+  return word.back() == '/' || word == "embree" ? begins_with(header, word) : header == word;
 }
 
 bool may_include_foreign(std::string_view file, std::string_view header) {
-  return std::all_of(foreign.begin(), foreign.end(), [&](const Foreign& rule) {
-    return !is_header_of(header, rule) || std::any_of(rule.files.begin(), rule.files.end(),
-                                                      [&](const std::string& allowed) { return begins_with(file, allowed); });
+  return std::all_of(foreign.begin(), foreign.end(), [&](const auto& rule) {
+    return !is_header_of(header, rule.first) ||
+           std::any_of(rule.second.begin(), rule.second.end(),
+                       [&](const std::string& allowed) { return begins_with(file, allowed); });
   });
 }
 

@@ -28,19 +28,19 @@ using Rows = std::vector<Row>;
 
 // What was there on 2026-11-30, and 3 %.
 const Rows sources = {
-    {"apps", 24'000},           {"apps/computer", 5'535},  {"apps/frontend", 15'040},
-    {"apps/foreign", 14'549},   {"apps/lab", 2'105},       {"apps/lab/bench", 7'575},
+    {"apps", 23'970},           {"apps/computer", 5'535},  {"apps/frontend", 14'330},
+    {"apps/foreign", 14'380},   {"apps/lab", 2'105},       {"apps/lab/bench", 7'575},
     {"apps/lab/oracle", 5'192}, {"apps/lab/study", 1'960}, {"apps/main", 230},
     {"apps/manual", 60},        {"apps/modules", 670},     {"apps/policy", 1'080},
-    {"core", 29'200},           {"core/base", 1'580},      {"dataflow", 8'880},
+    {"core", 29'140},           {"core/base", 1'580},      {"dataflow", 8'880},
     {"nodes", 9'897},           {"nodes/pictures", 490},   {"svm", 3'379},
     {"svm/forest", 690},        {"svm/pages", 3'694},
 };
 const Rows tests = {
-    {"tests", 5'850},
-    {"tests/apps", 17'000},
+    {"tests", 5'750},
+    {"tests/apps", 16'710},
     {"tests/apps/computer", 2'210},
-    {"tests/apps/frontend", 6'170},
+    {"tests/apps/frontend", 5'870},
     {"tests/apps/foreign", 6'450},
     {"tests/apps/lab", 6'660},
     {"tests/core", 17'900},
@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 133'950;
+constexpr std::size_t sources_max = 133'300;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/frontend/line/text_table.h"
+#include "apps/frontend/line/words.h"
 #include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/complaint.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests {
 
@@ -28,6 +31,22 @@ inline std::string render_usage_complaint(const std::vector<std::string>& more) 
   std::vector<std::string> words = {"render", "teapot-12", "--nodes=6", "-o", "a.png"};
   words.insert(words.end(), more.begin(), more.end());
   return usage_complaint(words);
+}
+
+/// What is typed behind dmpc, and a part of the complaint.
+struct Refusal {
+  std::string line, complaint;
+};
+
+/// The rows of a file of tests/, such as "render --nodes=0 => expected a whole number"; \n is the end of a line.
+inline std::vector<Refusal> refusals_in(const std::string& file) {
+  const std::string text = file_text(std::string(DMPC_SOURCE_DIR "/tests/") + file);
+  std::vector<Refusal> refusals;
+  for (const auto& row : apps::table_rows(text, 2, "=>")) {
+    refusals.push_back({std::string(row[0]), apps::joined(apps::parts_between(row[1], "\\n"), "\n")});
+  }
+  core::expect(!refusals.empty(), "a table of refusals has rows");
+  return refusals;
 }
 
 }  // namespace dmpc::tests

@@ -1,36 +1,39 @@
 #include "apps/foreign/pbrt/spectra.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/spectra_tables.h"
 #include "apps/frontend/line/shown_text.h"
 #include "core/base/elementary.h"
-#include "core/base/ranges.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
 
 using core::Vec3d;
 
-constexpr double nm_step = 1;
-constexpr double last_nm = observer_first_nm + observer_step_nm * static_cast<double>(observer[0].size() - 1);
+constexpr double first_nm = 380, last_nm = 780, nm_step = 1;  // of the observer
 
 /// Interpolates linearly between values at intervals of `step`; constant beyond them.
-template <std::size_t Count>
-double between(const std::array<double, Count>& numbers, double first, double step, double nm) {
-  const double place = std::clamp((nm - first) / step, 0.0, static_cast<double>(Count - 1));
-  const std::size_t at = std::min(static_cast<std::size_t>(place), Count - 2);
+double between(const std::vector<double>& numbers, double first, double step, double nm) {
+  const double place = std::clamp((nm - first) / step, 0.0, static_cast<double>(numbers.size() - 1));
+  const std::size_t at = std::min(static_cast<std::size_t>(place), numbers.size() - 2);
   const double share = place - static_cast<double>(at);
   return numbers[at] * (1 - share) + numbers[at + 1] * share;
 }
 
 Vec3d matching(double nm) {
-  const auto of = [nm](std::size_t i) { return between(observer[i], observer_first_nm, observer_step_nm, nm); };
-  return {of(0), of(1), of(2)};
+  static const std::vector<double>&x = *tabulated("observer", "x"), &y = *tabulated("observer", "y"),
+               &z = *tabulated("observer", "z");
+  const auto of = [nm](const std::vector<double>& weights) { return between(weights, first_nm, 5, nm); };
+  return {of(x), of(y), of(z)};
 }
 
-double daylight_at(double nm) { return between(daylight, observer_first_nm, 10, nm); }
+double daylight_at(double nm) {
+  static const std::vector<double>& daylight = *tabulated("daylight", "D65");
+  return between(daylight, first_nm, 10, nm);
+}
 
 /// IEC 61966-2-1.
 constexpr std::array<Vec3d, 3> rgb_rows{{{3.2406, -1.5372, -0.4986}, {-0.9689, 1.8758, 0.0415}, {0.0557, -0.2040, 1.0570}}};
@@ -40,7 +43,7 @@ Vec3d rgb_of(const Vec3d& xyz) { return {dot(rgb_rows[0], xyz), dot(rgb_rows[1],
 template <class Value>
 Vec3d integral(const Value& value) {
   Vec3d sum;
-  for (double nm = observer_first_nm; nm <= last_nm; nm += nm_step) {
+  for (double nm = first_nm; nm <= last_nm; nm += nm_step) {
     sum = sum + matching(nm) * value(nm);
   }
   return sum;
@@ -84,20 +87,15 @@ double value_at(const std::vector<double>& pairs, double nm) {
   return before[1] + (after[1] - before[1]) * (nm - before[0]) / (after[0] - before[0]);
 }
 
-template <class Rows>
-const auto* find_in(const Rows& rows, const std::string& name) {
-  return core::find_in(rows, name, [](const auto& row) { return row.name; });
-}
-
 /// Looks up named metals and glasses, and spectra given as pairs.
 double value_of(const Parameter& parameter, double nm) {
   constexpr double first = 400, step = 20;
   if (parameter.texts.empty()) {
     return value_at(parameter.numbers, nm);
   }
-  const NamedMetal* const metal = find_in(named_metals, parameter.texts[0]);
-  const NamedGlass* const glass = find_in(named_glasses, parameter.texts[0]);
-  return metal != nullptr ? between(metal->value, first, step, nm) : glass != nullptr ? glass->index : 0;
+  const std::vector<double>* const metal = tabulated("metal", parameter.texts[0]);
+  const std::vector<double>* const glass = tabulated("glass", parameter.texts[0]);
+  return metal != nullptr ? between(*metal, first, step, nm) : glass != nullptr ? glass->front() : 0;
 }
 
 /// Converts CIE chromaticity to XYZ with luminance 1.
@@ -135,8 +133,8 @@ double luminance(const Vec3d& color) { return 0.2126 * color.x + 0.7152 * color.
 double straight_reflection(double n, double k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); }
 
 bool is_named_spectrum(const std::string& name) {
-  return find_in(named_lights, name) != nullptr || find_in(named_metals, name) != nullptr ||
-         find_in(named_glasses, name) != nullptr || name == "metal-MgO-k" || name == "metal-TiO2-k";
+  return tabulated("light", name) != nullptr || tabulated("metal", name) != nullptr || tabulated("glass", name) != nullptr ||
+         name == "metal-MgO-k" || name == "metal-TiO2-k";
 }
 
 Vec3d metal_color(const Parameter* eta, const Parameter* k, double below) {
@@ -178,7 +176,7 @@ Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse 
     return light_of(blackbody_light(kelvin));
   }
   check_wavelengths(parameter, owner);
-  const NamedLight* const named = parameter.texts.empty() ? nullptr : find_in(named_lights, parameter.texts[0]);
+  const std::vector<double>* const named = parameter.texts.empty() ? nullptr : tabulated("light", parameter.texts[0]);
   if (named != nullptr && use != SpectrumUse::light) {
     owner.fail(parameter.place, what + ": '" + clipped(parameter.texts[0], 40) + "' is a light, and no " +
                                     (use == SpectrumUse::index ? "index" : "reflectance"));
@@ -187,7 +185,8 @@ Vec3d color_of(const Parameter& parameter, const Parameters& owner, SpectrumUse 
   if (use == SpectrumUse::index) {
     return {value(630), value(532), value(465)};  // wavelengths of red, green and blue
   }
-  return use == SpectrumUse::reflectance ? reflectance_of(value) : light_of(named ? xyz_of(named->x, named->y) : integral(value));
+  return use == SpectrumUse::reflectance ? reflectance_of(value)
+                                         : light_of(named ? xyz_of(named->at(0), named->at(1)) : integral(value));
 }
 
 }  // namespace dmpc::apps::pbrt

@@ -8,8 +8,8 @@ namespace dmpc::apps {
 
 /// An option of ours that does what another program's does.
 struct ForeignOption {
-  const char* ours;  ///< "--resolution"
-  const char* note;  ///< the part of it that is meant: "the pixels of both sides"
+  std::string ours;  ///< "--resolution"
+  std::string note;  ///< the part of it that is meant: "the pixels of both sides"
 };
 
 /// Our option for `name` as pbrt, Mitsuba, Blender, POV-Ray or YafaRay spell it: "--fov", "-fov", "-j8", "+W640". Nothing if it

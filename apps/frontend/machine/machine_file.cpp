@@ -11,7 +11,6 @@
 #include "apps/frontend/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
-#include "core/base/ranges.h"
 #include "core/database/structure.h"
 #include "core/trace/charge.h"
 #include "nodes/topology.h"
@@ -234,6 +233,16 @@ MachineDescription description_of(const Fields& fields) {
           .sources = sources_of(fields)};
 }
 
+MachineDescription machine_in(const Json& json, const std::string& file) {
+  if (!json.is_object()) {
+    throw core::InputError(file + ": expected an object of a machine's figures, see dmpc machine ipsc2 for an example");
+  }
+  return description_of(Fields(json, file + ": ",
+                               {"name", "topology", "uplinks", "switching", "short_bytes_max", "short_message", "long_message",
+                                "hop_ns", "service_ns", "operation_ps", "has_contention", "has_memory_port"},
+                               {"format", "prices_for", "sources"}));
+}
+
 /// "line:column" of the last of the first `byte_count` bytes.
 std::string position(std::string_view text, std::size_t byte_count) {
   const std::string_view before = text.substr(0, std::min(text.size(), byte_count == 0 ? 0 : byte_count - 1));
@@ -281,8 +290,7 @@ Json parse_json(std::string_view text, const std::string& file) {
 
 /// " Did you mean ipsc2?"; empty if no machine's name is near.
 std::string name_meant(const std::string& typed) {
-  const std::vector<std::string> names =
-      core::mapped<std::string>(machine_presets(), [&](const MachineDescription& preset) { return preset.machine.name; });
+  const std::vector<std::string> names(machine_names.begin(), machine_names.end());
   return core::did_you_mean(typed, names);
 }
 
@@ -332,14 +340,23 @@ std::string machine_text(const MachineDescription& description) {
 }
 
 MachineDescription parse_machine(std::string_view text, const std::string& file) {
-  const Json json = parse_json(text, file);
-  if (!json.is_object()) {
-    throw core::InputError(file + ": expected an object of a machine's figures, see dmpc machine ipsc2 for an example");
+  return machine_in(parse_json(text, file), file);
+}
+
+MachineDescription parse_preset(std::string_view text) {
+  const std::string place = "machine preset";
+  try {
+    Json json = parse_json(text, place);
+    const std::string title = json.at("title");
+    json.erase("title");
+    MachineDescription preset = machine_in(json, place);
+    preset.title = title;
+    return preset;
+  } catch (const core::InputError& error) {
+    throw core::InternalError(error.what());
+  } catch (const Json::exception& error) {
+    throw core::InternalError(place + ": " + error.what());
   }
-  return description_of(Fields(json, file + ": ",
-                               {"name", "topology", "uplinks", "switching", "short_bytes_max", "short_message", "long_message",
-                                "hop_ns", "service_ns", "operation_ps", "has_contention", "has_memory_port"},
-                               {"format", "prices_for", "sources"}));
 }
 
 MachineDescription load_machine(const std::string& name_or_file) {

@@ -35,6 +35,9 @@ std::string machine_text(const MachineDescription& description);
 /// contention, uplinks without switches.
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
+/// Reads such a machine with its "title". Throws core::InternalError for what parse_machine() refuses.
+MachineDescription parse_preset(std::string_view text);
+
 /// The preset with this name, or the machine in the file of that name, 1 MiB at most. Throws core::InputError if there is
 /// neither, or as parse_machine() does.
 MachineDescription load_machine(const std::string& name_or_file);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -61,7 +62,10 @@ TEST_CASE("lists are printed in the order asked for, or all of them") {
   CHECK(some.find("ipsc2") > some.find("random"));
   CHECK_FALSE(tests::contains(some, "teapot-12"));
   const std::string all = list_of({});
-  for (const ChoiceList& one : all_choices()) {
+  REQUIRE(all_choices().size() == choice_kinds.size());
+  for (std::size_t i = 0; i < choice_kinds.size(); ++i) {
+    const ChoiceList one = all_choices()[i];
+    CHECK(one.kind == choice_kinds[i]);
     CHECK(tests::contains(all, one.kind + " (" + one.where + ")\n"));
   }
 }

@@ -73,6 +73,15 @@ TEST_CASE("what is printed of a machine reads back as the same") {
   }
 }
 
+TEST_CASE("a preset is read as a machine file with a title, and what is wrong with it is no mistake of who runs dmpc") {
+  const std::string preset = with(plain_text(), "{", R"({"title": "mine",)");
+  CHECK(parse_preset(preset).title == "mine");
+  CHECK(parse_preset(preset).machine.digest() == find_machine_preset("ipsc2")->machine.digest());
+  for (const std::string& wrong : {plain_text(), with(preset, "hop_ns", "hop"), std::string("[")}) {
+    CHECK_THROWS_AS(parse_preset(wrong), core::InternalError);
+  }
+}
+
 TEST_CASE("a machine file is of a format that it may leave out, and of no other") {
   CHECK(contains(plain_text(), "\"format\": 2,"));
   CHECK(machine_complaint_with("\"format\": 2,", "").empty());
