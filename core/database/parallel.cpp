@@ -32,7 +32,7 @@ struct Parallel::Arena {
   }
   explicit Arena(int concurrency) : threads(concurrency) {}
 
-  /// At its first use oneTBB starts threads and loads libraries.
+  /// At its first use oneTBB starts threads and loads libraries; to be asked for its concurrency is a use.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part) {
     threads.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&part](std::size_t i) {
@@ -42,7 +42,11 @@ struct Parallel::Arena {
     });
     use_usual_arithmetic();
   }
-  std::size_t concurrency() const { return static_cast<std::size_t>(threads.max_concurrency()); }
+  std::size_t concurrency() const {
+    const int count = threads.max_concurrency();
+    use_usual_arithmetic();
+    return static_cast<std::size_t>(count);
+  }
 
   tbb::task_arena threads;
 };

@@ -609,7 +609,7 @@ bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child
 bool Shader::send_on(HitState& state, Ray& child) const {
   expect(state.stage == Stage::continued, "a path goes on from a hit that has come to that");
   state.stage = Stage::finished;
-  const std::optional<PathStep> step = path_step(state, options_.transport.roulette_from);
+  const std::optional<PathStep> step = path_step(state);
   if (!step) {
     return false;
   }

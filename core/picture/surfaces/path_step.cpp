@@ -45,10 +45,10 @@ std::optional<PathStep> chosen_step(const HitState& state, const SamplePair& cho
   return shares.all() > 0.0 ? step_at(state, shares, choice.x * shares.all()) : std::nullopt;
 }
 
-/// Whether the path survives, and stands for those that do not. `chance` is in [0, 1); `first` is the first hit with roulette.
-bool survives(const Ray& ray, double chance, int first, PathStep& step) {
+/// Whether the path survives, and stands for those that do not. `chance` is in [0, 1).
+bool survives(const Ray& ray, double chance, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
-  if (share > 0.0 && (ray.depth < first || share >= 1.0)) {
+  if (share > 0.0 && (ray.depth < roulette_from || share >= 1.0)) {
     return true;
   }
   if (!(chance < share)) {
@@ -75,10 +75,10 @@ std::optional<Vec3d> scattered_direction(const HitState& state) {
   return leads_outside(state, towards) ? std::optional(towards) : std::nullopt;
 }
 
-std::optional<PathStep> path_step(const HitState& state, int roulette_from) {
+std::optional<PathStep> path_step(const HitState& state) {
   const SamplePair choice = pair_of(state.ray, Purpose::choice);
   std::optional<PathStep> step = chosen_step(state, choice);
-  return step && survives(state.ray, choice.y, roulette_from, *step) ? step : std::nullopt;
+  return step && survives(state.ray, choice.y, *step) ? step : std::nullopt;
 }
 
 }  // namespace dmpc::core

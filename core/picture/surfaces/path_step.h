@@ -30,8 +30,8 @@ enum class Purpose : std::uint32_t { choice, direction, emitter, place };
 /// The pair of a hit at `depth`, 1 or more; pair 0 of a sample is its position in the pixel.
 SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose);
 inline SamplePair pair_of(const Ray& ray, Purpose purpose) { return pair_of(ray.pixel, ray.sample, ray.depth, purpose); }
-/// Hits before this one always continue, unless a transport says otherwise.
-inline constexpr int roulette_from = Transport().roulette_from;
+/// From this hit on, the eye's being the first, paths may end by roulette.
+inline constexpr int roulette_from = 3;
 
 /// A cosine-distributed unit direction around the unit vector `normal`, for a uniform pair: the point on the unit disc below it,
 /// by P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools 2 (3), 1997; axes by T. Duff
@@ -47,6 +47,6 @@ std::optional<Vec3d> scattered_direction(const HitState& state);
 /// brightest channel of its weight, if that is below 1, and is weighted accordingly (J. Arvo, D. Kirk, "Particle Transport and
 /// Image Synthesis", SIGGRAPH 1990). The choice is a function of the ray's pixel, sample and depth. Requires a hit whose surface
 /// is known.
-std::optional<PathStep> path_step(const HitState& state, int roulette_from = core::roulette_from);
+std::optional<PathStep> path_step(const HitState& state);
 
 }  // namespace dmpc::core

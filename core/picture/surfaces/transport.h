@@ -23,10 +23,8 @@ struct Transport {
   bool only_aims = false;
   bool never_aims = false;    ///< for tests alone: the sky's picture has full weight where paths hit it, and is not sampled
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
-  /// From this hit on, the eye's being the first, paths may end by roulette.
-  std::uint8_t roulette_from = 3;
-  Color zenith;  ///< with a gradient
-  Vec3f up;      ///< the zenith's direction, grid-local, of unit length
+  Color zenith;               ///< with a gradient
+  Vec3f up;                   ///< the zenith's direction, grid-local, of unit length
 
   constexpr bool is_by_paths() const { return kind == TransportKind::paths; }
 };

@@ -101,9 +101,9 @@ struct Walk {
 };
 
 /// Returns whether the path survives roulette; its weight then replaces those that do not.
-bool survives(const Walk& walk, float chance, int roulette_from, PlainWay& way) {
+bool survives(const Walk& walk, float chance, PlainWay& way) {
   const float share = brightest(walk.weight * way.weight);
-  if (walk.depth < roulette_from || share >= 1) {
+  if (walk.depth < core::roulette_from || share >= 1) {
     return share > 0;
   }
   way.weight = way.weight * (1 / share);
@@ -174,7 +174,7 @@ class Walker : public EmbreeQueries {
     }
     const core::SamplePair choice = walk.pair(core::Purpose::choice);
     std::optional<PlainWay> way = lobes.way(choice, walk.pair(core::Purpose::direction));
-    if (!way || !survives(walk, static_cast<float>(choice.y), settings_.shade.transport.roulette_from, *way)) {
+    if (!way || !survives(walk, static_cast<float>(choice.y), *way)) {
       return false;
     }
     const Vec3f start = plain_start(surface, way->towards);
