@@ -6,6 +6,7 @@
 #include "apps/reader/budget.h"
 #include "core/base/expect.h"
 #include "tests/support/pbrt_scenes.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::pbrt_files_test {
 
@@ -81,10 +82,7 @@ TEST_CASE("files that are included again and again are refused" * doctest::test_
   }
   write_text(folder / "n40.pbrt", std::string(1000, '\n'));
   CHECK(tests::contains(refusal(folder, "Include \"n0.pbrt\""), "again and again"));
-  std::string many;
-  for (int i = 0; i < 100'001; ++i) {
-    many += "Include \"e\"\n";
-  }
+  const std::string many = tests::repeated(100'001, "Include \"e\"\n");
   write_text(folder / "e", "");
   CHECK(tests::contains(refusal(folder, many), "more than 100,000 files"));
 }

@@ -65,14 +65,6 @@ class SmallServer {
 
 bool is_answered(const SmallServer& server) { return contains(server.got("/"), "\r\n\r\nhere"); }
 
-std::string repeated(const std::string& text, std::size_t times) {
-  std::string all;
-  for (std::size_t i = 0; i < times; ++i) {
-    all += text;
-  }
-  return all;
-}
-
 /// Until it is so.
 template <class Condition>
 void wait_for(const Condition& condition) {
@@ -162,7 +154,7 @@ TEST_CASE("a request that is too long is cut off before anybody sees it") {
   const SmallServer server;
   for (const std::string& endless :
        {"GET /" + std::string(40'000, 'a'), "GET / HTTP/1.1\r\nHost: " + std::string(40'000, 'a') + "\r\n\r\n",
-        "GET / HTTP/1.1\r\n" + repeated("a: " + std::string(4000, 'b') + "\r\n", 10) + "\r\n"}) {
+        "GET / HTTP/1.1\r\n" + repeated(10, "a: " + std::string(4000, 'b') + "\r\n") + "\r\n"}) {
     WebClient client(server.port());
     client.send(endless);
     client.heard_all();
@@ -196,8 +188,8 @@ TEST_CASE("bytes that are no request, and parts of requests, do no harm") {
     CHECK(client.is_over());
   }
   for (const std::string& header :
-       {"Range: bytes=" + repeated("0-0,", 1900) + "0-0", "Range: bytes=" + std::string(8000, '9') + "-",
-        "Content-Length: " + std::string(8000, '9'), std::string("Content-Length: -1"), repeated("a: b\r\n", 4000) + "c: d",
+       {"Range: bytes=" + repeated(1900, "0-0,") + "0-0", "Range: bytes=" + std::string(8000, '9') + "-",
+        "Content-Length: " + std::string(8000, '9'), std::string("Content-Length: -1"), repeated(4000, "a: b\r\n") + "c: d",
         "Host: " + std::string(8000, '%'), "Content-Type: multipart/form-data; boundary=" + std::string(8000, '-')}) {
     WebClient client(server.port());
     client.get("/", server.host(), header + "\r\n");
