@@ -36,6 +36,7 @@ namespace dmpc::apps::reading_memory_test {
 
 using tests::complaint_of;
 using tests::contains;
+using tests::repeated;
 using tests::TemporaryFolder;
 
 namespace {

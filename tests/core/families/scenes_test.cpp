@@ -11,10 +11,12 @@
 #include "core/base/expect.h"
 #include "tests/support/complaint.h"
 #include "tests/support/tables.h"
+#include "tests/support/text.h"
 
 namespace scenes_test {
 
 using namespace dmpc::core;
+using dmpc::tests::contains;
 
 namespace {
 
@@ -102,8 +104,6 @@ std::vector<Known> known_scenes() {
 std::string message_of(const char* name) {
   return dmpc::tests::complaint_of([&] { parse_scene_name(name); });
 }
-
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

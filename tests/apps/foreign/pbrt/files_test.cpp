@@ -5,6 +5,7 @@
 
 #include "apps/reader/budget.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/pbrt_scenes.h"
 #include "tests/support/text.h"
 
@@ -27,12 +28,7 @@ const std::string packed_x("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xab\x00\x00
 /// The time that reading may take bounds none of what is tested here: instrumented, on a busy machine, 100,000 files take long.
 std::string refusal(const TemporaryFolder& folder, const std::string& main) {
   write_text(folder / "a.pbrt", main);
-  try {
-    apps::read_mesh_file(folder / "a.pbrt", {}, false, {.seconds = 1'000});
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { apps::read_mesh_file(folder / "a.pbrt", {}, false, {.seconds = 1'000}); });
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace dmpc::apps::web_server_test {
 namespace {
 
 using tests::contains;
+using tests::repeated;
 using tests::WebClient;
 
 /// Answers "/" and unknown paths by "here", "/large" by a page of 8 MB, and "/stream" by letters without end.
