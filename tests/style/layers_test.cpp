@@ -17,6 +17,7 @@
 #include "apps/frontend/line/text_table.h"
 #include "core/base/expect.h"
 #include "tests/style/sources.h"
+#include "tests/support/tables.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::layers_test {
@@ -201,44 +202,15 @@ TEST_CASE("a header compiles alone, since its own source includes it before any 
   CHECK_FALSE(begins_with_own_header("core/picture/film/film.cpp", never));
 }
 
-TEST_CASE("an upward include is found, with file and line") {
-  CHECK(violations_in("core/record/ray.h", "\n#include \"nodes/node.h\"\n") == Names{"core/record/ray.h:2: nodes/node.h"});
-  CHECK(violations_in("core/record/ray.h", "#include <svm/pages/page.h>") == Names{"core/record/ray.h:1: svm/pages/page.h"});
-  CHECK(violations_in("nodes/node.h", "  #  include \"apps/main/commands.h\"").size() == 1);
-  CHECK(violations_in("svm/run.cpp", "#include \"tests/support/small_machine.h\"").size() == 1);
+TEST_CASE("an include that is not allowed is found, with file and line, and what is allowed is not") {
+  for (const auto& row : rows_in("style/includes.txt", 3)) {
+    CAPTURE(row[0]);
+    CAPTURE(row[1]);
+    CHECK(violations_in(row[0], row[1]) == (row[2].empty() ? Names{} : Names{row[0] + ":" + row[2]}));
+  }
 }
 
-TEST_CASE("nodes uses of core nothing but its base") {
-  CHECK(violations_in("nodes/charge.h", "\n#include \"core/trace/operations.h\"\n") ==
-        Names{"nodes/charge.h:2: core/trace/operations.h"});
-  CHECK(violations_in("nodes/observers/heat_map.cpp", "#include \"core/picture/heat_kind.h\"").size() == 1);
-  CHECK(violations_in("nodes/node.h", "#include \"core/base/expect.h\"").empty());
-  CHECK(violations_in("nodes/gathering.h", "#include \"nodes/pictures/host.h\"").size() == 1);
-  CHECK(violations_in("nodes/pictures/host.h", "#include \"core/picture/film/film.h\"\n#include \"nodes/node.h\"").empty());
-  CHECK(violations_in("nodes/pictures/host.h", "#include \"svm/packets.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/memory_use.h\"").empty());
-}
-
-TEST_CASE("a room uses only those below it") {
-  CHECK(violations_in("core/base/vec.h", "#include \"core/scene/scene.h\"").size() == 1);
-  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/frontend/table/table.h\"").size() == 1);
-  CHECK(violations_in("nodes/node.h", "#include \"nodes/observers/trace.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"svm/pages/observers/miss_curve.h\"").size() == 1);
-  CHECK(violations_in("apps/lab/bench/speed/part.h",
-                      "#include \"apps/frontend/line/words.h\"\n#include \"apps/lab/bench/speed/table.h\"")
-            .empty());
-  CHECK(violations_in("nodes/runner.cpp", "#include \"nodes/threads/clock.h\"").empty());
-}
-
-TEST_CASE("a library uses only those below it, and none itself by way of others") {
-  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/lab/study/cache.h\"").size() == 1);
-  CHECK(violations_in("apps/frontend/line/words.cpp", "#include \"apps/main/commands.h\"").size() == 1);
-  CHECK(violations_in("apps/render/command.cpp", "#include \"apps/lab/study/cache.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"svm/packets.h\"").size() == 1);
-  CHECK(violations_in("svm/plan.cpp", "#include \"svm/forest/forest.h\"").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/film/film.h\"").size() == 1);
-  CHECK(violations_in("apps/computer/run.cpp", "#include \"apps/run/report.h\"").size() == 1);
-  CHECK(violations_in("apps/main/main.cpp", "#include \"apps/lab/study/cache.h\"").empty());
+TEST_CASE("no library uses itself by way of others") {
   for (const auto& [library, unused] : stands_on) {
     CAPTURE(library);
     CHECK_FALSE(stands_below(library, library));
@@ -286,38 +258,6 @@ TEST_CASE("no layer below the edge speaks of the command line's options") {
       CHECK_FALSE(std::regex_search(line, option));
     }
   }
-}
-
-TEST_CASE("the two families never meet") {
-  CHECK(violations_in("svm/run.cpp", "#include \"dataflow/region.h\"").size() == 1);
-  CHECK(violations_in("dataflow/host.h", "#include \"svm/pages/page.h\"").size() == 1);
-}
-
-TEST_CASE("a foreign header outside its files is found") {
-  CHECK(violations_in("apps/lab/check/command.cpp", "#include <embree3/rtcore.h>").size() == 1);
-  CHECK(violations_in("apps/render/command.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
-  CHECK(violations_in("apps/picture/image_file.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
-  CHECK(violations_in("apps/main/commands.h", "#include <png.h>").size() == 1);
-  CHECK(violations_in("apps/scene/load_scene.cpp", "#include <meshoptimizer.h>").size() == 1);
-  CHECK(violations_in("apps/main/main.cpp", "#include \"nlohmann/json.hpp\"").size() == 1);
-  CHECK(violations_in("core/database/database.cpp", "#include <tbb/parallel_for.h>").size() == 1);
-  CHECK(violations_in("core/trace/cell_traversal.h", "#include <hwy/highway.h>").size() == 1);
-  CHECK(violations_in("core/picture/film/film.h", "#include <doctest/doctest.h>").size() == 1);
-}
-
-TEST_CASE("threads and atomics outside the computer are found") {
-  CHECK(violations_in("core/picture/film/film.cpp", "#include <atomic>").size() == 1);
-  CHECK(violations_in("svm/pages/pager.h", "#include <thread>").size() == 1);
-  CHECK(violations_in("apps/render/command.cpp", "#include <mutex>").size() == 1);
-}
-
-TEST_CASE("what is allowed is not found") {
-  CHECK(violations_in("svm/run.cpp", "#include \"core/picture/film/film.h\"\n#include <nodes/node.h>\n#include <vector>\n")
-            .empty());
-  CHECK(violations_in("apps/oracle/embree.h", "#include <embree3/rtcore.h>\n#include <embree4/rtcore.h>").empty());
-  CHECK(violations_in("nodes/mailbox.h", "#include <atomic>").empty());
-  CHECK(violations_in("tests/nodes/x_test.cpp", "#include <thread>\n#include \"nodes/node.h\"").empty());
-  CHECK(violations_in("core/picture/film/film.cpp", "// #include of nothing\n#include <sys/stat.h>").empty());
 }
 
 }  // namespace dmpc::tests::layers_test

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "apps/lab/bench/stability/cells.h"
 #include "core/picture/surfaces/transport.h"
 #include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
+#include "tests/support/tables.h"
 
 namespace dmpc::tests::cycles {
 
@@ -76,8 +78,26 @@ inline Light leaf_of(const core::Film& film, std::uint32_t leaf) {
   return sum;
 }
 
+/// What Cycles made of a scene.
+inline Leaves cycles_of(const std::string& name) {
+  std::vector<double> light;
+  for (const auto& row : rows_in("core/picture/cycles.txt", leaves, name)) {
+    for (const std::string& cell : row) {
+      const std::vector<double> leaf = numbers_of(cell);
+      light.insert(light.end(), leaf.begin(), leaf.end());
+    }
+  }
+  Leaves all;
+  core::expect(light.size() == all.size() * 3, "each block has a light of three channels");
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    all[i / 3][i % 3] = light[i];
+  }
+  return all;
+}
+
 /// Each block to 0.006, or to that share of it, and the whole to 0.5 %, where a slow build's samples are not too few for it.
-inline void check(const core::Film& film, const Leaves& cycles) {
+inline void check(const core::Film& film, const std::string& name) {
+  const Leaves cycles = cycles_of(name);
   constexpr double few = slowness == 1 ? 1 : 10;
   Light all{}, expected{};
   for (std::uint32_t leaf = 0; leaf < cycles.size(); ++leaf) {

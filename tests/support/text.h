@@ -7,6 +7,14 @@
 
 namespace dmpc::tests {
 
+inline std::string repeated(std::size_t count, const std::string& text) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
+}
+
 /// How often `part`, which is not empty, stands in `text`, overlaps included.
 inline std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;

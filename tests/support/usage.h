@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/frontend/line/text_table.h"
-#include "apps/frontend/line/words.h"
 #include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/complaint.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/tables.h"
 
 namespace dmpc::tests {
 
@@ -40,12 +38,10 @@ struct Refusal {
 
 /// The rows of a file of tests/, such as "render --nodes=0 => expected a whole number"; \n is the end of a line.
 inline std::vector<Refusal> refusals_in(const std::string& file) {
-  const std::string text = file_text(std::string(DMPC_SOURCE_DIR "/tests/") + file);
   std::vector<Refusal> refusals;
-  for (const auto& row : apps::table_rows(text, 2, "=>")) {
-    refusals.push_back({std::string(row[0]), apps::joined(apps::parts_between(row[1], "\\n"), "\n")});
+  for (const auto& row : rows_in(file, 2)) {
+    refusals.push_back({row[0], row[1]});
   }
-  core::expect(!refusals.empty(), "a table of refusals has rows");
   return refusals;
 }
 

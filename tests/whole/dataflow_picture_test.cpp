@@ -14,6 +14,7 @@
 #include "core/picture/memory_use.h"
 #include "dataflow/run.h"
 #include "tests/support/border_scene.h"
+#include "tests/support/complaint.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -280,12 +281,7 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
   RunOptions options{.computer = {.node_count = 1},
                      .rays = {.balance = {.balance = Balance::equal_size}, .ray_batch = 1, .ray_credits = 1}};
   options.computer.node_memory_bytes = run(subject, options).plan.node_memory_max_bytes() - (std::size_t{40} << 10U);
-  std::string error;
-  try {
-    run(subject, options);
-  } catch (const core::InputError& e) {
-    error = e.what();
-  }
+  const std::string error = complaint_of([&] { run(subject, options); });
   INFO(error);
   const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);

@@ -15,6 +15,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/child_process.h"
 #include "tests/support/complaint.h"
+#include "tests/support/tables.h"
 
 namespace dmpc::apps::models_test {
 
@@ -22,51 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Models that are refused, and what the model_complaint says.
-const std::map<std::string, std::string> refused = {
-    {"OBJ/box_UTF16BE.obj", "line 1: expected text, found byte 0"},
-    {"OBJ/number_formats.obj", "line 11: found '3.1+e2', expected a number"},
-    {"OBJ/point_cloud.obj", "no triangle"},
-    {"OBJ/testline.obj", "no triangle"},
-    {"OBJ/testpoints.obj", "no triangle"},
-    {"PLY/issue623.ply", "expected the length of a list"},  // faces' indices among the vertices' properties
-    {"PLY/points.ply", "no triangle"},                      // vertices alone
-    {"PLY/pond.0.ply", "it ends within element 'vertex' 70049 of 70051"},
-    {"glTF/BoxTextured-glTF-Binary/BoxTextured.glb", "of another version"},  // glTF 1 in binary
-    {"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf", "asset.version: the version is '1"},
-    {"glTF/BoxTextured-glTF-MaterialsCommon/BoxTextured.gltf", "asset.version: the version is '1"},
-    {"glTF/BoxTextured-glTF/BoxTextured.gltf", "asset.version: the version is '1"},
-    {"glTF/CesiumMilkTruck/CesiumMilkTruck.gltf", "asset.version: the version is '1"},
-    {"glTF/IncorrectVertexArrays/Cube_v1.gltf", "asset.version: the version is '1"},
-    {"glTF/TwoBoxes/TwoBoxes.gltf", "asset.version: the version is '1"},
-    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not a number, infinite"},
-    {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "does not exist: there are 24"},
-    {"glTF2/BoxTextured-glTF-techniqueWebGL/BoxTextured.gltf", "requires what is not shown here: KHR_technique_webgl"},
-    {"glTF2/IndexOutOfRange/IndexOutOfRange.gltf", "index 0 is of vertex 255, which does not exist: there are 24"},
-    {"glTF2/MissingBin/BoxTextured.gltf", "BoxTextured0.bin"},
-    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "recursive"},
-    {"glTF2/SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin"},
-    {"glTF2/TestNoRootNode/NoScene.gltf", "has no scene"},
-    {"glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_00.gltf", "no triangle"},  // points and lines
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_01.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_02.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_03.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_07.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_08.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_09.gltf", "no triangle"},
-    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_10.gltf", "no triangle"},
-    {"glTF2/issue_3269/texcoord_crash.gltf", "there is no TEXCOORD_0"},
-    {"glTF2/wrongTypes/badArray.gltf", "not of type"},
-    {"glTF2/wrongTypes/badExtension.gltf", "not of type"},
-    {"glTF2/wrongTypes/badNumber.gltf", "has no \"index\""},
-    {"glTF2/wrongTypes/badObject.gltf", "not of type"},
-    {"glTF2/wrongTypes/badString.gltf", "not of type"},
-    {"glTF2/wrongTypes/badUint.gltf", "not of type"},
-    {"invalid/empty.obj", "no triangle"},
-    {"invalid/empty.ply", "the file ends within its header"},
-    {"invalid/malformed.obj", "line 28: the face has vertex 0, which does not exist: they are counted from 1"},
-};
+/// Models that are refused, and what is said of them.
+std::map<std::string, std::string> refused_models() {
+  std::map<std::string, std::string> refused;
+  for (const auto& row : tests::rows_in("apps/foreign/models.txt", 2)) {
+    refused[row[0]] = row[1];
+  }
+  return refused;
+}
 
 std::vector<std::string> models() {
   std::vector<std::string> paths;
@@ -112,6 +76,7 @@ TEST_CASE("the models of assimp-testmodels are installed") {
 }
 
 TEST_CASE("every model is a scene, or refused for a reason that is known") {
+  const std::map<std::string, std::string> refused = refused_models();
   for (const std::string& path : models()) {
     CAPTURE(path);
     const auto reason = refused.find(path);

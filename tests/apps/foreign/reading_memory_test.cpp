@@ -30,11 +30,13 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/read_mesh.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::reading_memory_test {
 
 using tests::complaint_of;
 using tests::contains;
+using tests::repeated;
 using tests::TemporaryFolder;
 
 namespace {
@@ -149,14 +151,6 @@ std::string refusal(const std::string& name, const std::string& text, std::uint6
   return complaint_of<core::CapacityError>([&] { read_mesh(name, {}, file); });
 }
 
-std::string times(int count, const std::string& text) {
-  std::string all;
-  for (int i = 0; i < count; ++i) {
-    all += text;
-  }
-  return all;
-}
-
 void make_sparse(const std::filesystem::path& path, const std::string& head, std::uint64_t bytes) {
   std::ofstream(path) << head;
   std::filesystem::resize_file(path, bytes);
@@ -208,13 +202,13 @@ TEST_CASE("a file whose triangles take more memory than a scene may is refused b
 TEST_CASE("a total of all shapes so far, and of all places of instances, is refused at the line where memory would end") {
   const std::string world = "WorldBegin\n", cylinder = "Shape \"cylinder\"\n";
   const auto pbrt = [&](const std::string& text, std::uint64_t bytes) { return refusal("a.pbrt", world + text, bytes); };
-  CHECK(pbrt(times(3, cylinder), 1U << 20U).empty());
-  CHECK(contains(pbrt(times(3, cylinder), 20'000), "a.pbrt:3:1: its 256 triangles so far take at least"));
+  CHECK(pbrt(repeated(3, cylinder), 1U << 20U).empty());
+  CHECK(contains(pbrt(repeated(3, cylinder), 20'000), "a.pbrt:3:1: its 256 triangles so far take at least"));
   const std::string object = "ObjectBegin \"a\"\n" + cylinder + "ObjectEnd\n", instance = "ObjectInstance \"a\"\n";
-  CHECK(contains(pbrt(object + times(3, instance), 20'000), "a.pbrt:6:1: its 256 triangles so far"));
+  CHECK(contains(pbrt(object + repeated(3, instance), 20'000), "a.pbrt:6:1: its 256 triangles so far"));
   CHECK(contains(pbrt(instance + instance + object, 20'000), "a.pbrt:3:1: its 256 triangles so far"));
-  CHECK(contains(pbrt(times(99, instance), 10'000), "its 0 triangles so far"));  // geometry that is still to come
-  CHECK(pbrt(times(9, "Shape \"sphere\"\n"), 10'000).empty());
+  CHECK(contains(pbrt(repeated(99, instance), 10'000), "its 0 triangles so far"));  // geometry that is still to come
+  CHECK(pbrt(repeated(9, "Shape \"sphere\"\n"), 10'000).empty());
   const std::string flat = "Scale 1 1 2\n", ball = "Shape \"sphere\"\n";
   CHECK(contains(pbrt(flat + ball + ball, 500'000), "a.pbrt:4:1: its 8,192 triangles so far"));
 }
@@ -222,7 +216,7 @@ TEST_CASE("a total of all shapes so far, and of all places of instances, is refu
 TEST_CASE("what a few words become is asked for before it is made") {
   const std::string world = "WorldBegin\n", square = " \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] \"integer indices\" [";
   const auto pbrt = [&](const std::string& text, std::uint64_t bytes) { return refusal("a.pbrt", world + text, bytes); };
-  CHECK(contains(pbrt("Shape \"bilinearmesh\"" + square + times(100, "0 1 2 3 ") + "]", 200'000), "a.pbrt:2:1: its 12,800 "));
+  CHECK(contains(pbrt("Shape \"bilinearmesh\"" + square + repeated(100, "0 1 2 3 ") + "]", 200'000), "a.pbrt:2:1: its 12,800 "));
   const std::string loop = "Shape \"loopsubdiv\" \"integer levels\" 9" + square + "0 1 2]";
   CHECK(contains(pbrt(loop, 10'000'000), "a.pbrt:2:1: its 262,144 triangles so far"));
 }

@@ -16,6 +16,7 @@
 #include "core/families/scenes.h"
 #include "tests/support/same_scene.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace nff_writer_test {
 
@@ -88,11 +89,7 @@ TEST_CASE("the generator's own stream is written, with a material wherever the S
   apps::NffWriter writer(output);
   core::generate_scene(core::parse_scene_name("lattice-1"), writer);
   const std::string text = output.str();
-  std::size_t materials = 0;
-  for (std::size_t at = text.find("\nf "); at != std::string::npos; at = text.find("\nf ", at + 1)) {
-    ++materials;
-  }
-  CHECK(materials == 8 + 12);
+  CHECK(tests::count(text, "\nf ") == 8 + 12);
 }
 
 TEST_CASE("a scene is written to a file whole, by its final name only") {

@@ -12,11 +12,11 @@
 #include "core/base/expect.h"
 #include "svm/pages/observers/optimum.h"
 #include "svm/pages/replacement.h"
+#include "tests/apps/policy/policy_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
-#include "tests/support/trusted_folder.h"
 
 namespace dmpc::tests::foreign_policy_test {
 
@@ -61,14 +61,7 @@ std::string refusal_of(const std::string& place) {
   return tests::complaint_of([&] { const ForeignPolicy policy("--policy", place, no_check); });
 }
 
-struct Python {
-  TrustedFolder folder{DMPC_BUILD_DIR};
-  std::string file = folder / "policy.py";
-
-  explicit Python(const std::string& source) { write_text(file, source); }
-  std::string place(const std::string& name = "Mine") const { return "python:" + file + ":" + name; }
-  ForeignPolicy loaded() const { return ForeignPolicy("--policy", place(), no_check); }
-};
+ForeignPolicy loaded(const PolicyFile& policy) { return ForeignPolicy("--policy", policy.place(), no_check); }
 
 std::string clock_in_python() {
   return "python:" + fs::canonical(DMPC_SOURCE_DIR "/apps/python/examples/clock.py").string() + ":Clock";
@@ -107,14 +100,7 @@ TEST_CASE("S4-FIFO with its knobs at rest misses what dmpc's s3-fifo does") {
 }
 
 TEST_CASE("a page that a policy does not take in is fetched and evicts nothing, and prices tell which is worth a frame") {
-  const Python python(
-      "class Mine:\n"
-      "  def __init__(self, frame_count, node): self.prices = [0] * frame_count\n"
-      "  def price(self, page, price): self.incoming = price\n"
-      "  def insert(self, page, frame): self.prices[frame] = self.incoming\n"
-      "  def victim(self, incoming):\n"
-      "    cheapest = self.prices.index(min(self.prices))\n"
-      "    return cheapest if self.incoming > self.prices[cheapest] else 'bypass'\n");
+  const PolicyFile python(policy_source("priced"));
   // A frame: page 7 costs 1, then 1 costs 10 and stays. Page 2, twice in a row, is one reference.
   const std::vector<PageId> few = {PageId{7}, PageId{1}, PageId{2}, PageId{2}, PageId{1}, PageId{2}, PageId{1}};
   const std::vector<std::uint32_t> prices = {1, 10, 3, 3, 10, 3, 10}, one = {1}, caches = {0, 1, 2, 7, 59, 60};
@@ -123,7 +109,7 @@ TEST_CASE("a page that a policy does not take in is fetched and evicts nothing, 
   for (const PageId page : many) {
     price_of_many.push_back(1 + svm::index_of(page) * 7 % 23);
   }
-  const ForeignPolicy dear("--policy", DMPC_DEAR_POLICY, no_check), mine = python.loaded();
+  const ForeignPolicy dear("--policy", DMPC_DEAR_POLICY, no_check), mine = loaded(python);
   for (const ForeignPolicy* const policy : {&dear, &mine}) {
     CAPTURE(policy->name());
     const PricedFaults faults = policy->misses(few, one, 0, no_check, no_check, prices).front();
@@ -148,33 +134,14 @@ TEST_CASE("a library of the interface's first version runs as it did, and its pr
 }
 
 TEST_CASE("a policy hears of what dmpc's own hear: each page that comes, and hits of a page in a row once") {
-  const Python python(
-      "import sys\n"
-      "class Mine:\n"
-      "  def __init__(self, frame_count, node): self.heard = f'{frame_count} {node}:'\n"
-      "  def hit(self, page, frame): self.heard += f' hit {page} {frame}'\n"
-      "  def insert(self, page, frame): self.heard += f' insert {page} {frame}'\n"
-      "  def victim(self, incoming): raise Exception(self.heard)\n");
+  const PolicyFile python(policy_source("heard"));
   const std::vector<PageId> pages = {PageId{5}, PageId{5}, PageId{8}, PageId{8}, PageId{5}, PageId{5}, PageId{8}, PageId{9}};
-  CHECK(contains(complaint_of(python.loaded(), 2, pages), "Exception: 2 3: insert 5 0 insert 8 1 hit 5 0 hit 8 1"));
+  CHECK(contains(complaint_of(loaded(python), 2, pages), "Exception: 2 3: insert 5 0 insert 8 1 hit 5 0 hit 8 1"));
 }
 
 TEST_CASE("what a policy in Python does wrong is told with its call, fault, cache, file and line") {
-  const Python python(
-      "class Mine:\n"
-      "  def __init__(self, frame_count, node):\n"
-      "    if frame_count == 2: raise ValueError('two are too few')\n"
-      "    self.frame_count = frame_count\n"
-      "  def victim(self, incoming):\n"
-      "    if self.frame_count == 3: return {}['none']\n"
-      "    if self.frame_count == 4: return 4\n"
-      "    if self.frame_count == 5: return None\n"
-      "    if self.frame_count == 6: raise SystemExit(0)\n"
-      "    if self.frame_count == 7: return True\n"
-      "    if self.frame_count == 8: return -1\n"
-      "    if self.frame_count == 9: return self.victim(incoming)\n"
-      "    import os; os.abort()\n");
-  const ForeignPolicy policy = python.loaded();
+  const PolicyFile python(policy_source("wrong"));
+  const ForeignPolicy policy = loaded(python);
   const std::vector<PageId> pages = all_different(50);
   const auto said = [&](std::uint32_t cache_pages) { return complaint_of(policy, cache_pages, pages); };
   const std::string begin = "--policy=" + python.place() + ": ";
@@ -224,7 +191,7 @@ TEST_CASE("a policy that does not come to an end is ended with whoever waits for
 }
 
 TEST_CASE("a policy that does not come back from a call is an error after some processor time") {
-  const Python python(
+  const PolicyFile python(
       "class Mine:\n  def __init__(self, frame_count, node): pass\n  def victim(self, incoming):\n    while True: pass\n");
   const apps::PolicyPatience second{.call_seconds = 1};
   const ForeignPolicy in_python("--policy", python.place(), no_check, second),
@@ -235,15 +202,15 @@ TEST_CASE("a policy that does not come back from a call is an error after some p
                                                              python.file + ", line 4)");
   CHECK(contains(complaint_of(by_library, 8, all_different(50)),
                  "victim(page 8) of fault 9, with 8 frames of node 3: it does not come back"));
-  const Python begins("while True: pass\n");
+  const PolicyFile begins("while True: pass\n");
   const std::string said = tests::complaint_of([&] { const ForeignPolicy policy("--policy", begins.place(), no_check, second); });
   CHECK(said == "--policy=" + begins.place() + ": it does not come back (" + begins.file + ", line 1)");
 }
 
 TEST_CASE("Ctrl-C ends a study whose policy hangs, and its process") {
   const TemporaryFolder folder;
-  const Python python("class Mine:\n  def __init__(self, frame_count, node): open(" + std::string("'") +
-                      (folder / "begun").string() + "', 'w').close()\n  def victim(self, incoming):\n    while True: pass\n");
+  const PolicyFile python("class Mine:\n  def __init__(self, frame_count, node): open(" + std::string("'") +
+                          (folder / "begun").string() + "', 'w').close()\n  def victim(self, incoming):\n    while True: pass\n");
   write_text(folder / "trace.csv", "page\n1\n2\n3\n");
   ChildProcess study(
       {DMPC_PROGRAM, "study", "references", folder / "trace.csv", "--cache-pages=2", "--policy=" + python.place()});
@@ -255,15 +222,15 @@ TEST_CASE("Ctrl-C ends a study whose policy hangs, and its process") {
 }
 
 TEST_CASE("a file that is no policy is refused with what was expected") {
-  const Python python("class Other: pass\nclass Mine:\n  pass\n");
+  const PolicyFile python("class Other: pass\nclass Mine:\n  pass\n");
   CHECK(refusal_of(python.place("None_such")) ==
         "--policy=" + python.place("None_such") + ": it has no class None_such; it has Other, Mine");
   CHECK(refusal_of(python.place()) == "");  // missing functions are reported on construction
-  CHECK(contains(complaint_of(python.loaded(), 2, all_different(3)),
+  CHECK(contains(complaint_of(loaded(python), 2, all_different(3)),
                  "making it for 2 frames of node 3: TypeError: Mine() takes no arguments"));
-  const Python broken("class Mine:\n  def victim(self, incoming) return 0\n");
+  const PolicyFile broken("class Mine:\n  def victim(self, incoming) return 0\n");
   CHECK(contains(refusal_of(broken.place()), "SyntaxError: expected ':' (" + broken.file + ", line 2)"));
-  const Python failing("\nimport none_such\n");
+  const PolicyFile failing("\nimport none_such\n");
   CHECK(contains(refusal_of(failing.place()), "ModuleNotFoundError: No module named 'none_such' (" + failing.file + ", line 2)"));
   CHECK(contains(refusal_of(python.file), "it cannot be opened as a shared library: "));
   CHECK(contains(refusal_of(DMPC_OTHER_POLICY), "its policy has version 3 of the interface, expected 1 to 2"));
@@ -283,7 +250,7 @@ TEST_CASE("a place that says nothing is refused with what one may say") {
 }
 
 TEST_CASE("a policy that others may write, or put another in its place, is not even read") {
-  const Python python("raise Exception('it ran')\n");
+  const PolicyFile python("raise Exception('it ran')\n");
   const auto refused = [](const std::string& place) { return contains(refusal_of(place), "others can change it, since "); };
   fs::permissions(python.file, fs::perms(0646));
   CHECK(refused(python.place()));
@@ -301,9 +268,9 @@ TEST_CASE("a policy that others may write, or put another in its place, is not e
 }
 
 TEST_CASE("a policy's name is one that a table may have, and no other's") {
-  const Python python("class lru: pass\nclass Mine: pass\n");
+  const PolicyFile python("class lru: pass\nclass Mine: pass\n");
   CHECK(contains(refusal_of(python.place("lru")), "the policy's name, lru, is that of a column that there is anyway"));
-  const std::vector<ForeignPolicy> twice = {python.loaded(), python.loaded()};
+  const std::vector<ForeignPolicy> twice = {loaded(python), loaded(python)};
   CHECK_THROWS_WITH_AS(check_names_differ(twice), doctest::Contains("two policies are called Mine"), core::InputError);
 }
 
@@ -311,7 +278,7 @@ TEST_CASE("what a policy imports is what is installed, not what lies where dmpc 
   const TemporaryFolder folder;
   write_text(folder / "array.py", "raise Exception('a stranger')\n");
   write_text(folder / "stranger.py", "");
-  const Python python("import stranger\n");
+  const PolicyFile python("import stranger\n");
   write_text(folder / "trace.csv", "page\n1\n");
   ChildProcess study({"/usr/bin/env", "-C", folder.path(), "PYTHONPATH=" + folder.path().string(), DMPC_PROGRAM, "study",
                       "references", folder / "trace.csv", "--policy=" + python.place()});

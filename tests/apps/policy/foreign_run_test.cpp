@@ -13,12 +13,12 @@
 #include "apps/policy/foreign_policy.h"
 #include "svm/frames.h"
 #include "svm/run.h"
+#include "tests/apps/policy/policy_file.h"
 #include "tests/support/built_scene.h"
 #include "tests/support/child_process.h"
 #include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
-#include "tests/support/trusted_folder.h"
 
 namespace dmpc::tests::foreign_run_test {
 
@@ -26,21 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using apps::ForeignPolicy;
-
-const char* const lru_in_python =
-    "class Lru:\n"
-    "  def __init__(self, frame_count, node): self.order = {}\n"
-    "  def hit(self, page, frame): self.order[frame] = self.order.pop(frame, None)\n"
-    "  insert = hit\n"
-    "  def victim(self, incoming): return next(iter(self.order))\n";
-
-struct Script {
-  TrustedFolder folder{DMPC_BUILD_DIR};
-  std::string file = folder / "policy.py";
-
-  explicit Script(const std::string& source) { write_text(file, source); }
-  std::string place(const std::string& name = "Mine") const { return "python:" + file + ":" + name; }
-};
 
 ForeignPolicy loaded(const std::string& place, const apps::PolicyPatience& patience = {}) {
   return {"--replacement", place, [] {}, patience};
@@ -84,7 +69,7 @@ std::vector<svm::RunOptions> several(const svm::OwnPolicy* policy) {
 
 TEST_CASE("a least-recently-used of one's own misses and takes what dmpc's does, to the nanosecond, and again") {
   const Runs runs;
-  const Script script(lru_in_python);
+  const PolicyFile script(policy_source("lru"));
   const ForeignPolicy in_python = loaded(script.place("Lru")), by_library = loaded(DMPC_LRU_POLICY);
   const std::vector<svm::RunOptions> own = several(nullptr);
   for (const ForeignPolicy* const policy : {&in_python, &by_library, &by_library}) {
@@ -141,12 +126,7 @@ TEST_CASE("what a run's cache misses is what the policy misses of the run's refe
 
 TEST_CASE("a page that a policy does not take in serves those who waited for it, and then is gone") {
   const Runs runs;
-  const Script script(
-      "class Mine:\n"
-      "  def __init__(self, frame_count, node): self.count = 0\n"
-      "  def victim(self, incoming):\n"
-      "    self.count += 1\n"
-      "    return self.count // 3 % 8 if self.count % 3 == 0 else 'bypass'\n");
+  const PolicyFile script(policy_source("every_third"));
   const ForeignPolicy policy = loaded(script.place());
   const svm::Report usual = runs.run(small_caches()), report = runs.run(small_caches(&policy));
   const svm::PageCounters pages = report.pages();
@@ -159,7 +139,7 @@ TEST_CASE("a page that a policy does not take in serves those who waited for it,
 
 TEST_CASE("frames are rendered by one process with warm caches, and by another if they begin again") {
   const Runs runs;
-  const Script script(lru_in_python);
+  const PolicyFile script(policy_source("lru"));
   const ForeignPolicy policy = loaded(script.place("Lru"));
   const auto faults_of_frames = [&](const svm::RunOptions& options) {
     svm::Frames frames(*svm::svm_strategy(), runs.small.database, runs.small.settings, options, {});
@@ -206,27 +186,7 @@ TEST_CASE("what a policy does wrong ends the run with its call, fault and cache"
 
 TEST_CASE("what a policy in Python does wrong ends the run with its call, fault, cache, file and line") {
   const Runs runs;
-  const Script script(
-      "import os, time\n"
-      "class Mine:\n"
-      "  def __init__(self, frame_count, node):\n"
-      "    self.frame_count, self.hits = frame_count, 0\n"
-      "    if frame_count == 2: raise ValueError('two are too few')\n"
-      "  def hit(self, page, frame):\n"
-      "    if self.frame_count > 12: raise ValueError('late')\n"
-      "  def victim(self, incoming):\n"
-      "    if self.frame_count == 3: return {}['none']\n"
-      "    if self.frame_count == 4: return '0'\n"
-      "    if self.frame_count == 5: raise SystemExit(0)\n"
-      "    if self.frame_count == 6: os._exit(0)\n"
-      "    if self.frame_count == 7:\n"
-      "      while True: pass\n"
-      "    if self.frame_count == 8: time.sleep(1000)\n"
-      "    if self.frame_count == 9: os.close(0), os.close(1), os.closerange(3, 100), time.sleep(1000)\n"
-      "    if self.frame_count == 10: os.abort()\n"
-      "    if self.frame_count == 11: os.write(0, bytes(8))\n"
-      "    if self.frame_count == 12: os.write(0, bytes([200] * 4)), time.sleep(1000)\n"
-      "    return 0\n");
+  const PolicyFile script(policy_source("wrong_in_runs"));
   const ForeignPolicy patient = loaded(script.place(), {.call_seconds = 1}),
                       policy = loaded(script.place(), {.answer_seconds = 5});
   const auto said = [&](std::uint32_t cache_pages) { return runs.complaint(cache_pages == 7 ? patient : policy, cache_pages); };
@@ -249,8 +209,8 @@ TEST_CASE("what a policy in Python does wrong ends the run with its call, fault,
 
 TEST_CASE("Ctrl-C ends a render whose policy hangs, and its process, and nothing is written") {
   const TemporaryFolder folder;
-  const Script script("class Mine:\n  def __init__(self, frame_count, node): open('" + (folder / "begun").string() +
-                      "', 'w').close()\n  def victim(self, incoming):\n    while True: pass\n");
+  const PolicyFile script("class Mine:\n  def __init__(self, frame_count, node): open('" + (folder / "begun").string() +
+                          "', 'w').close()\n  def victim(self, incoming):\n    while True: pass\n");
   ChildProcess render({DMPC_PROGRAM, "render", "teapot-4", "--resolution=32x32", "--nodes=4", "--cache-pages=2",
                        "--runner=virtual", "--replacement=" + script.place(), "-o", folder / "a.png"});
   for (int i = 0; i < 6000 && !fs::exists(folder / "begun"); ++i) {

@@ -23,6 +23,7 @@
 #include "apps/render/command.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
+#include "tests/support/complaint.h"
 #include "tests/support/coverage.h"
 #include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"
@@ -264,14 +265,6 @@ TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes
 
 TEST_CASE("storage: a disk that fails to read is told from a file that is damaged") {
   const fs::path failing = "/proc/self/mem";  // ordinary to look at, and its first byte cannot be read
-  const auto complaint_of = [](const auto& read) -> std::string {
-    try {
-      read();
-    } catch (const core::InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   for (const std::string& complaint :
        {complaint_of([&] {
           apps::read_checkpoint(failing, {1, 1, {}, {}});

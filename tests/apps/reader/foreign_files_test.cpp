@@ -30,6 +30,7 @@
 #include "tests/support/complaint.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/hostile_files.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests::foreign_files_test {
 
@@ -48,14 +49,6 @@ bool says(const std::string& text, const std::string& part) {
     MESSAGE(text);
   }
   return found;
-}
-
-std::string repeated(int count, const std::string& line) {
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    text += line;
-  }
-  return text;
 }
 
 /// A port of this computer that somebody listens at.

@@ -40,14 +40,6 @@ std::string value_of(const fs::path& file, const std::string& key) {
   return value;
 }
 
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("frames leave a picture each, and each is, byte by byte, the picture of the frame alone") {
@@ -111,8 +103,8 @@ TEST_CASE("only frames in a row are copies, and none is if it is not wanted or i
   const Said path = render(folder, {"--frames=2..4", "--camera-path=@path", "-o", "@a#.png"});
   REQUIRE_MESSAGE(path.status == 0, path.errors);
   CHECK(contains(path.output, "frame 3  " + (folder / "a3.png").string() + ", film "));
-  CHECK(count_of(path.output, "a copy of frame 2") == 1);
-  CHECK(count_of(path.output, "a copy of") == 1);
+  CHECK(count(path.output, "a copy of frame 2") == 1);
+  CHECK(count(path.output, "a copy of") == 1);
   CHECK(file_text(folder / "a2.png") == file_text(folder / "a3.png"));
   CHECK(file_text(folder / "a3.png") != file_text(folder / "a4.png"));
   const std::vector<std::string> still = {"--frames=2", "--turntable=0", "--stats=@b#.json", "-o", "@b#.png"};
@@ -122,7 +114,7 @@ TEST_CASE("only frames in a row are copies, and none is if it is not wanted or i
     words.push_back(word);
     const Said said = render(folder, words);
     REQUIRE_MESSAGE(said.status == 0, said.errors);
-    CHECK(count_of(said.output + said.errors, "equals the one before") + count_of(said.output, "a copy of") == 0);
+    CHECK(count(said.output + said.errors, "equals the one before") + count(said.output, "a copy of") == 0);
     CHECK(value_of(folder / "b2.json", "primary") == value_of(folder / "b1.json", "primary"));
     CHECK(file_text(folder / "b1.png") == file_text(folder / "b2.png"));
     fs::remove(folder / "b1.png");
@@ -135,7 +127,7 @@ TEST_CASE("a resumed frame is rendered though it equals one that is there, since
   write_text(folder / "a1.png", "precious");
   const Said said = render(folder, {"--frames=3", "--turntable=0", "--resume", "--checkpoint=@c", "-o", "@a#.png"});
   REQUIRE_MESSAGE(said.status == 0, said.errors);
-  CHECK(count_of(said.output, "a copy of frame 2") == 1);
+  CHECK(count(said.output, "a copy of frame 2") == 1);
   CHECK(file_text(folder / "a2.png") == file_text(folder / "a3.png"));
   CHECK(file_text(folder / "a2.png") != "precious");
   CHECK(folder.entry_count() == 3);

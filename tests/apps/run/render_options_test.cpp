@@ -10,6 +10,7 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "nodes/runner.h"
+#include "tests/support/tables.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
@@ -381,16 +382,8 @@ TEST_CASE("a pool has as many threads as processors unless the line says how man
 
 TEST_CASE("the help of render names the values and the defaults of options") {
   const std::string text = parse_command_line(std::vector<std::string>{"render", "--help=all"}).options<HelpText>().text;
-  for (const std::string word :
-       {"svm|replicated|dataflow|forest [svm]", "SIZE [1KiB, forest 4KiB]", "grid|extents|voxels [grid]", "usual|article [usual]",
-        "ring|host [ring]", "spread|host|tree [spread]", "submaps|interleaved [submaps]",
-        "subsampled|equal-size|scattered|moving [subsampled]", "longer-side|alternating [longer-side]",
-        "1..546 [what fills 4 KiB; 2 KiB without bundles or with --ray-slots; 1 KiB on modelled machines]",
-        "0..64 [4; up to 64 with few nodes and bundles]", "1..4096 [64 with more than 128 nodes; otherwise credits]",
-        "0..16384 [256; 512 without bundles; 128 with --ray-slots]", "threads|pool|virtual|mpi [threads]",
-        "MACHINE|FILE.json [ipsc2]", "ipsc2, ipsc2-1994, ipsc860, paragon, cm5, cs2, myrinet, fdr, gigabit, hdr, ndr",
-        "64, replicated 16, forest 16 to 256, runner virtual 16, replicated 1, mpi up to 256", "4, or 3 without bundles"}) {
-    CHECK_MESSAGE(contains(text, word), word);
+  for (const auto& row : tests::rows_in("apps/run/render_help.txt", 1)) {
+    CHECK_MESSAGE(contains(text, row[0]), row[0]);
   }
 }
 

@@ -10,10 +10,13 @@
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "tests/support/complaint.h"
+#include "tests/support/tables.h"
+#include "tests/support/text.h"
 
 namespace scenes_test {
 
 using namespace dmpc::core;
+using dmpc::tests::contains;
 
 namespace {
 
@@ -75,61 +78,39 @@ Census census(const char* name) {
 
 /// A file that the SPD's own generator made, measured.
 struct Known {
-  const char* name;
+  std::string name;
   std::uint64_t spheres, cones, polygons, patches, lights, materials, triangles;
   Vec3d low, high;
 };
 
-const std::vector<Known> known_scenes = {
-    {"balls-2", 91, 0, 1, 0, 3, 2, 2, {-12, -12, -0.5}, {12, 12, 0.7851}},
-    {"balls-2-t4", 0, 0, 1, 17472, 3, 2, 17474, {-12, -12, -0.5}, {12, 12, 0.7851}},
-    {"balls-4", 7381, 0, 1, 0, 3, 2, 2, {-12, -12, -0.5}, {12, 12, 0.830567}},
-    {"gears-2", 0, 0, 1169, 0, 5, 9, 4578, {-2, -2, 0}, {2, 2, 1}},
-    {"gears-4", 0, 0, 9345, 0, 5, 65, 36610, {-2, -2, 0}, {2, 2, 1}},
-    {"mount-3", 4, 0, 128, 0, 1, 2, 128, {-1.160, -1, -0.703}, {1, 1.160, 1.378}},
-    {"mount-3-t6", 0, 0, 128, 1728, 1, 2, 1856, {-1.160, -1, -0.703}, {1, 1.160, 1.378}},
-    {"mount-6", 4, 0, 8192, 0, 1, 2, 8192, {-1.15961, -1, -0.702953}, {1, 1.15961, 1.37821}},
-    {"mount-6-t4", 0, 0, 8192, 768, 1, 2, 8960, {-1.160, -1, -0.703}, {1, 1.160, 1.378}},
-    {"mount-6-t6", 0, 0, 8192, 1728, 1, 2, 9920, {-1.160, -1, -0.703}, {1, 1.160, 1.378}},
-    {"rings-2", 150, 150, 1, 0, 3, 31, 2, {-5.373, 1.654, -3.873}, {3.373, 7.839, 4.873}},
-    {"rings-3", 420, 420, 1, 0, 3, 85, 2, {-6.466, 1.654, -4.966}, {4.466, 10.45, 5.966}},
-    {"rings-3-t1", 0, 0, 1, 8400, 3, 85, 8402, {-6.466, 1.657, -4.966}, {4.466, 10.45, 5.966}},
-    {"rings-4", 900, 900, 1, 0, 3, 181, 2, {-7.5593, 1.65358, -6.0593}, {5.5593, 13.0656, 7.0593}},
-    {"rings-4-t1", 0, 0, 1, 18000, 3, 181, 18002, {-7.559, 1.657, -6.059}, {5.559, 13.07, 7.059}},
-    {"rings-7", 4200, 4200, 1, 0, 3, 841, 2, {-10.8389, 1.65358, -9.33895}, {8.83895, 20.905, 10.3389}},
-    {"teapot-2", 0, 0, 4, 240, 2, 3, 248, {-4, -4, 0}, {4, 4, 3.15}},
-    {"teapot-6", 0, 0, 36, 2256, 2, 3, 2328, {-4, -4, 0}, {4, 4, 3.15}},
-    {"teapot-7", 0, 0, 49, 3080, 2, 3, 3178, {-4, -4, 0}, {4, 4, 3.15}},
-    {"teapot-8", 0, 0, 64, 4032, 2, 3, 4160, {-4, -4, 0}, {4, 4, 3.15}},
-    {"teapot-12", 0, 0, 144, 9120, 2, 3, 9408, {-4, -4, 0}, {4, 4, 3.15}},
-    {"tetra-3", 0, 0, 64, 0, 1, 1, 64, {-1, -1, -1}, {1, 1, 1}},
-    {"tetra-9", 0, 0, 262144, 0, 1, 1, 262144, {-1, -1, -1}, {1, 1, 1}},
-    {"tree-3", 15, 15, 1, 0, 7, 2, 2, {-50, -50, 0}, {50, 50, 2.46311}},
-    {"tree-3-t4", 0, 0, 1, 3360, 7, 2, 3362, {-50, -50, 0}, {50, 50, 2.46311}},
-    {"tree-11", 4095, 4095, 1, 0, 7, 2, 2, {-50, -50, 0}, {50, 50, 3.13749}},
-    {"lattice-2", 27, 54, 0, 0, 6, 81, 0, {-0.125, -0.125, -0.125}, {1.125, 1.125, 1.125}},
-    {"lattice-2-t2", 0, 0, 0, 2160, 6, 81, 2160, {-0.125, -0.125, -0.125}, {1.125, 1.125, 1.125}},
-    {"lattice-12", 2197, 6084, 0, 0, 6, 8281, 0, {-0.0208333, -0.0208333, -0.0208333}, {1.02083, 1.02083, 1.02083}},
-    {"shells-1", 361, 0, 0, 0, 1, 1, 0, {-27.31, -21.58, -50.71}, {17.05, 33.8, -0.0035}},
-    {"shells-5", 5761, 0, 0, 0, 1, 1, 0, {-27.31, -21.58, -50.71}, {17.05, 33.8, -0.0035}},
-    {"jacks-1", 6, 3, 0, 0, 1, 1, 0, {-0.8548, -0.7995, -0.7603}, {0.8548, 0.7995, 0.7603}},
-    {"jacks-1-t2", 0, 0, 0, 336, 1, 1, 336, {-0.8457, -0.7912, -0.7498}, {0.8457, 0.7912, 0.7498}},
-    {"jacks-3", 438, 219, 0, 0, 1, 1, 0, {-1.175, -1.33, -1.398}, {1.175, 1.33, 1.398}},
-    {"sombrero-1", 0, 0, 1922, 0, 1, 1, 1922, {-4, -3.607, -4}, {4, -2, 4}},
-    {"sombrero-2", 0, 0, 7938, 0, 1, 1, 7938, {-4, -3.607, -4}, {4, -2, 4}}};
+Vec3d point_of(const std::string& cell) {
+  const std::vector<double> all = dmpc::tests::numbers_of(cell);
+  return {all.at(0), all.at(1), all.at(2)};
+}
+
+std::vector<Known> known_scenes() {
+  std::vector<Known> scenes;
+  for (const auto& row : dmpc::tests::rows_in("core/families/scenes.txt", 4)) {
+    std::vector<std::uint64_t> counts;
+    for (const double number : dmpc::tests::numbers_of(row[1])) {
+      counts.push_back(static_cast<std::uint64_t>(number));
+    }
+    scenes.push_back({row[0], counts.at(0), counts.at(1), counts.at(2), counts.at(3), counts.at(4), counts.at(5), counts.at(6),
+                      point_of(row[2]), point_of(row[3])});
+  }
+  return scenes;
+}
 
 std::string message_of(const char* name) {
   return dmpc::tests::complaint_of([&] { parse_scene_name(name); });
 }
 
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("every family has the counts of the SPD's own files") {
-  for (const Known& known : known_scenes) {
-    const Census found = census(known.name);
-    CAPTURE(std::string(known.name));
+  for (const Known& known : known_scenes()) {
+    const Census found = census(known.name.c_str());
+    CAPTURE(known.name);
     CHECK(found.spheres == known.spheres);
     CHECK(found.cones == known.cones);
     CHECK(found.polygons == known.polygons);
@@ -143,9 +124,9 @@ TEST_CASE("every family has the counts of the SPD's own files") {
 }
 
 TEST_CASE("every family has the box of the SPD's own files") {
-  for (const Known& known : known_scenes) {
-    const Census found = census(known.name);
-    CAPTURE(std::string(known.name));
+  for (const Known& known : known_scenes()) {
+    const Census found = census(known.name.c_str());
+    CAPTURE(known.name);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       CAPTURE(axis);
       const double margin = 1e-3 * std::max({1.0, std::abs(known.low[axis]), std::abs(known.high[axis])});
@@ -156,9 +137,9 @@ TEST_CASE("every family has the box of the SPD's own files") {
 }
 
 TEST_CASE("the count by formula is the count of what is generated, and every number has 6 digits") {
-  for (const Known& known : known_scenes) {
-    const Census found = census(known.name);
-    CAPTURE(std::string(known.name));
+  for (const Known& known : known_scenes()) {
+    const Census found = census(known.name.c_str());
+    CAPTURE(known.name);
     CHECK(primitive_count(parse_scene_name(known.name)) == found.objects());
     CHECK(found.unrounded == 0);
   }

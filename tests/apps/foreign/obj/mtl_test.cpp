@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/complaint.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::obj::mtl_test {
 
@@ -127,10 +128,7 @@ TEST_CASE("textures without a name and unknown statements are said with their li
 }
 
 TEST_CASE("a million materials are handed over one by one") {
-  std::string many;
-  for (int i = 0; i < 1'000'000; ++i) {
-    many += "newmtl a\n";
-  }
+  const std::string many = tests::repeated(1'000'000, "newmtl a\n");
   std::size_t count = 0;
   std::vector<std::string> notes;
   parse_mtl(

@@ -10,6 +10,8 @@
 
 #include "core/base/srgb.h"
 #include "tests/support/complaint.h"
+#include "tests/support/tables.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::obj::parser_test {
 
@@ -37,6 +39,13 @@ bool notes(const std::string& text, const std::string& note) {
 
 }  // namespace
 
+TEST_CASE("what is wrong in a statement is refused, with its line, and what is not is taken") {
+  for (const auto& row : tests::rows_in("apps/foreign/obj/refusals.txt", 2)) {
+    CAPTURE(row[0]);
+    CHECK(refusal(row[0]) == row[1]);
+  }
+}
+
 TEST_CASE("a vertex has three coordinates as doubles, a weight by which they are divided, or a colour") {
   CHECK(parse("v 5412345.25 .5 1e-3").vertices == std::vector<Vec3d>{{5412345.25, 0.5, 1e-3}});
   CHECK(parse("v 2 4 6 2").vertices == std::vector<Vec3d>{{1, 2, 3}});
@@ -46,22 +55,10 @@ TEST_CASE("a vertex has three coordinates as doubles, a weight by which they are
         std::vector<Vec3d>{{1, 1, 1}, {core::linear_from_srgb(0.5), core::linear_from_srgb(0.25), 1}, {1, 1, 1}});
   CHECK(notes("v 0 0 0 255 0 -1", "vertices whose colour lies outside 0 to 1, brought into it: 1"));
   CHECK(notes("v 0 0 0\nv 0 0 0 1 0 0\nv 0 0 0\n", "vertices without a colour beside others that have one, shown white: 2"));
-  CHECK(refusal("v 1 2") == "line 1: found the end of the line, expected a number");
-  CHECK(refusal("v 1 2 3 4 5") == "line 1: found the end of the line, expected a number");
-  CHECK(refusal("v 1 2 3 1 1 1 1") == "line 1: found '1', expected the end of the line");
-  CHECK(refusal("\nv 0 10.0D-01 0") == "line 2: found '10.0D-01', expected a number");
-  CHECK(refusal("v 0 0 -1.#IND").empty());
-  CHECK(refusal("v 0 0 -1.#IND\nf 1 1 1") ==
-        "line 1: expected a number, found what is none, and a face has it; correct the file");
-  CHECK(refusal("v 0 0 1.1e30") == "line 1: a coordinate is beyond 1e30; correct the file");
-  CHECK(refusal("v 1 0 0 0") == "line 1: divided by its weight a coordinate is beyond 1e30; correct the file");
 }
 
 TEST_CASE("a place has one to three coordinates, of which two are kept, a normal three") {
   CHECK(parse("vt 1\nvt 1 2\nvt 1 2 3").places == std::vector<std::array<double, 2>>{{1, 0}, {1, 2}, {1, 2}});
-  CHECK(refusal("vt") == "line 1: found the end of the line, expected a number");
-  CHECK(refusal("vt 1 2 3 4") == "line 1: found '4', expected the end of the line");
-  CHECK(refusal("vn 0 1") == "line 1: found the end of the line, expected a number");
   CHECK(parse("vn 0 0 2").normals == std::vector<Vec3d>{{0, 0, 2}});
 }
 
@@ -80,27 +77,16 @@ TEST_CASE("a corner that is none is refused with its line") {
     CAPTURE(corner);
     CHECK(refusal(named + "f 1 2 " + corner).ends_with("', expected a corner such as 3, 3/1, 3//2 or 3/1/2"));
   }
-  CHECK(refusal(named + "f 1/1 2 3") ==
-        "line 6: the face has a texture coordinate at some corners and none at others; expected it at all or at none");
-  CHECK(refusal(named + "f 1 2 3//1") ==
-        "line 6: the face has a normal at some corners and none at others; expected it at all or at none");
 }
 
 TEST_CASE("what a corner names may stand behind it, and what does not exist is refused with the face's line") {
   CHECK(parse("f 1 2 3\n" + three).faces.corners == Indices{0, 1, 2});
-  CHECK(refusal(named + "f 1/1/1 2/1/1 4/1/1\nf 9 9 9") == "line 6: the face has vertex 4, which does not exist: there are 3");
-  CHECK(refusal(named + "f 1/1 2/2 3/1") == "line 6: the face has texture coordinate 2, which does not exist: there are 1");
   CHECK(refusal(named + "f 1//1 2//1 \\\n3//2") == "line 7: the face has normal 2, which does not exist: there are 1");
-  CHECK(refusal(three + "f 1 2 -4") == "line 4: the face has vertex -4, which does not exist: there are 3 before it");
-  CHECK(refusal(three + "f 1 2 0") == "line 4: the face has vertex 0, which does not exist: they are counted from 1");
   CHECK(parse(three + "f 1 2 4\nv 0 0 1").faces.corners == Indices{0, 1, 3});
 }
 
 TEST_CASE("a face has up to 65,535 corners") {
-  std::string face = three + "f";
-  for (int i = 0; i < 65'535; ++i) {
-    face += " 1";
-  }
+  const std::string face = three + "f" + tests::repeated(65'535, " 1");
   CHECK(parse(face).faces.ends == Indices{65'535});
   CHECK(refusal(face + " 1") == "line 4: the face has too many corners, more than 65,535; divide it");
 }
@@ -118,12 +104,10 @@ TEST_CASE("a material holds from its name on, and a smoothing group from its num
   CHECK(parse(three + "s 0\nf 1 2 3\n").faces.groups.empty());
   CHECK(parse(three + "s on\nf 1 2 3\ns OFF\nf 1 2 3\ns -2147483648\nf 1 2 3\ns\nf 1 2 3\n").faces.groups ==
         Indices{1, 0, 0x80000000U, 0});
-  CHECK(refusal("s 4294967296") == "line 1: found '4294967296', expected a smoothing group, a number of 32 bits, or 'off'");
 }
 
 TEST_CASE("files of materials are kept as they are named, once each, and not too many") {
   CHECK(parse("mtllib a b.mtl \nmtllib c.mtl\nmtllib a b.mtl").libraries == std::vector<std::string>{"a b.mtl", "c.mtl"});
-  CHECK(refusal("mtllib # a") == "line 1: found the end of the line, expected the name of a file of materials");
   std::string many;
   for (int i = 0; i < 200'000; ++i) {
     many += "mtllib " + std::to_string(i) + ".mtl\n";
@@ -151,10 +135,7 @@ TEST_CASE("what is not shown is counted by kinds, and nothing is carried out") {
 }
 
 TEST_CASE("much of what is small or long is read in one go") {
-  std::string groups = three;
-  for (int i = 0; i < 1'000'000; ++i) {
-    groups += "g a\ns 1\n";
-  }
+  const std::string groups = three + tests::repeated(1'000'000, "g a\ns 1\n");
   CHECK(parse(groups + "f 1 2 3").faces.groups == Indices{1});
   CHECK(parse(three + "# " + std::string(std::size_t{1} << 24U, 'x') + "\nf 1 2 3").faces.ends == Indices{3});
   CHECK(parse("").faces.ends.empty());

@@ -14,6 +14,7 @@
 #include "apps/picture/image_file.h"
 #include "tests/support/complaint.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -49,10 +50,6 @@ std::string refusal(const std::string& obj, const std::string& mtl = "") {
 
 Vec3d color_of(const MeshFile& file, std::size_t object = 0) {
   return file.scene.materials[file.scene.objects.at(object).material].color;
-}
-
-bool says(const MeshFile& file, const std::string& part) {
-  return std::ranges::any_of(file.notes, [&](const std::string& note) { return tests::contains(note, part); });
 }
 
 bool notes(const MeshFile& file, const std::string& note) {
@@ -240,7 +237,7 @@ TEST_CASE("a Tr of 1 alone on all materials is of what is opaque, as MeshLab and
   const MeshFile file = read("mtllib a.mtl\n" + square + "usemtl a\n" + face, opaque);
   CHECK(file.scene.materials.at(0).transmittance == 0);
   CHECK(color_of(file) == red);
-  CHECK(says(file, "materials with a Tr of 1 and no d, as all are, shown as opaque"));
+  CHECK(tests::notes(file, "materials with a Tr of 1 and no d, as all are, shown as opaque"));
   const auto transmittance_of_first = [&](const std::string& mtl, const std::string& more) {
     return read("mtllib a.mtl\n" + square + "usemtl a\n" + face + more, mtl).scene.materials.at(0).transmittance;
   };

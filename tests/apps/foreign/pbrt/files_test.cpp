@@ -5,7 +5,9 @@
 
 #include "apps/reader/budget.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/pbrt_scenes.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::pbrt_files_test {
 
@@ -26,12 +28,7 @@ const std::string packed_x("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xab\x00\x00
 /// The time that reading may take bounds none of what is tested here: instrumented, on a busy machine, 100,000 files take long.
 std::string refusal(const TemporaryFolder& folder, const std::string& main) {
   write_text(folder / "a.pbrt", main);
-  try {
-    apps::read_mesh_file(folder / "a.pbrt", {}, false, {.seconds = 1'000});
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { apps::read_mesh_file(folder / "a.pbrt", {}, false, {.seconds = 1'000}); });
 }
 
 }  // namespace
@@ -81,10 +78,7 @@ TEST_CASE("files that are included again and again are refused" * doctest::test_
   }
   write_text(folder / "n40.pbrt", std::string(1000, '\n'));
   CHECK(tests::contains(refusal(folder, "Include \"n0.pbrt\""), "again and again"));
-  std::string many;
-  for (int i = 0; i < 100'001; ++i) {
-    many += "Include \"e\"\n";
-  }
+  const std::string many = tests::repeated(100'001, "Include \"e\"\n");
   write_text(folder / "e", "");
   CHECK(tests::contains(refusal(folder, many), "more than 100,000 files"));
 }

@@ -68,8 +68,6 @@ TEST_CASE("named metals reflect straight ahead what their spectra say, wavelengt
   CHECK(is_near(metal("CuZn"), {0.910, 0.778, 0.423}, 0.005));
   CHECK(is_near(metal("MgO"), {0.072, 0.073, 0.075}, 0.005));
   CHECK(is_near(metal("TiO2"), {0.232, 0.245, 0.273}, 0.005));
-  const std::string both = "Material \"conductor\" \"rgb reflectance\" [1 0 0] \"spectrum k\" \"metal-Cu-k\"";
-  CHECK(tests::contains(pbrt_refusal(both), "not both"));
 }
 
 // A metal of index 1 and k 2 below a coat of 1.5: R of (1 + 2i) / 1.5, combined with both faces of the coat.
@@ -94,7 +92,6 @@ TEST_CASE("a spectrum of a file is its pairs, with remarks") {
   CHECK(is_near(tests::material_of_object(read("grey.spd"), 0).color, {0.3, 0.3, 0.3}));
   CHECK_THROWS_WITH_AS(read("bad.spd"), doctest::Contains("bad.spd has 'x' in its line 2"), core::InputError);
   CHECK_THROWS_WITH_AS(read("none.spd"), doctest::Contains("is none that pbrt-v4 names"), core::InputError);
-  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" \"spectrum reflectance\" \"stdillum-A\""), "is a light"));
 }
 
 // F + (1 - F) R (1 - f) / (1 - R f) straight ahead, F = 0.04 and f = 0.5963 being what a surface of index 1.5 sends back of what
@@ -154,10 +151,6 @@ TEST_CASE("named materials may come later, and mixtures are of their numbers") {
       "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [0 0 1]\n";
   CHECK(is_near(material_of(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.25\n").color,
                 {0.75, 0, 0.25}));
-  CHECK(tests::contains(pbrt_refusal("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]\n"),
-                        "mixed of itself"));
-  CHECK(tests::contains(pbrt_refusal(two + "MakeNamedMaterial \"a\" \"string type\" \"diffuse\""), "of this name already"));
-  CHECK(tests::contains(pbrt_refusal("Material \"velvet\""), "no material of kind 'velvet'"));
 }
 
 TEST_CASE("textures of constants are reckoned") {
@@ -167,7 +160,6 @@ TEST_CASE("textures of constants are reckoned") {
       "Texture \"m\" \"spectrum\" \"mix\" \"texture tex1\" \"a\" \"rgb tex2\" [0 0 1] \"float amount\" 0.5\n";
   CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"s\"\n").color == Vec3d{0.5, 0.25, 0});
   CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"m\"\n").color == Vec3d{0.5, 0.25, 0.5});
-  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" \"texture reflectance\" \"x\""), "the texture \"x\" is not there"));
 }
 
 TEST_CASE("a checkerboard has its first colour where whole numbers of squares to the right and upwards add up to an even one") {
@@ -267,7 +259,6 @@ TEST_CASE("a spot shines in its cone, and with what power it is said to have") {
   const MeshFile strong = read_pbrt("LightSource \"spot\" \"float power\" 10\n" + pbrt_triangle, by_paths);
   const double full = std::cos(25 * pi / 180), none = std::cos(30 * pi / 180);
   CHECK(is_near(strong.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (2 * pi * ((1 - full) + (full - none) / 2)))));
-  CHECK(tests::contains(pbrt_refusal("LightSource \"spot\" \"float coneangle\" 0"), "its cone ends at 0 degrees"));
 }
 
 // Over as many directions as a square of 90 degrees: a sixth of all, 1 - cos = 1/3.
@@ -281,7 +272,6 @@ TEST_CASE("a projection shines in a cone of as many directions as its picture") 
   CHECK(cone.full_degrees == cone.none_degrees);
   CHECK(is_near(file.scene.lights[0].color * pi, Vec3d{1, 1, 1} * (10 / (4 * pi / 6))));
   CHECK(notes(file, "lights of kind 'projection', which shine in a cone here, without their picture: 1"));
-  CHECK(tests::contains(pbrt_refusal(light + "\"float fov\" 180"), "its picture spans 180 degrees"));
 }
 
 // As in pbrt-v4, which makes pictures first, other textures of numbers and of colours in their order, and materials at last.
@@ -295,10 +285,6 @@ TEST_CASE("materials name textures of any line, textures pictures of any line, a
                             twice + number)
                     .color,
                 {0.1, 0.2, 0.3}));
-  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" " + named + twice + number + grey), "the texture \"g\" is not there"));
-  CHECK(tests::contains(pbrt_refusal(grey + grey), "there is a texture of this name already"));
-  CHECK(tests::contains(pbrt_refusal("MakeNamedMaterial \"m\" \"float roughness\" 0"), "has no \"string type\""));
-  CHECK(tests::contains(pbrt_refusal("Material \"matte\" \"texture Kd\" \"x\""), "is one of pbrt-v3"));
 }
 
 TEST_CASE("a picture of a later line lies on triangles that say no places as one of an earlier line does") {
@@ -366,7 +352,6 @@ TEST_CASE("lights that are no surface light as physics has it, below the file's 
           pbrt_triangle,
       by_paths);
   CHECK(is_near(sky.scene.background, Vec3d{2, 4, 6} + Vec3d{1, 1, 1} * (3 / pi)));
-  CHECK(tests::contains(pbrt_refusal("LightSource \"area\""), "no light of kind 'area'"));
 }
 
 TEST_CASE("light that is no rgb has the luminance 1, and the colour of its temperature") {
@@ -436,7 +421,6 @@ TEST_CASE("a sky alone is a scene, and nothing at all is none") {
   const MeshFile file = read_pbrt("LightSource \"infinite\" \"rgb L\" [0.25 0.5 1]\n");
   CHECK(file.scene.objects.empty());
   CHECK(file.scene.background == Vec3d{0.25, 0.5, 1});
-  CHECK(tests::contains(pbrt_refusal(""), "no mesh in it"));
 }
 
 TEST_CASE("a sky's directions lie in its square as in equal areas") {

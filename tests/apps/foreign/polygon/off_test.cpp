@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/read_mesh.h"
+#include "tests/support/tables.h"
 
 namespace dmpc::apps::off_test {
 
@@ -40,13 +41,6 @@ TEST_CASE("an OFF file may count behind its first word, leave edges and that wor
   }
 }
 
-TEST_CASE("OFF files in binary and of other dimensions are refused by name") {
-  check_complaints(refusal, {{"OFF BINARY\n123", "line 1: OFF in binary is not read"},
-                             {"4OFF\n3 1 0\n", "line 1: '4OFF' has vertices of other than three coordinates"},
-                             {"nOFF\n3\n3 1 0\n", "'nOFF' has vertices of other than three coordinates"},
-                             {"solid", "line 1: found 'solid', expected OFF"}});
-}
-
 TEST_CASE("a face of OFF has its colour, of 255 or of 1, and with alpha, which is said") {
   CHECK(color_of_object(read_face("3 0 1 2 255 0 0\n"), 0) == Vec3d{1, 0, 0});
   CHECK(color_of_object(read_face("3 0 1 2 0 1 0\n"), 0) == Vec3d{0, 1, 0});
@@ -71,19 +65,10 @@ TEST_CASE("normals of NOFF are shown, texture coordinates of STOFF are not, of w
   const std::string text = "STNOFF 3 1 0\n0 0 0 0 0 1 0 0\n2 0 0 0 1 1 1 0\n0 1 0 0 0 1 0 1\n3 0 1 2\n";
   const MeshFile file = read_mesh("a.off", text);
   CHECK(file.scene.objects.at(0).kind == core::ObjectKind::patch);
-  CHECK(contains(mesh_refusal("a.off", "STOFF 3 1 0\n" + vertices + "3 0 1 2\n"), "vertex 0 has no texture coordinates"));
 }
 
-TEST_CASE("what is wrong in OFF is refused with its line") {
-  check_complaints(refusal, {{one_face + "3 0 1 3\n", "line 6: face 0 has a vertex that does not exist, 3: there are 3"},
-                             {one_face + "3 0 1 -1\n", "line 6: face 0 has a vertex that does not exist, -1"},
-                             {one_face + "3 0 1\n", "the file is cut short: it ends within face 0 of 1"},
-                             {one_face + "3 0 1 2 1 2\n", "line 6: there are 2 numbers of a colour; expected 3 or 4"},
-                             {one_face + "3 0 1 2 1 2 300\n", "line 6: a colour has 300"},
-                             {one_face + "3 0 1 2x\n", "line 6: found '2x', expected the number of a vertex"},
-                             {one_face + "4294967295 0 1 2\n", "the file is cut short"},
-                             {"OFF\n353535235358 6 0\n0 0 0\n", "line 2: the file is cut short: it says that it has"},
-                             {"OFF\n3 0 0\n" + vertices, "there is no mesh in it"}});
+TEST_CASE("what is wrong in OFF, in binary or of other dimensions is refused by name, with its line") {
+  check_complaints(refusal, tests::complaints_in("apps/foreign/polygon/refusals.txt", "OFF"));
 }
 
 TEST_CASE("points and lines of OFF, and what stands behind its last face, are said") {

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 #include "tests/support/complaint.h"
+#include "tests/support/tables.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -155,28 +155,8 @@ TEST_CASE("a machine on which all is free and one on which all takes as long as 
 }
 
 TEST_CASE("what is wrong in a machine file is named with its key and what was expected") {
-  struct Slip {
-    const char *from, *to, *complaint;
-  };
-  for (const Slip& slip : std::initializer_list<Slip>{
-           {"hop_ns", "hop_us", "m.json: \"hop_us\": unknown key, expected name, topology, "},
-           {"latency_ns", "delay", "m.json: short_message.\"delay\": unknown key, expected send_ns, "},
-           {"\"sources\": {}", "\"sources\": {\"nonsense\": \"a book\"}", "sources.\"nonsense\": unknown key"},
-           {"\"has_memory_port\": false", "\"sources\": {}", "m.json: \"sources\": this key is given twice"},
-           {"\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\"", "m.json: \"service_ns\": this key is given twice"},
-           {"\"byte_ps\": 200000", "\"byte_ps\": 1000000001", "short_message.byte_ps: expected a whole number"},
-           {"\"home_lookup\": 0", "\"home_lookup\": 100000000001", "operation_ps.home_lookup: expected"},
-           {"\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001", "short_bytes_max: expected"},
-           {"true", "1", "m.json: has_contention: expected true or false, got 1"},
-           {"false", "\"no\"", "m.json: has_memory_port: expected true or false, got \"no\""},
-           {"\"hypercube\"", "3", "m.json: topology: expected a text, got 3"},
-           {"\"hypercube\"", "\"ring\"", "m.json: topology: there is no topology \"ring\": use one of "},
-           {"\"circuit\"", "\"wormhole\"", "m.json: switching: there is no switching \"wormhole\": use circuit or packet"},
-           {"\"circuit\"", "1", "m.json: switching: expected a text, got 1"},
-           {"\"ipsc2\"", "2", "m.json: name: expected a text, got 2"},
-           {"\"sources\": {}", "\"sources\": {\"hop_ns\": 3}", "sources.hop_ns: expected a text, got 3"},
-           {"\"sources\": {}", "\"sources\": []", "sources: expected an object, got []"}}) {
-    CHECK_MESSAGE(contains(machine_complaint_with(slip.from, slip.to), slip.complaint), slip.to);
+  for (const auto& row : tests::rows_in("apps/frontend/machine/slips.txt", 3)) {
+    CHECK_MESSAGE(contains(machine_complaint_with(row[0], row[1]), row[2]), row[1]);
   }
   for (const std::string wrong :
        {"-1", "1.5", "1e3", "\"1\"", "true", "null", "[1]", "{}", "1000000001", "18446744073709551616"}) {

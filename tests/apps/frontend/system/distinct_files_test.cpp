@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <functional>
 
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps::distinct_files_test {
@@ -15,19 +17,11 @@ namespace fs = std::filesystem;
 
 /// Whether an output at `b` may stand beside an output at `a`, and over an input at `a`: the same answer.
 bool may_stand_beside(const fs::path& a, const fs::path& b) {
-  int refusals = 0;
-  try {
-    check_distinct({}, {{"-o", a}, {"--stats", b}});
-  } catch (const core::UsageError&) {
-    ++refusals;
-  }
-  try {
-    check_distinct({{"SCENE", a}}, {{"-o", b}});
-  } catch (const core::UsageError&) {
-    ++refusals;
-  }
-  core::expect(refusals != 1, "inputs and outputs are told apart from outputs in the same way");
-  return refusals == 0;
+  const auto complaint = tests::complaint_of<core::UsageError, std::function<void()>>;
+  const bool beside = complaint([&] { check_distinct({}, {{"-o", a}, {"--stats", b}}); }).empty();
+  const bool over = complaint([&] { check_distinct({{"SCENE", a}}, {{"-o", b}}); }).empty();
+  core::expect(beside == over, "inputs and outputs are told apart from outputs in the same way");
+  return beside;
 }
 
 }  // namespace

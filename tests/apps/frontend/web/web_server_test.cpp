@@ -19,6 +19,7 @@ namespace dmpc::apps::web_server_test {
 namespace {
 
 using tests::contains;
+using tests::repeated;
 using tests::WebClient;
 
 /// Answers "/" and unknown paths by "here", "/large" by a page of 8 MB, and "/stream" by letters without end.
@@ -64,14 +65,6 @@ class SmallServer {
 };
 
 bool is_answered(const SmallServer& server) { return contains(server.got("/"), "\r\n\r\nhere"); }
-
-std::string repeated(const std::string& text, std::size_t times) {
-  std::string all;
-  for (std::size_t i = 0; i < times; ++i) {
-    all += text;
-  }
-  return all;
-}
 
 /// Until it is so.
 template <class Condition>
@@ -162,7 +155,7 @@ TEST_CASE("a request that is too long is cut off before anybody sees it") {
   const SmallServer server;
   for (const std::string& endless :
        {"GET /" + std::string(40'000, 'a'), "GET / HTTP/1.1\r\nHost: " + std::string(40'000, 'a') + "\r\n\r\n",
-        "GET / HTTP/1.1\r\n" + repeated("a: " + std::string(4000, 'b') + "\r\n", 10) + "\r\n"}) {
+        "GET / HTTP/1.1\r\n" + repeated(10, "a: " + std::string(4000, 'b') + "\r\n") + "\r\n"}) {
     WebClient client(server.port());
     client.send(endless);
     client.heard_all();
@@ -196,8 +189,8 @@ TEST_CASE("bytes that are no request, and parts of requests, do no harm") {
     CHECK(client.is_over());
   }
   for (const std::string& header :
-       {"Range: bytes=" + repeated("0-0,", 1900) + "0-0", "Range: bytes=" + std::string(8000, '9') + "-",
-        "Content-Length: " + std::string(8000, '9'), std::string("Content-Length: -1"), repeated("a: b\r\n", 4000) + "c: d",
+       {"Range: bytes=" + repeated(1900, "0-0,") + "0-0", "Range: bytes=" + std::string(8000, '9') + "-",
+        "Content-Length: " + std::string(8000, '9'), std::string("Content-Length: -1"), repeated(4000, "a: b\r\n") + "c: d",
         "Host: " + std::string(8000, '%'), "Content-Type: multipart/form-data; boundary=" + std::string(8000, '-')}) {
     WebClient client(server.port());
     client.get("/", server.host(), header + "\r\n");

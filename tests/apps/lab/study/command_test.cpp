@@ -39,11 +39,7 @@ std::string output_of(const StudyOptions& options, int status = 0) {
 
 /// A list of ever the same number, so long that no study ends by itself.
 std::string endless(const std::string& option, const std::string& number) {
-  std::string list = option + "=" + number;
-  for (int more = 0; more < 20000; ++more) {
-    list += "," + number;
-  }
-  return list;
+  return option + "=" + number + repeated(20000, "," + number);
 }
 
 /// `dmpc study cache` with so many rows that it does not end by itself.

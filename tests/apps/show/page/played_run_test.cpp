@@ -16,6 +16,7 @@
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/watched.h"
 #include "tests/support/complaint.h"
+#include "tests/support/tables.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::html::played_run_test {
@@ -75,48 +76,14 @@ TEST_CASE("a page that plays no run is refused, with what it is") {
 TEST_CASE("data that do not hold together are refused, with where, and no browser sees them") {
   const json data = json::parse(data_text(play_data(Watched(starved(modelled())).record(), origin())));
   REQUIRE(refusal(page_with(data.dump())).empty());
-  const std::vector<std::pair<std::string, json>> changes = {
-      {"/nodes", 0},
-      {"/nodes", 1'000'000},
+  std::vector<std::pair<std::string, json>> changes = {
       {"/steps", data["steps"].get<int>() + 1},
-      {"/step_ns", 0},
-      {"/total_ns", -1},
-      {"/clock", "sundial"},
       {"/wide", data["wide"].get<int>() + 1},
-      {"/width", 1'000'000},
-      {"/scene", 3},
-      {"/words", "dmpc"},
-      {"/words/1", json::array()},
-      {"/words/1", "$(touch a)"},
-      {"/words/1", "a b"},
-      {"/words/1", "'a'b'"},
-      {"/words/1", "'a\n'"},
-      {"/done/data", "AAAA"},
-      {"/done/data", "<b>"},
-      {"/done/type", "u3"},
-      {"/fields/0/values/data", ""},
-      {"/fields/0/scale", "1"},
-      {"/fields/0/scale", 1e300},
-      {"/fields/0/scale", -1},
-      {"/works/0/shares/type", "u2"},
       {"/works/0/name", std::string(5000, 'x')},
-      {"/works/0/name", "all else"},
-      {"/waits/0/name", "run"},
-      {"/waits", json::object()},
-      {"/links/0", json::array({"node 0", "node 1"})},
-      {"/links/0/0", "nowhere"},
-      {"/links/0/2", 0.5},
-      {"/pages/0/1", 1'000'000},
-      {"/pairs/side", 1'000'000},
-      {"/pairs/counts/data", "AAAA"},
-      {"/over/links/steps", 65'000},
-      {"/over/levels", 3},
-      {"/over/pairs/most", 0},
-      {"/causes/node/data", "////"},
-      {"/causes/kinds", json::array()},
-      {"/path/parts", 1},
-      {"/topology", nullptr},
   };
+  for (const auto& row : tests::rows_in("apps/show/page/changed_data.txt", 2)) {
+    changes.emplace_back(row[0], json::parse(row[1]));
+  }
   for (const auto& [place, value] : changes) {
     CAPTURE(place);
     json changed = data;

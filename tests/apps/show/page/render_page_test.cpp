@@ -7,6 +7,7 @@
 
 #include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::html::render_page_test {
 
@@ -37,13 +38,7 @@ TEST_CASE("the page of a render has its picture, losses, nodes, traffic and memo
 
 TEST_CASE("pictures and tables of a page can be saved, and each section but the picture's says what it comes to") {
   const std::string text = page_of(modelled());
-  const auto count = [&](const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-      ++found;
-    }
-    return found;
-  };
+  const auto count = [&](const std::string& part) { return tests::count(text, part); };
   CHECK(count("class=\"save\"") == count("<img ") + count("<table") + count("<figure class=\"plot\""));
   CHECK(count("class=\"conclusion\"") == 4);  // losses, nodes, traffic, memory
   CHECK(contains(text, "The busiest link, from "));

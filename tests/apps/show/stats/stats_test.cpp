@@ -1,5 +1,6 @@
 #include "apps/show/stats/stats.h"
 #include "apps/frontend/line/number_text.h"
+#include "apps/frontend/line/words.h"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +16,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::stats_test {
 
@@ -29,50 +31,12 @@ TEST_CASE("the keys of the counters are an interface") {
                                                   "pages",        "work",       "questions", "travel",         "load",
                                                   "regions",      "mapping",    "pairs",     "sandbox",        "chaos",
                                                   "skips",        "heat_maps",  "nodes",     "ranks",          "host"});
-  for (const std::string key : {"samples_per_pixel",
-                                "passes",
-                                "estimated_error",
-                                "cutoff",
-                                "rays_cut",
-                                "mean_error_bound",
-                                "primary",
-                                "reflected",
-                                "refracted",
-                                "shadow",
-                                "scattered",
-                                "total",
-                                "secondary",
-                                "shadow_blocked",
-                                "total_internal_reflections",
-                                "load",
-                                "build",
-                                "render",
-                                "write",
-                                "user",
-                                "system",
-                                "bytes",
-                                "pages",
-                                "page_size",
-                                "primitives",
-                                "dropped",
-                                "collapsed",
-                                "references",
-                                "hits",
-                                "faults",
-                                "evictions",
-                                "distinct_per_pixel",
-                                "sent",
-                                "received",
-                                "overflow",
-                                "memory",
-                                "busy",
-                                "idle",
-                                "scene",
-                                "width",
-                                "node_memory",
-                                "home_pages",
-                                "reserve",
-                                "page_request"}) {
+  for (const std::string& key : words_between(
+           "samples_per_pixel passes estimated_error cutoff rays_cut mean_error_bound primary reflected refracted shadow "
+           "scattered total secondary shadow_blocked total_internal_reflections load build render write user system bytes "
+           "pages page_size primitives dropped collapsed references hits faults evictions distinct_per_pixel sent received "
+           "overflow memory busy idle scene width node_memory home_pages reserve page_request",
+           ' ')) {
     CHECK_MESSAGE(contains(json, "\"" + key + "\""), key);
   }
 }
@@ -111,14 +75,7 @@ TEST_CASE("how the scene is placed, seen and lit is told where the command line 
   CHECK(reported["missing"] == "plain");
 }
 
-TEST_CASE("every node has an entry of its own") {
-  const std::string json = Rendered(small()).json();
-  std::size_t count = 0;
-  for (std::size_t at = json.find("\"quanta\""); at != std::string::npos; at = json.find("\"quanta\"", at + 1)) {
-    ++count;
-  }
-  CHECK(count == 3);
-}
+TEST_CASE("every node has an entry of its own") { CHECK(tests::count(Rendered(small()).json(), "\"quanta\"") == 3); }
 
 TEST_CASE("distinct pages are counted on demand") {
   RenderOptions options = small();
