@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "apps/frontend/line/option_values.h"
 #include "core/database/database.h"
 #include "dataflow/packets.h"
 

@@ -1,7 +1,6 @@
 #include "apps/run/trace_options.h"
 
 #include "apps/frontend/line/option_values.h"
-#include "apps/frontend/line/parsed_number.h"
 #include "apps/frontend/line/words.h"
 #include "apps/frontend/show/trace/perfetto.h"
 #include "core/base/expect.h"

@@ -214,10 +214,7 @@ void make_output_folder(const fs::path& path, std::string_view option) {
 OutputFile::OutputFile(const fs::path& path) : OutputFile(path, Settings{}) {}
 
 OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& files)
-    : settings_(settings),
-      files_(files),
-      target_(settings.replaces == Replaces::name ? path : file_behind(path)),
-      temporary_(target_) {
+    : settings_(settings), files_(files), target_(file_behind(path)), temporary_(target_) {
   open();
   try {
     stream_.emplace(files_, file_);
@@ -228,7 +225,7 @@ OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& fi
 }
 
 void OutputFile::open() {
-  if (settings_.replaces == Replaces::what_it_names && is_special(target_)) {
+  if (is_special(target_)) {
     file_ = open_patiently(files_, target_, O_WRONLY | O_NOCTTY);
   } else {
     for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < tries_max)); ++tries) {
@@ -327,15 +324,6 @@ void write_file(const fs::path& path, std::string_view text, Durability durabili
   OutputFile file(path, {.durability = durability}, files);
   file.write(text);
   file.commit();
-}
-
-void write_to(const std::optional<fs::path>& path, std::string_view text, std::ostream& output, std::string_view what) {
-  if (path) {
-    write_file(*path, text);
-  } else {
-    output << text;
-    finish_output(output, what);
-  }
 }
 
 }  // namespace dmpc::apps

@@ -63,12 +63,6 @@ enum class TemporaryName : std::uint8_t {
 /// Whether a committed file survives a loss of power.
 enum class Durability : std::uint8_t { on_disk, until_power_loss };
 
-/// What a committed file replaces.
-enum class Replaces : std::uint8_t {
-  what_it_names,  ///< the file behind symbolic links; a device or a pipe is written to
-  name            ///< whatever has the name, even a link or a pipe: for folders where others may write
-};
-
 /// Returns `.dmpc-WHO-NAME` beside `target`, a hidden file.
 std::filesystem::path hidden_name(const std::filesystem::path& target, const std::string& who);
 /// Returns the temporary name of `target`, which is no symbolic link, for TemporaryName::of_target.
@@ -86,14 +80,13 @@ class OutputFile {
   struct Settings {
     TemporaryName name = TemporaryName::random;
     Durability durability = Durability::on_disk;
-    Replaces replaces = Replaces::what_it_names;
     std::string option = {};  ///< option that gave the target, for messages
   };
 
   /// Makes a new file with a hidden name in the target's folder: it never opens an existing file or a link. A target that is no
   /// ordinary file (/dev/stdout, a pipe) cannot be replaced by renaming and is written directly. A symbolic link is followed, so
-  /// that the file behind it is replaced, unless `settings.replaces` demands that the name itself is. The new file keeps the mode
-  /// of the one that it replaces. Throws core::InputError on failure. `files` outlives it.
+  /// that the file behind it is replaced. The new file keeps the mode of the one that it replaces. Throws core::InputError on
+  /// failure. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();
@@ -131,9 +124,5 @@ class OutputFile {
 /// Writes `text` to `path` atomically. Throws core::InputError on failure.
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability = Durability::on_disk,
                 Files& files = real_files());
-
-/// Writes a text to `path`, or to the standard output, `output`, if there is none; `what` is for the message.
-void write_to(const std::optional<std::filesystem::path>& path, std::string_view text, std::ostream& output,
-              std::string_view what);
 
 }  // namespace dmpc::apps

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "apps/frontend/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -41,16 +40,12 @@ DrawnPlot::DrawnPlot(const Plot& plot, const Table& table) : plot_(plot), table_
       }
     }
   }
-  core::expect(has_places() || plot.places.size() == 1, "numbers along x are of one column");
 }
 
-/// The axis can show the row's number, and its texts are those of the series.
+/// The axis can show the row's number.
 bool DrawnPlot::is_meant(const PlotSeries& series, const std::vector<Cell>& row) const {
   const std::optional<double> number = number_of(row[number_of_column(table_, series.column)]);
-  return number && (plot_.y.scale == PlotScale::linear || *number > 0) &&
-         std::all_of(series.where.begin(), series.where.end(), [&](const auto& condition) {
-           return text_of_cell(row[number_of_column(table_, condition.first)]) == condition.second;
-         });
+  return number && (plot_.y.scale == PlotScale::linear || *number > 0);
 }
 
 bool DrawnPlot::is_any_meant(const std::vector<Cell>& row) const {
@@ -58,13 +53,12 @@ bool DrawnPlot::is_any_meant(const std::vector<Cell>& row) const {
 }
 
 std::string DrawnPlot::place_in(const std::vector<Cell>& row) const {
-  return joined(plot_.places, " ",
-                [&](const std::string& column) { return text_of_cell(row[number_of_column(table_, column)]); });
+  return text_of_cell(row[number_of_column(table_, plot_.place)]);
 }
 
 double DrawnPlot::x_of(const std::vector<Cell>& row) const {
   return has_places() ? static_cast<double>(std::find(places_.begin(), places_.end(), place_in(row)) - places_.begin())
-                      : number_in(row, plot_.places.front());
+                      : number_in(row, plot_.place);
 }
 
 double DrawnPlot::number_in(const std::vector<Cell>& row, const std::string& column) const {
@@ -75,17 +69,12 @@ PlotExtent DrawnPlot::span_of_x() const {
   PlotExtent extent;
   for (const std::vector<Cell>& row : table_.rows()) {
     if (is_any_meant(row)) {
-      const double x = number_in(row, plot_.places.front());
+      const double x = number_in(row, plot_.place);
       extent.add(x);
       extent.add(x + plot_.bar_width.value_or(0));
     }
   }
   return extent;
-}
-
-std::vector<std::string> DrawnPlot::ends_of(const PlotSeries& series) {
-  const bool has_ends = series.mark == PlotMark::intervals || series.mark == PlotMark::bands;
-  return has_ends ? std::vector{series.low, series.high} : std::vector<std::string>{};
 }
 
 PlotExtent DrawnPlot::span_of_y() const {
@@ -97,8 +86,9 @@ PlotExtent DrawnPlot::span_of_y() const {
         const double value = number_in(row, series->column);
         sum = plot_.is_stacked ? sum + value : value;
         extent.add(sum);
-        for (const std::string& end : ends_of(*series)) {
-          extent.add(number_in(row, end));
+        if (series->mark == PlotMark::bands) {
+          extent.add(number_in(row, series->low));
+          extent.add(number_in(row, series->high));
         }
       }
     }

@@ -29,7 +29,6 @@ class DrawnPlot {
   PlotExtent span_of_y() const;
 
  private:
-  static std::vector<std::string> ends_of(const PlotSeries& series);
   bool is_any_meant(const std::vector<Cell>& row) const;
   std::string place_in(const std::vector<Cell>& row) const;
 

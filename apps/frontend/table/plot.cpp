@@ -9,7 +9,7 @@ Plot curves(std::string name, std::string title, std::string place, PlotAxis x, 
   Plot plot;
   plot.name = std::move(name);
   plot.title = std::move(title);
-  plot.places.push_back(std::move(place));
+  plot.place = std::move(place);
   plot.x = std::move(x);
   plot.y = std::move(y);
   plot.series = std::move(series);

@@ -5,16 +5,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/frontend/table/table.h"
 
 namespace dmpc::apps {
 
-/// Style of a series: computed values are a line from left to right, reference values are points, uncertain values are a line
-/// whose points have intervals, and distributions are a box with a line in it and whiskers.
-enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
+/// Style of a series: computed values are a line from left to right, reference values are points, and distributions are a box
+/// with a line in it and whiskers.
+enum class PlotMark : std::uint8_t { line, points, bars, bands };
 
 /// Number of styles that colour-blind people can distinguish: eight colours, then the first four of them again, dashed or
 /// hatched.
@@ -23,15 +22,13 @@ inline constexpr std::size_t plot_color_count = 12;
 struct PlotSeries {
   std::string title;   ///< in the legend
   std::string column;  ///< name of a column of numbers
-  /// Only rows with each of these texts in the named column are drawn.
-  std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
   std::size_t color = 0;                    ///< below plot_color_count; each has its own shape of points, too
-  std::string low = {}, high = {};          ///< ends of intervals and bands: columns
+  std::string low = {}, high = {};          ///< ends of the whiskers of bands: columns
   std::string box_low = {}, box_high = {};  ///< ends of the box of bands: columns; `column` is the line in it
 };
 
-enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
+enum class PlotScale : std::uint8_t { linear, powers_of_10 };
 
 struct PlotAxis {
   std::string label;  ///< with its unit, unless the ticks have it: for bytes, bytes/s, KiB and times
@@ -43,9 +40,8 @@ struct PlotAxis {
 struct Plot {
   std::string name;  ///< file name without an extension
   std::string title;
-  /// The column along x. For bars, the columns whose texts, joined, name a position; series with the same name stand side by side
-  /// there.
-  std::vector<std::string> places;
+  /// The column along x; for bars, that whose texts name the positions.
+  std::string place;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   std::optional<double> bar_width = {};  ///< width of bars at numbers along x, each to the right of its number

@@ -1,10 +1,7 @@
 #include "apps/frontend/table/plot_axis.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-
-#include "apps/frontend/line/number_text.h"
 
 namespace dmpc::apps {
 
@@ -26,14 +23,6 @@ void widen(PlotAxis& axis, const PlotExtent& extent) {
   }
 }
 
-std::vector<Tick> ticks_at_powers_of_2(const PlotExtent& shown) {
-  std::vector<Tick> ticks;
-  for (double power = std::exp2(std::ceil(std::log2(shown.least))); power <= shown.largest; power *= 2) {
-    ticks.push_back({power, legend_number(power)});
-  }
-  return ticks;
-}
-
 }  // namespace
 
 void PlotExtent::add(double value) {
@@ -44,16 +33,14 @@ void PlotExtent::add(double value) {
 ShownAxis shown_axis(PlotAxis axis, const PlotExtent& extent, const std::string& unit, bool has_margin) {
   const bool is_logarithmic = axis.scale == PlotScale::powers_of_10;
   PlotExtent shown{axis.least.value_or(extent.least), axis.most.value_or(extent.largest)};
-  if (!(shown.largest > shown.least) || (axis.scale != PlotScale::linear && shown.least <= 0)) {
+  if (!(shown.largest > shown.least) || (is_logarithmic && shown.least <= 0)) {
     return {shown.least, shown.least + 1, {}};
   }
   if (has_margin || is_logarithmic) {
     widen(axis, shown);
     shown = {axis.least.value_or(shown.least), axis.most.value_or(shown.largest)};
   }
-  return {shown.least, shown.largest,
-          axis.scale == PlotScale::powers_of_2 ? ticks_at_powers_of_2(shown)
-                                               : amount_ticks(shown.least, shown.largest, is_logarithmic, unit)};
+  return {shown.least, shown.largest, amount_ticks(shown.least, shown.largest, is_logarithmic, unit)};
 }
 
 }  // namespace dmpc::apps

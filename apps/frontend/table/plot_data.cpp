@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// By PlotMark.
-constexpr std::array<const char*, 5> mark_names = {"line", "points", "bars", "intervals", "bands"};
+constexpr std::array<const char*, 4> mark_names = {"line", "points", "bars", "bands"};
 
 json axis_of(const std::string& label, const Column& column) {
   return {{"label", label}, {"unit", column.unit}, {"digits", column.digits}};
@@ -57,7 +57,7 @@ std::optional<std::string> plot_data(const Plot& plot, const Table& table) {
   const auto column = [&table](const std::string& name) -> const Column& {
     return table.columns()[number_of_column(table, name)];
   };
-  const Column &x = column(plot.places.front()), &y = column(drawn.series().front()->column);
+  const Column &x = column(plot.place), &y = column(drawn.series().front()->column);
   json data = {{"title", plot.title},           {"bars", drawn.is_bars()},
                {"stacked", plot.is_stacked},    {"width", plot.bar_width.value_or(0)},
                {"x", axis_of(plot.x.label, x)}, {"y", axis_of(plot.y, y, shown_axis(plot.y, drawn.span_of_y(), y.unit, true))},

@@ -16,8 +16,8 @@ namespace dmpc::apps {
 ///
 /// - title, bars, stacked, width (of bars along x; 0: they stand at places)
 /// - x, y: {label, unit, digits, log, least, most, ticks: [[position, text]]}; places: names along x in place of limits and ticks
-/// - series: [{name, color, mark, unit, digits, rows}]; a row: x, or the number of its place, y, and for intervals and bands the
-///   two ends, for bands also those of the box
+/// - series: [{name, color, mark, unit, digits, rows}]; a row: x, or the number of its place, y, and for bands the
+///   ends of whiskers and box; studies in Python have intervals, too, with two ends
 std::optional<std::string> plot_data(const Plot& plot, const Table& table);
 
 /// Returns [[position, text]].

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/frontend/line/number_text.h"
-#include "apps/frontend/line/option_values.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/frontend/machine/machines.h"
 #include "apps/frontend/system/progress.h"

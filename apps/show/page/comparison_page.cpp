@@ -101,7 +101,7 @@ Table bars_table(const TimeByName& times) {
 
 Plot bars_plot(const Table& table) {
   Plot plot = stacked_by_node("times", "What a node's time went to", {.label = "ms, mean of nodes", .least = 0}, table.columns());
-  plot.places = {"run"};
+  plot.place = "run";
   plot.x.label = "run";
   return plot;
 }

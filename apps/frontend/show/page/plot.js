@@ -1,4 +1,4 @@
-// Plots of the page's tables, as apps/frontend/table/plot_data.h describes them: bars, curves, intervals and bands; and maps of
+// Plots of the page's tables, as apps/frontend/table/plot_data.h describes them: bars, curves and bands; and maps of
 // numbers. What is at the pointer, or reached by arrow keys, is told below.
 (() => {
   const titleHigh = 26, fieldHigh = 220, lineHigh = 17, letterWide = 6.6, widest = 570, slantedMost = 130;
@@ -84,7 +84,6 @@
     series.forEach((one, i) => {
       const {color} = inkOf(colorFor(one)), rows = one.mark === "points" ? one.rows : unique(one.rows), places = rows.map((row) => [rounded(x(row[0])), rounded(y(row[1]))]);
       if (one.mark !== "points") svg("polyline", {points: places.join(" "), fill: "none", stroke: color, "stroke-width": 2, "stroke-dasharray": dashOf(i)}, root);
-      if (one.mark === "intervals") for (const [at, , low, high] of one.rows) svg("path", {d: `M${rounded(x(at))} ${rounded(y(low))}V${rounded(y(high))}`, stroke: color, "stroke-width": 1.5}, root);
       for (const [px, py] of places) {
         const size = one.mark === "points" ? 4.5 : 2.5;
         if (i % 2) svg("rect", {x: px - size, y: py - size, width: 2 * size, height: 2 * size, fill: color}, root);

@@ -77,7 +77,7 @@ Table link_table(const nodes::VirtualReport& report) {
 
 Plot link_plot() {
   Plot plot = bars_by_node("links", "Traffic of the busiest links", {.label = "", .least = 0}, {{"carried", "carried"}}, false);
-  plot.places = {"link"};
+  plot.place = "link";
   plot.x = {};
   return plot;
 }

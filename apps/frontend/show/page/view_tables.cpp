@@ -160,9 +160,7 @@ Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> w
                std::span<const std::string> wait_names) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
-  const auto add = [&plot](const std::string& name) {
-    plot.series.push_back({name, name, {}, PlotMark::bars, plot.series.size()});
-  };
+  const auto add = [&plot](const std::string& name) { plot.series.push_back({name, name, PlotMark::bars, plot.series.size()}); };
   for (const std::size_t work : kinds_found(steps.nodes, work_names)) {
     add(work_names[work]);
   }
@@ -232,7 +230,7 @@ Plot fetch_plot(const Fetches& fetches) {
   Plot plot = curves("fetches", "What fetching a page takes", "fetches", {}, {.label = "", .least = 0}, {});
   for (const std::size_t part : parts_found(fetches)) {
     const std::string name(svm::fetch_part_names[part]);
-    plot.series.push_back({name, name, {}, PlotMark::bars, part});
+    plot.series.push_back({name, name, PlotMark::bars, part});
   }
   plot.is_stacked = true;
   return plot;
@@ -333,7 +331,7 @@ Plot miss_plot() {
   return curves("misses", "Faults by the size of the caches", "cache",
                 {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10},
                 {.label = "of all look-ups (%)", .least = 0},
-                {{"by stack distances", "of all look-ups"}, {"this run", "this run", {}, PlotMark::points, 1}});
+                {{"by stack distances", "of all look-ups"}, {"this run", "this run", PlotMark::points, 1}});
 }
 
 }  // namespace dmpc::apps::html

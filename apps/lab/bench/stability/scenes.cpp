@@ -8,7 +8,6 @@
 #include "apps/lab/bench/stability/crowd.h"
 #include "apps/lab/bench/stability/judge.h"
 #include "core/families/scenes.h"
-#include "core/scene/frame.h"
 
 namespace dmpc::apps {
 namespace {

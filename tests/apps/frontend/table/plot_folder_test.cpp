@@ -27,7 +27,7 @@ apps::Table two_times() {
 }
 
 apps::Plot plot_of(const std::string& name) {
-  return {.name = name, .title = "Times", .places = {"nodes"}, .series = {{"ours", "time"}}};
+  return {.name = name, .title = "Times", .place = "nodes", .series = {{"ours", "time"}}};
 }
 
 }  // namespace

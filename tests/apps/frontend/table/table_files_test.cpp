@@ -24,7 +24,7 @@ namespace {
 apps::PlottedTable plotted_times() {
   apps::Table table("Times", {{"nodes"}, {"time", "s", 1}});
   table.add_row({std::uint64_t{1}, 8.0});
-  return {table, "times.csv", {{.name = "one", .title = "Times", .places = {"nodes"}, .series = {{"ours", "time"}}}}};
+  return {table, "times.csv", {{.name = "one", .title = "Times", .place = "nodes", .series = {{"ours", "time"}}}}};
 }
 
 apps::TableResult whole_result() {

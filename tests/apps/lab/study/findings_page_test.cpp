@@ -11,7 +11,7 @@ TEST_CASE("the page of a study has its conclusion, plots, table and notes") {
   table.add_row({std::uint64_t{1}, 8.0});
   table.add_row({std::uint64_t{2}, 5.0});
   table.add_note("A note.");
-  const apps::PlotAxis x{.label = "nodes", .scale = apps::PlotScale::powers_of_2};
+  const apps::PlotAxis x{.label = "nodes", .scale = apps::PlotScale::powers_of_10};
   const apps::TableResult result = study_result({.title = "Study",
                                                  .table = table,
                                                  .data_file = "study.csv",
