@@ -41,7 +41,7 @@ const Rows tests = {
     {"tests/apps", 16'710},
     {"tests/apps/computer", 2'210},
     {"tests/apps/frontend", 5'870},
-    {"tests/apps/foreign", 6'450},
+    {"tests/apps/foreign", 6'260},
     {"tests/apps/lab", 6'660},
     {"tests/core", 17'900},
     {"tests/dataflow", 7'600},
@@ -52,7 +52,7 @@ const Rows tests = {
 };
 
 /// Limit for all sources together, which may be less than the sum of the rows.
-constexpr std::size_t sources_max = 133'300;
+constexpr std::size_t sources_max = 133'000;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {

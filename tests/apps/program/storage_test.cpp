@@ -19,6 +19,7 @@
 #include "apps/formats/nff_reader.h"
 #include "apps/frontend/machine/machine_file.h"
 #include "apps/frontend/machine/machines.h"
+#include "apps/picture/image_file.h"
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"
