@@ -20,8 +20,9 @@ def main(words):
         if options.part == "plan":
             return _plan(kept, plan)
         if options.part == "hold":
-            for row in measuring.hold(kept.folder):
-                say(f"{row['cell']}: predicted {row['predicted']:.4g} s, took {row['timed']:.4g} s")
+            with output.scratch_folder():
+                for row in measuring.hold(kept.folder):
+                    say(f"{row['cell']}: predicted {row['predicted']:.4g} s, took {row['timed']:.4g} s")
             return 0
         study(kept, plan, options.quick)
     except KeyboardInterrupt:

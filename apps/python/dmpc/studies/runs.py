@@ -78,7 +78,7 @@ class Runs:
         """The path of the database of this name, which is built if there is none."""
         path = self.folder / "databases" / f"{name}.pages"
         if not path.exists():
-            program.run(["build", *self._database(name), "--quiet", "-o", str(path)], noted=self._note)
+            program.run(["build", *self._database(name), "-o", str(path)], noted=self._note)
         return path
 
     def _note(self, sentence):
