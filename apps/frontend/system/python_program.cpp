@@ -1,6 +1,5 @@
 #include "apps/frontend/system/python_program.h"
 
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -8,6 +7,7 @@
 #include <filesystem>
 
 #include "apps/frontend/system/companion_path.h"
+#include "apps/frontend/system/memory_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -42,7 +42,8 @@ std::vector<std::string> python_words(const std::string& name, const std::string
 }
 
 std::string file_for_python(std::string_view bytes) {
-  const int file = ::memfd_create("dmpc-for-python", 0);
+  const MemoryFile own;
+  const int file = ::dup(own.descriptor());  // which stays open when this process becomes Python
   while (!bytes.empty()) {
     const ssize_t count = ::write(file, bytes.data(), bytes.size());
     core::expect(count > 0, "a file in memory takes what is written to it");

@@ -13,7 +13,8 @@ std::string python();
 /// package it comes, as `what` needs it.
 std::vector<std::string> python_words(const std::string& name, const std::string& what, const std::vector<std::string>& words);
 
-/// Returns the path of a nameless file with these bytes, for become_python(): it is there until that Python ends.
+/// Returns the path of a nameless file with these bytes, for become_python(): it is there until that Python ends. Throws as
+/// MemoryFile does.
 std::string file_for_python(std::string_view bytes);
 
 /// Becomes Python with these arguments, and this dmpc for its renders. Throws InstallationError if there is no Python.
